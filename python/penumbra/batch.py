@@ -36,8 +36,12 @@ record_name = "batch.json"
 part_name = ".part"  # folder of unfinished results
 nothing_judged = 2  # exit status of penumbra run
 libc = ctypes.CDLL(None)
-# A worker that dies is not the input's fault: the scheduler gives the input to another one.
-most_deaths = 100
+dask_settings = {
+    # A worker that dies is not the input's fault: the scheduler gives the input to another one.
+    "distributed.scheduler.allowed-failures": 100,
+    # This long after a death the local cluster drops the worker for good if it is just restarting.
+    "distributed.deploy.lost-worker-timeout": "1000 days",
+}
 # Enough for all workers of a cluster; neither client nor scheduler holds a million jobs.
 most_waiting = 1000
 
@@ -256,12 +260,12 @@ def _run_on_cluster(
     first = next(jobs, None)
     if first is None:
         return
-    try:  # as modules of any type: few of their functions have types
+    try:  # by their names, because few of their functions have types
         dask = importlib.import_module("dask")
         distributed = importlib.import_module("distributed")
     except ImportError:
         raise InputError("needs Dask: install python3-distributed, or penumbra[batch]") from None
-    with dask.config.set({"distributed.scheduler.allowed-failures": most_deaths}):
+    with dask.config.set(dask_settings):
         local = {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": "127.0.0.1:0"}
         try:
             client = distributed.Client(scheduler, timeout="10s", **({} if scheduler else local))
@@ -269,7 +273,8 @@ def _run_on_cluster(
             raise InputError(f"{scheduler or 'local workers'}: no answer ({error})") from None
         with client:
             print(f"dashboard: {client.dashboard_link}", file=sys.stderr)
-            finished = distributed.as_completed([])
+            # With results: to ask for one whose worker died would hold up all others.
+            finished = distributed.as_completed([], with_results=True, raise_errors=False)
             path_of = {}
 
             def submit(more: Iterable[_Job]) -> None:
@@ -279,14 +284,13 @@ def _run_on_cluster(
                     finished.add(future)
 
             submit(itertools.chain([first], itertools.islice(jobs, most_waiting - 1)))
-            for future in finished:
+            for future, record in finished:
                 path = path_of.pop(future)
-                try:
-                    record = future.result()
-                except Exception as error:  # its workers died, a disk is full: not kept
-                    record = {"input": path, "result": "", "status": "failed", "fault": str(error)}
                 # Or the death of the worker that holds it would have it made again.
                 future.release()
+                if not isinstance(record, dict):  # its workers died, a disk is full: not kept
+                    fault = str(record[1] if isinstance(record, tuple) else record)
+                    record = {"input": path, "result": "", "status": "failed", "fault": fault}
                 keep(record)
                 submit(itertools.islice(jobs, 1))
 

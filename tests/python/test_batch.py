@@ -52,7 +52,7 @@ def start(folder, out, where=("--workers", "2")):
 
 
 def busy_workers_of(pid):
-    """Dask's worker processes that run `penumbra run`. Dask may not replace one that starts up."""
+    """Dask's worker processes that run `penumbra run`."""
     parents = {}
     for process in pathlib.Path("/proc").glob("[0-9]*"):
         try:
@@ -67,9 +67,13 @@ def rows_of(out):
     return list(csv.DictReader((out / "summary.csv").open()))
 
 
+def results_of(out):
+    return list(out.glob("*/batch.json"))
+
+
 def times_of(out):
     """When each result was made."""
-    return {path.parent.name: path.stat().st_mtime_ns for path in out.glob("*/batch.json")}
+    return {path.parent.name: path.stat().st_mtime_ns for path in results_of(out)}
 
 
 def finish(batch, out=None, rng=None):
@@ -77,7 +81,7 @@ def finish(batch, out=None, rng=None):
     kills = 0
     while batch.poll() is None:
         time.sleep(0.02)
-        due = rng and len(times_of(out)) > kills * RESULTS_BETWEEN_KILLS
+        due = rng and len(results_of(out)) > kills * RESULTS_BETWEEN_KILLS
         workers = busy_workers_of(batch.pid) if due else []
         if workers:
             os.kill(rng.choice(workers), signal.SIGKILL)
@@ -141,7 +145,7 @@ def test_each_input_has_one_result_though_workers_die(tmp_path):
 def test_after_an_interrupt_only_the_rest_is_done(tmp_path):
     folder, out = make_inputs(tmp_path / "in", 12), tmp_path / "out"
     batch = start(folder, out)
-    while not times_of(out) and batch.poll() is None:
+    while not results_of(out) and batch.poll() is None:
         time.sleep(0.01)
     os.killpg(batch.pid, signal.SIGINT)
     finish(batch)
@@ -200,22 +204,21 @@ def test_failed_inputs_are_done_again_if_asked(tmp_path, scheduler):
     assert status(retry_failed=True) == "done", "it did not fail"
 
 
-@pytest.mark.parametrize("arguments, words", [
-    (["-o", "out"], ["no input"]),
-    (["none.txt", "-o", "out"], ["none.txt"]),
-    (["quote.txt", "-o", "out"], ["quote.txt:2"]),
-    (["loop", "-o", "out"], ["loop"]),
-    ([str(SHIPPED), "-o", "out", "--scheduler", NO_SCHEDULER], [NO_SCHEDULER]),
-    ([str(SHIPPED), "-o", "out", "--workers", "0"], ["--workers"]),
-    ([str(SHIPPED), "-o", "/dev/null/out"], ["/dev/null/out"]),
-    (["nothing_here", "-o", "out"], ["nothing_here"]),
+@pytest.mark.parametrize("arguments, word", [
+    (["-o", "out"], "no input"),
+    (["none.txt", "-o", "out"], "none.txt"),
+    (["quote.txt", "-o", "out"], "quote.txt:2"),
+    (["loop", "-o", "out"], "loop"),
+    ([str(SHIPPED), "-o", "out", "--scheduler", NO_SCHEDULER], NO_SCHEDULER),
+    ([str(SHIPPED), "-o", "out", "--workers", "0"], "--workers"),
+    ([str(SHIPPED), "-o", "/dev/null/out"], "/dev/null/out"),
+    (["nothing_here", "-o", "out"], "nothing_here"),
 ])
-def test_bad_arguments_are_one_line(arguments, words, tmp_path):
+def test_bad_arguments_are_one_line(arguments, word, tmp_path):
     (tmp_path / "quote.txt").write_text("recording\nanother's\n")
     (tmp_path / "loop").symlink_to("loop")
     done = subprocess.run([sys.executable, "-m", "penumbra.batch", *arguments], cwd=tmp_path,
                           capture_output=True, text=True)
     assert done.returncode == 2
-    last = done.stderr.strip().splitlines()[-2:]
-    assert all(any(word in line for line in last) for word in words), done.stderr
+    assert any(word in line for line in done.stderr.splitlines()[-2:]), done.stderr
     assert "Traceback" not in done.stderr
