@@ -31,13 +31,13 @@ def version() -> str:
 
 
 def bundle(*programs: pathlib.Path) -> None:
-    """Copies the shared libraries of programs beside them, where the programs look for them."""
+    """Copies the shared libraries of programs next to them, where the programs look for them."""
     folder = programs[0].parent / "lib"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
     for program in programs:
-        told = subprocess.run(["ldd", program], check=True, capture_output=True, text=True).stdout
-        for name, path in re.findall(r"(\S+) => (/\S+)", told):
+        needed = subprocess.run(["ldd", program], check=True, capture_output=True, text=True).stdout
+        for name, path in re.findall(r"(\S+) => (/\S+)", needed):
             if not SYSTEM.fullmatch(name):
                 shutil.copy(path, folder / name)
     for file in [*programs, *folder.iterdir()]:
