@@ -330,10 +330,15 @@ class IndexReader {
   }
 
   void take_message_index(const RecordHead& head, std::uint64_t at) {
-    RecordParser parser(content(head, at, sizeof(std::uint16_t)));
+    RecordParser parser(content(head, at, 6));
     std::uint16_t channel = 0;
-    parser(channel);
-    if (index_.places.empty() || index_.places.back().loose || !parser.ok()) return;
+    std::uint32_t bytes = 0;
+    parser(channel, bytes);
+    const std::uint64_t needed = std::uint64_t{6} + bytes;
+    // The format allows more bytes, but so many could hide the chunk that follows.
+    if (!parser.ok() || head.length < needed || head.length - needed >= least_chunk_bytes)
+      return skip(head, at, "a message index is damaged");
+    if (index_.places.empty() || index_.places.back().loose) return;
     auto& channels = index_.places.back().channels;
     if (!channels) channels.emplace();
     channels->push_back(channel);

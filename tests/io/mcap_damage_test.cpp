@@ -22,10 +22,13 @@ class McapDamage : public testing::TestWithParam<Compression> {
  protected:
   McapDamage() {
     std::mt19937_64 random = test::seeded_random(71);
-    for (std::uint32_t i = 0; i < 24; ++i)
-      messages_.push_back({"/topic" + std::to_string(i % 3), "p/msg/A", i,
-                           static_cast<std::int64_t>(100 + 10 * i - random() % 30), i,
-                           std::string(random() % 80, static_cast<char>('a' + random() % 3))});
+    for (std::uint32_t i = 0; i < 24; ++i) {
+      const auto stamp = static_cast<std::int64_t>(100 + 10 * i - random() % 30);
+      const std::size_t length = random() % 80;
+      const char letter = static_cast<char>('a' + random() % 3);
+      messages_.push_back(
+          {"/topic" + std::to_string(i % 3), "p/msg/A", i, stamp, i, std::string(length, letter)});
+    }
     test::write_mcap(file_, {GetParam(), 500, "ros2"}, messages_);
     whole_ = test::read_bytes(file_);
   }

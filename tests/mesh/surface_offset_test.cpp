@@ -122,8 +122,8 @@ void expect_shrunk(const TriangleMesh& mesh, const TriangleMesh& shrunk, double 
   for (const auto& v : mesh.vertices) box.extend(v.cast<double>());
   std::uniform_real_distribution<double> share(0.0, 1.0);
   int deep = 0;
-  for (int i = 0; i < test::samples(count); ++i) {
-    const Vector3d u(share(random), share(random), share(random));
+  for (int i = 0; i < test::samples(4 * count); ++i) {
+    const Vector3d u{share(random), share(random), share(random)};
     const Vector3d p = box.min() + u.cwiseProduct(box.sizes());
     if (windings(mesh, p) == 0 || test::distance(mesh, p) < depth + 0.003) continue;
     ++deep;
