@@ -21,7 +21,8 @@ sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri)
 research=(libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev)
 test=(libgtest-dev libassimp-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev
       libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri libfastcdr-dev libfastrtps-dev nodejs npm
-      clang libclang-rt-14-dev colcon python3-colcon-package-information python3-colcon-ros
+      clang libclang-rt-14-dev colcon python3-colcon-package-information python3-colcon-package-selection
+      python3-colcon-ros
       python3-catkin-pkg python3-distributed python3-pytest python3-mypy python3-yaml python3-pil)
 web=(chromium fonts-dejavu-core nodejs npm)
 docs=(doxygen python3-breathe python3-sphinx python3-myst-parser furo)
