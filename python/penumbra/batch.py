@@ -41,6 +41,11 @@ dask_settings = {
     "distributed.scheduler.allowed-failures": 100,
     # This long after a death the local cluster drops the worker for good if it is just restarting.
     "distributed.deploy.lost-worker-timeout": "1000 days",
+    # By default Dask's watch over itself takes a tenth of a core of the local cluster.
+    "distributed.worker.profile.interval": "1s",
+    "distributed.worker.memory.monitor-interval": "1s",
+    "distributed.admin.tick.interval": "500ms",
+    "distributed.admin.system-monitor.interval": "2s",
 }
 # Enough for all workers of a cluster; neither client nor scheduler holds a million jobs.
 most_waiting = 1000

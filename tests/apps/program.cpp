@@ -25,7 +25,7 @@ Outcome penumbra(const std::vector<std::string>& arguments,
   const TemporaryFolder folder;
   std::string command = "env";
   for (const std::string& variable : environment) command += " " + quoted(variable);
-  command += " timeout 60 " + quoted(PENUMBRA_PROGRAM);
+  command += " timeout 600 " + quoted(PENUMBRA_PROGRAM);
   for (const std::string& argument : arguments) command += " " + quoted(argument);
   command +=
       " </dev/null >" + quoted(folder.path() / "out") + " 2>" + quoted(folder.path() / "err");
