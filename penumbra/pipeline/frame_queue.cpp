@@ -59,6 +59,7 @@ void FrameQueue::push(std::uint64_t key, std::int64_t stamp, std::int64_t now) {
   if (stamp <= 0) return drop(frame, DropReason::no_stamp);
   if (newest_ && history_.note_stamp(stamp, *newest_, "depth images")) follow(now);
   newest_ = std::max(newest_.value_or(stamp), stamp);
+  if (!first_) first_ = stamp_after(stamp, time_offset_);
   if (options_.policy == DropPolicy::every) {
     if (waiting_.size() == options_.max_frames) return drop(frame, DropReason::overflow);
     waiting_.push_back(frame);
@@ -78,6 +79,7 @@ void FrameQueue::follow(std::int64_t now) {
   if (epoch_ == history_.epoch()) return;
   epoch_ = history_.epoch();
   newest_.reset();
+  first_.reset();
   given_out_.reset();
   for (const Waiting& frame : waiting_) drop(frame, DropReason::clock_jump);
   waiting_.clear();
@@ -122,13 +124,22 @@ bool FrameQueue::is_over(const Waiting& frame) const {
          stamp_distance(frame.arrived, now_) >= static_cast<std::uint64_t>(max_wait_);
 }
 
+/// Whether states of an uncertain robot may still come in time. A robot that has been silent for
+/// max_wait does not delay the others.
+bool FrameQueue::awaits_robot(const QueuedFrame& frame) const {
+  const auto& since = frame.pose.late_since;
+  return since && stamp_distance(std::max(*since, *first_), frame.pose_stamp) <=
+                      static_cast<std::uint64_t>(max_wait_);
+}
+
 bool FrameQueue::decide(Waiting& frame, QueuedFrame& out) {
   const bool over = is_over(frame);
   if (frame.revision == history_.revision() && !over) return false;
   frame.revision = history_.revision();
   out.pose_stamp = stamp_after(frame.stamp, time_offset_);
   lookup_.at(history_, out.pose_stamp, out.pose);
-  const bool known = has_pose(out.pose.status) || out.pose.status == FrameStatus::poses_disagree;
+  const bool known = out.pose.status == FrameStatus::poses_disagree ||
+                     (has_pose(out.pose.status) && !awaits_robot(out));
   if (!known && !over) return false;
   out.key = frame.key;
   out.stamp = frame.stamp;

@@ -75,7 +75,9 @@ struct FrameCounts {
 };
 
 /// Holds depth images until the joint states or transforms around their stamps have arrived. Never
-/// extrapolates: a frame is returned with its pose, or after max_wait with the status.
+/// extrapolates: a frame is returned with its pose, or after max_wait with the status. A robot
+/// (Robot::join) that is uncertain is awaited as well, unless its last state is older than the
+/// image by more than max_wait.
 ///
 /// The caller keeps the images and gives each a key, which comes back once: from next(), or in a
 /// DroppedFrame. Times `now` are nanoseconds of any clock (log times of a bag, a steady clock); if
@@ -121,6 +123,7 @@ class FrameQueue {
   bool next_newest(QueuedFrame& out);
   bool decide(Waiting& frame, QueuedFrame& out);
   [[nodiscard]] bool is_over(const Waiting& frame) const;
+  [[nodiscard]] bool awaits_robot(const QueuedFrame& frame) const;
 
   PoseHistory& history_;
   FrameQueueOptions options_;
@@ -132,6 +135,7 @@ class FrameQueue {
   std::uint64_t epoch_;
   std::int64_t now_ = 0;
   std::optional<std::int64_t> newest_;     // pushed stamp of this epoch
+  std::optional<std::int64_t> first_;      // pose's stamp of the first one pushed in this epoch
   std::optional<std::int64_t> given_out_;  // newest returned stamp of this epoch
   bool finished_ = false;
   FrameCounts counts_;

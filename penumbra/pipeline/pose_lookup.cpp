@@ -48,6 +48,13 @@ void add_to(std::vector<std::size_t>& indices, std::size_t index) {
   if (!holds(indices, index)) indices.push_back(index);
 }
 
+/// Notes that a robot is uncertain whose newest state is `newest`.
+void note_uncertain_robot(std::optional<std::int64_t> newest, std::int64_t stamp,
+                          PoseAnswer& answer) {
+  const std::int64_t since = newest.value_or(0);
+  if (since < stamp) answer.late_since = std::max(answer.late_since.value_or(since), since);
+}
+
 std::string disagreement_text(const std::string& link, double distance) {
   std::ostringstream text;
   text.precision(3);
@@ -104,6 +111,7 @@ void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, PoseAnswer& 
   answer.T_parent_camera.reset();
   answer.uncertain_links.clear();
   answer.uncertain_reason.clear();
+  answer.late_since.reset();
   history.attachments().at(stamp, answer.attached);
   const bool by_joints = options_.source != PoseSource::transforms;
   const bool by_transforms = options_.source != PoseSource::joints;
@@ -119,21 +127,25 @@ void PoseLookup::find_joints(const PoseHistory& history, std::int64_t stamp,
                              PoseAnswer& answer) const {
   history.joints().at(stamp, answer.joints);
   answer.age = answer.joints.age;
-  if (answer.joints.status != JointStatus::ok) judge_unknown_joints(answer);
+  if (answer.joints.status != JointStatus::ok)
+    judge_unknown_joints(history.joints(), stamp, answer);
   answer.status = status_of(answer.joints.status);
   if (answer.status != FrameStatus::ok) answer.message = describe(robot_, answer.joints);
 }
 
 /// Keeps the unknown joints that move a needed link. Without any, the answer is ok and the links
 /// that the others move are uncertain.
-void PoseLookup::judge_unknown_joints(PoseAnswer& answer) const {
+void PoseLookup::judge_unknown_joints(const JointBuffer& joints, std::int64_t stamp,
+                                      PoseAnswer& answer) const {
   JointStatus& status = answer.joints.status;
   auto& gaps = answer.joints.gaps;
   auto& disputes = answer.joints.disputes;
   const auto mark = [&](const auto& all) {
     for (const auto& unknown : all)
-      if (moves_needed_[unknown.variable])
-        mark_robot_uncertain(variable_links_[unknown.variable], answer);
+      if (moves_needed_[unknown.variable] &&
+          mark_robot_uncertain(variable_links_[unknown.variable], answer))
+        note_uncertain_robot(joints.newest_of({&robot_.variables()[unknown.variable], 1}), stamp,
+                             answer);
   };
   mark(gaps);
   mark(disputes);
@@ -176,8 +188,10 @@ void PoseLookup::find_links(const TransformBuffer& transforms, std::int64_t stam
         joint.type != JointType::fixed || transforms.knows(frames_[is_mount ? 0 : joint.child]);
     const bool is_found = !is_given || find_transform(transforms, stamp, frames_[joint.parent],
                                                       frames_[joint.child], answer);
-    if (!is_found && leads_to_needed_[joint.child] && !mark_robot_uncertain(joint.child, answer))
-      return;
+    if (!is_found && leads_to_needed_[joint.child]) {
+      if (!mark_robot_uncertain(joint.child, answer)) return;
+      note_uncertain_robot(transforms.newest_of(frames_[joint.child]), stamp, answer);
+    }
     answer.T_root_link[joint.child] =
         answer.T_root_link[joint.parent] *
         (is_given && is_found ? transform_.T_target_source : joint.origin);

@@ -46,7 +46,10 @@ struct PoseAnswer {
   std::optional<Eigen::Isometry3d> T_parent_camera;  ///< if the camera's frame is in TF
   std::vector<std::size_t> uncertain_links;          ///< as in Frame
   std::string uncertain_reason;                      ///< as in Frame
-  std::vector<AttachedBody> attached;                ///< as in Frame
+  /// The newest state, nanoseconds, of the robots that are uncertain because none of their states
+  /// has reached the stamp yet; 0 if they have no state; null if there is no such robot.
+  std::optional<std::int64_t> late_since;
+  std::vector<AttachedBody> attached;  ///< as in Frame
 };
 
 /// Looks up the poses of a robot's links and camera at a stamp. Never extrapolates. One instance
@@ -66,7 +69,8 @@ class PoseLookup {
 
  private:
   void find_joints(const PoseHistory& history, std::int64_t stamp, PoseAnswer& answer) const;
-  void judge_unknown_joints(PoseAnswer& answer) const;
+  void judge_unknown_joints(const JointBuffer& joints, std::int64_t stamp,
+                            PoseAnswer& answer) const;
   void find_links(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
   void find_camera(const TransformBuffer& transforms, std::int64_t stamp, PoseAnswer& answer);
   void compare(PoseAnswer& answer);

@@ -237,6 +237,31 @@ TEST(Robots, OfWhichTheTransformsOfOneEndAreUncertainAlone) {
   EXPECT_NE(answer.uncertain_reason.find("cart/box"), std::string::npos) << answer.uncertain_reason;
 }
 
+TEST(Robots, WhoseTransformsAreLateAreAwaited) {
+  const Robot robot = cell();
+  PoseHistory history(robot);
+  FrameQueue queue(robot, history, {.poses = {.source = PoseSource::transforms}});
+  const auto tell = [&](const char* parent, const char* child, std::int64_t stamp) {
+    history.add_transform(stamp, parent, child, Eigen::Isometry3d::Identity(), "driver");
+  };
+  for (const std::int64_t stamp : {1000 * ms, 1050 * ms}) tell("slabs/base", "slabs/slab", stamp);
+  tell("cart/rail", "cart/box", 1000 * ms);
+  QueuedFrame frame;
+  queue.push(0, 1050 * ms, 1051 * ms);
+  EXPECT_FALSE(queue.next(1051 * ms, frame));
+  tell("cart/rail", "cart/box", 1050 * ms);
+  ASSERT_TRUE(queue.next(1059 * ms, frame));
+  EXPECT_TRUE(frame.pose.uncertain_links.empty());
+  tell("slabs/base", "slabs/slab", 1300 * ms);
+  tell("slabs/base", "slabs/slab", 1400 * ms);
+  queue.push(1, 1100 * ms, 1410 * ms);
+  EXPECT_FALSE(queue.next(1410 * ms, frame));
+  queue.push(2, 1300 * ms, 1410 * ms);
+  ASSERT_TRUE(queue.next(1410 * ms, frame)) << "the cart is silent for more than the longest wait";
+  EXPECT_EQ(frame.key, 2U);
+  EXPECT_EQ(frame.pose.uncertain_links, (std::vector<std::size_t>{4, 5}));
+}
+
 TEST(Robots, MoveAsTheyDoAlone) {
   const Robot slabs = slab_robot(), cart = Robot::parse(cart_urdf, "."), both = cell();
   const std::vector<double> positions{0.2, -0.1};
