@@ -28,8 +28,11 @@ class Configuration:
         return context.launch_configurations[self.name]
 
 
-def launch_file(path):
-    stand_in("launch", LaunchDescription=lambda entities: entities)
+def launch_file(path, warnings):
+    logger = Context(warning=warnings.append)
+    stand_in("launch.logging", get_logger=lambda name: logger)
+    stand_in("launch", LaunchDescription=lambda entities: entities,
+             logging=sys.modules["launch.logging"])
     stand_in("launch.actions", TimerAction=Action, OpaqueFunction=Action,
              DeclareLaunchArgument=lambda name, **arguments: Action(name=name, **arguments))
     stand_in("launch.substitutions", LaunchConfiguration=Configuration)
@@ -50,7 +53,8 @@ def refuses(function, *arguments):
 
 
 def main(package):
-    *declared, start = launch_file(package / "launch/penumbra.launch.py")
+    warnings = []
+    *declared, start = launch_file(package / "launch/penumbra.launch.py", warnings)
     defaults = {argument.name: argument.default_value for argument in declared}
 
     def context(is_shutdown=False, **given):
@@ -61,7 +65,20 @@ def main(package):
     [topics] = process.parameters
     assert topics["depth_topic"] == "/c/depth/image_rect_raw", topics
     assert topics["target_topics"] == ["/a", "/b"], topics
-    assert refuses(start.function, context(kamera="/c")), "an unknown argument"
+    [process_of_defaults] = start.function(context())
+    assert process_of_defaults.parameters == [
+        {"depth_topic": "/camera/camera/depth/image_rect_raw"}], process_of_defaults.parameters
+    [of_file] = start.function(context(params_file="cell.yaml"))
+    assert of_file.parameters == ["cell.yaml"], "a default overrides the file"
+    [both] = start.function(context(params_file="cell.yaml", use_sim_time="False", camera="/c"))
+    assert both.parameters == [
+        "cell.yaml", {"depth_topic": "/c/depth/image_rect_raw", "use_sim_time": False}], both
+
+    start.function(context(robot_ip="192.168.1.10", camera_name="front", ur_type="ur5e"))
+    assert not warnings, f"arguments of a launch file that includes this one: {warnings}"
+    start.function(context(kamera="/c"))
+    assert len(warnings) == 1 and "'camera'" in warnings[0], warnings
+
     for _ in range(2):  # the process that was started again, too
         assert not process.on_exit(Context(returncode=0), running)
         assert refuses(process.on_exit, Context(returncode=2), running), "launch shows the failure"

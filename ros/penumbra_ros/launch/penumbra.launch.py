@@ -6,6 +6,9 @@ ros2 launch penumbra_ros penumbra.launch.py camera:=/camera/camera targets:=/det
 With container:=NAME the node is loaded into that running container; otherwise it is a process of its
 own, which is started again 2 s after a failure, except for one of its parameters (status 2).
 """
+import difflib
+
+import launch.logging
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, TimerAction
 from launch.substitutions import LaunchConfiguration
@@ -14,28 +17,35 @@ from launch_ros.descriptions import ComposableNode
 
 RESTART_DELAY = 2.0  # seconds
 USERS_FAULT = 2  # exit status: trying again does not help
+CAMERA = "/camera/camera"  # realsense2_camera's namespace
+LIKE_OURS = 0.8  # similarity of a misspelt name; camera_name, which is another's, has 0.7 of camera
 
 ARGUMENTS = {
-    "camera": ("/camera/camera", "the camera's namespace, with depth/image_rect_raw below it"),
+    "camera": ("", "the camera's namespace, with depth/image_rect_raw below it; without params_file "
+                   + CAMERA),
     "depth_topic": ("", "the depth images, in place of the camera's"),
     "robot_description_topic": ("robot_description", "the URDF"),
     "targets": ("", "topics of targets to judge, separated by commas"),
-    "params_file": ("", "parameters as in config/penumbra.yaml"),
+    "params_file": ("", "parameters as in config/penumbra.yaml; given arguments override them"),
     "name": ("penumbra", "the node's name, and the first part of its topics"),
     "namespace": ("", "the node's namespace"),
     "container": ("", "a running component container to load the node into"),
-    "use_sim_time": ("false", "true: diagnostics use /clock"),
+    "use_sim_time": ("", "true: diagnostics use /clock"),
 }
 
 
 def settings_of(value):
     parameters = [value["params_file"]] if value["params_file"] else []
-    topics = {"depth_topic": value["depth_topic"] or value["camera"] + "/depth/image_rect_raw",
-              "use_sim_time": value["use_sim_time"] == "true"}
+    camera = value["camera"] or ("" if parameters else CAMERA)
+    given = {}
+    if value["depth_topic"] or camera:
+        given["depth_topic"] = value["depth_topic"] or camera + "/depth/image_rect_raw"
+    if value["use_sim_time"]:
+        given["use_sim_time"] = value["use_sim_time"].lower() == "true"
     if value["targets"]:
-        topics["target_topics"] = value["targets"].split(",")
+        given["target_topics"] = value["targets"].split(",")
     return {"package": "penumbra_ros", "name": value["name"], "namespace": value["namespace"],
-            "parameters": parameters + [topics],
+            "parameters": parameters + ([given] if given else []),
             "remappings": [("robot_description", value["robot_description_topic"])]}
 
 
@@ -51,10 +61,11 @@ def process_of(settings):
 
 
 def start(context):
-    unknown = set(context.launch_configurations) - set(ARGUMENTS)
-    if unknown:
-        raise RuntimeError(f"there is no argument '{min(unknown)}'; the arguments are "
-                           + ", ".join(ARGUMENTS))
+    # A launch file that includes this one has arguments of its own.
+    for name in set(context.launch_configurations) - set(ARGUMENTS):
+        for ours in difflib.get_close_matches(name, ARGUMENTS, n=1, cutoff=LIKE_OURS):
+            launch.logging.get_logger("penumbra").warning(
+                f"there is no argument '{name}'; did you mean '{ours}'?")
     value = {name: LaunchConfiguration(name).perform(context) for name in ARGUMENTS}
     settings = settings_of(value)
     if not value["container"]:
