@@ -8,6 +8,7 @@
 #include <penumbra/mesh/primitives.hpp>
 
 #include <io/assembly/attached_input.hpp>
+#include <io/assembly/robot_input.hpp>
 #include <io/files/printable.hpp>
 #include <io/ros/wire_values-inl.hpp>
 
@@ -67,21 +68,43 @@ void append(TriangleMesh& all, std::span<const Shape> shapes, std::span<const Lo
     append(all, mesh_of(shapes[i]), isometry_of(poses[i]));
 }
 
+bool has_shape(const CollisionObjectMessage& object) {
+  return !object.primitives.empty() || !object.meshes.empty() || !object.planes.empty();
+}
+
 /// All shapes of an object as one mesh in its frame.
-TriangleMesh mesh_of(const AttachedObjectMessage& message) {
-  const CollisionObjectMessage& object = message.object;
-  const std::string& frame = object.header.frame_id;
-  if (object.operation != CollisionObjectMessage::add)
-    throw InputError("only adding and removing can be followed");
-  if (!frame.empty() && frame != message.link_name)
-    throw InputError("its pose is given in '" + printable(frame) + "', not in its link '" +
-                     printable(message.link_name) + "'");
+TriangleMesh mesh_of(const CollisionObjectMessage& object) {
   if (!object.planes.empty()) throw InputError("planes cannot be drawn");
   TriangleMesh mesh;
   append<Primitive>(mesh, object.primitives, object.primitive_poses);
   append<MeshMessage>(mesh, object.meshes, object.mesh_poses);
-  if (mesh.triangles.empty()) throw InputError("its shape is not in the message");
+  if (mesh.triangles.empty()) throw InputError("its shape has no triangles");
   return mesh;
+}
+
+/// Returns whether a body is attached to its link with a mesh.
+bool is_attached(const Attachments& to, std::int64_t stamp, const AttachedBody& body) {
+  std::vector<AttachedBody> bodies;
+  to.at(stamp, bodies);
+  return std::any_of(bodies.begin(), bodies.end(), [&](const AttachedBody& known) {
+    return known.name == body.name && known.link == body.link && known.mesh;
+  });
+}
+
+/// Returns T_link_frame. A frame may be a link of the same robot or the root of all.
+Eigen::Isometry3d pose_of_frame(const std::string& frame, const std::string& link,
+                                const std::string& prefix, std::int64_t stamp,
+                                const PosedRobot* posed) {
+  if (prefix + frame == link) return Eigen::Isometry3d::Identity();
+  std::optional<Eigen::Isometry3d> found;
+  if (posed != nullptr) {
+    found = posed->find_pose(link, prefix + frame, stamp);
+    if (!found) found = posed->find_pose(link, frame, stamp);
+  }
+  if (!found)
+    throw InputError("its pose is given in '" + printable(frame) + "', whose pose in its link '" +
+                     printable(link) + "' is not known");
+  return *found;
 }
 
 /// Detaches all bodies of a robot, or those of one link.
@@ -108,8 +131,16 @@ std::shared_ptr<const PreparedMesh> AttachedInput::prepared(TriangleMesh mesh) {
   return kept_.emplace_back(std::move(mesh), std::move(made)).second;
 }
 
+void AttachedInput::follow_world(const CollisionObjectMessage& object, const std::string& prefix) {
+  if (object.operation != CollisionObjectMessage::add || !has_shape(object))
+    world_.erase(prefix + object.id);
+  else if (world_.size() < max_world || world_.contains(prefix + object.id))
+    world_[prefix + object.id] = object;
+}
+
 std::string AttachedInput::take(const AttachedObjectMessage& message, std::int64_t now,
-                                Attachments& to, const std::string& robot) {
+                                Attachments& to, const std::string& robot,
+                                const PosedRobot* posed) {
   const std::string prefix = robot.empty() ? "" : robot + "/";
   const CollisionObjectMessage& object = message.object;
   const std::int64_t stamp = object.header.stamp > 0 ? object.header.stamp : now;
@@ -121,14 +152,27 @@ std::string AttachedInput::take(const AttachedObjectMessage& message, std::int64
     return {};
   }
   AttachedBody body{.name = prefix + object.id, .link = prefix + message.link_name, .mesh = {}};
-  std::string fault;
+  const bool is_add = object.operation == CollisionObjectMessage::add;
+  if (is_add && !has_shape(object) && is_attached(to, stamp, body)) return {};
+  const auto in_world = has_shape(object) ? world_.end() : world_.find(body.name);
+  const bool is_of_world = in_world != world_.end();
+  const CollisionObjectMessage& shape = is_of_world ? in_world->second : object;
   try {
-    body.mesh = prepared(mesh_of(message));
-    body.T_link_body = isometry_of(object.pose);
+    if (!is_add) throw InputError("only adding and removing can be followed");
+    if (!has_shape(shape)) throw InputError("its shape is not in the message");
+    const std::string& frame = shape.header.frame_id;
+    const Eigen::Isometry3d T_link_frame =
+        frame.empty() && !is_of_world ? Eigen::Isometry3d::Identity()
+                                      : pose_of_frame(frame, body.link, prefix, stamp, posed);
+    body.mesh = std::make_shared<const PreparedMesh>(TriangleMesh());  // in case it is not drawn
+    body.T_link_body = T_link_frame * isometry_of(shape.pose);
+    body.mesh = prepared(mesh_of(shape));
   } catch (const InputError& error) {
-    body.mesh.reset();
-    fault = "object '" + printable(object.id) + "' is not drawn: " + error.what();
+    body.reason = error.what();
   }
+  const std::string fault =
+      body.reason.empty() ? ""
+                          : "object '" + printable(object.id) + "' is not drawn: " + body.reason;
   to.attach(stamp, std::move(body));
   return fault;
 }
@@ -136,15 +180,19 @@ std::string AttachedInput::take(const AttachedObjectMessage& message, std::int64
 /// A state that is no difference holds all that is attached. MoveIt sends an empty one with changes
 /// of the world alone.
 std::string AttachedInput::take(const PlanningSceneMessage& message, std::int64_t now,
-                                Attachments& to, const std::string& robot) {
+                                Attachments& to, const std::string& robot,
+                                const PosedRobot* posed) {
+  const std::string prefix = robot.empty() ? "" : robot + "/";
   const RobotStateMessage& state = message.robot_state;
   const std::int64_t of_state = state.joints.header.stamp;
   const std::int64_t stamp = of_state > 0 ? of_state : now;
   if (!state.is_diff && !(state.joints.names.empty() && state.other_joints.joint_names.empty()))
-    detach_all(robot.empty() ? "" : robot + "/", {}, stamp, to);
+    detach_all(prefix, {}, stamp, to);
   std::string fault;
   for (const AttachedObjectMessage& attached : state.attached)
-    if (std::string one = take(attached, stamp, to, robot); !one.empty()) fault = std::move(one);
+    if (std::string one = take(attached, stamp, to, robot, posed); !one.empty())
+      fault = std::move(one);
+  for (const CollisionObjectMessage& object : message.world.objects) follow_world(object, prefix);
   return fault;
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/stamps.hpp>
 
 #include <io/assembly/robot_input.hpp>
 #include <io/files/printable.hpp>
@@ -12,6 +13,8 @@ namespace penumbra::io {
 namespace {
 
 constexpr std::size_t most_named = 3;
+/// Nanoseconds after its last joint state from which a robot may have moved unseen.
+constexpr std::int64_t longest_silence = 1'000'000'000;
 
 /// Returns why no position of a joint state is used.
 std::string why_unused(const JointStateMessage& message, const Robot& robot) {
@@ -85,6 +88,36 @@ std::vector<std::string> PosedRobot::refusals() const {
   if (history.transforms().refused() > 0)
     lines.push_back("transforms are not used, the last: " + history.transforms().last_refusal());
   return lines;
+}
+
+std::optional<Eigen::Isometry3d> PosedRobot::find_pose(const std::string& target,
+                                                       const std::string& source,
+                                                       std::int64_t stamp) const {
+  const auto a = robot.find_link(target), b = robot.find_link(source);
+  if (!a || !b) return std::nullopt;
+  std::vector<bool> is_between(robot.links().size());  // above one of the two links only
+  for (const std::size_t end : {*a, *b})
+    for (std::size_t link = end; link > 0; link = robot.joints()[link - 1].parent)
+      is_between[link].flip();
+  std::vector<std::size_t> variables;
+  for (const Joint& joint : robot.joints()) {
+    if (!is_between[joint.child] || !joint.variable) continue;
+    const auto newest = history.joints().newest_of({&robot.variables()[*joint.variable], 1});
+    const bool is_one = joint.type != JointType::planar && joint.type != JointType::floating;
+    if (!newest || !is_one || stamp_after(*newest, longest_silence) < stamp) return std::nullopt;
+    stamp = std::min(stamp, *newest);
+    variables.push_back(*joint.variable);
+  }
+  JointAnswer joints;
+  history.joints().at(stamp, joints);
+  const std::vector<double> rest = robot.rest_positions();
+  for (const JointGap& gap : joints.gaps) {
+    if (std::count(variables.begin(), variables.end(), gap.variable) > 0) return std::nullopt;
+    joints.positions[gap.variable] = rest[gap.variable];
+  }
+  std::vector<Eigen::Isometry3d> T_root_link(robot.links().size());
+  robot.forward_kinematics(joints.positions, T_root_link);
+  return T_root_link[*a].inverse() * T_root_link[*b];
 }
 
 MadeRobot make_robot(const RobotOrder& order) {

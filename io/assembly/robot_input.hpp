@@ -31,6 +31,11 @@ struct PosedRobot {
 
   /// Returns the messages that the history refused, one line each.
   [[nodiscard]] std::vector<std::string> refusals() const;
+  /// Returns the pose of a link in another one at the newest states of the joints between them, up
+  /// to `stamp`. Returns nothing if a link or a joint's position is not known.
+  [[nodiscard]] std::optional<Eigen::Isometry3d> find_pose(const std::string& target,
+                                                           const std::string& source,
+                                                           std::int64_t stamp) const;
 
   const Robot robot;
   PoseHistory history;
@@ -109,7 +114,7 @@ class RobotInput {
   /// cannot be drawn, one line, or nothing. `robot`: its name among several.
   template <typename M>
   std::string take_attached(const M& message, const std::string& robot) {
-    std::string fault = attached_.take(message, newest_stamp_, attachments_, robot);
+    std::string fault = attached_.take(message, newest_stamp_, attachments_, robot, posed_.get());
     if (posed_) posed_->history.attachments() = attachments_;
     return fault;
   }

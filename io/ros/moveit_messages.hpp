@@ -185,14 +185,75 @@ struct RobotStateMessage {
   bool is_diff = false;
 };
 
-/// The beginning of MoveIt's planning scene; what follows the robot's state is not read.
+struct AllowedCollisionMatrixMessage {
+  static constexpr std::string_view ros_type = "moveit_msgs/AllowedCollisionMatrix";
+  static auto layout(auto& m) {
+    return fields_of(m.entry_names, m.entry_values, m.default_names, m.default_values);
+  }
+
+  struct Entry {
+    static constexpr std::string_view ros_type = "moveit_msgs/AllowedCollisionEntry";
+    static auto layout(auto& m) { return fields_of(m.enabled); }
+
+    std::vector<std::uint8_t> enabled = {};
+  };
+  std::vector<std::string> entry_names = {};
+  std::vector<Entry> entry_values = {};
+  std::vector<std::string> default_names = {};
+  std::vector<std::uint8_t> default_values = {};
+};
+
+/// The beginning of MoveIt's planning scene, without octomap and is_diff.
 struct PlanningSceneMessage {
   static constexpr std::string_view ros_type = "moveit_msgs/PlanningScene";
   static constexpr bool is_beginning = true;
-  static auto layout(auto& m) { return fields_of(m.name, m.robot_state); }
+  static auto layout(auto& m) {
+    return fields_of(m.name, m.robot_state, m.robot_model_name, m.fixed_frames, m.collisions,
+                     m.paddings, m.scales, m.colors, m.world);
+  }
 
+  struct Padding {
+    static constexpr std::string_view ros_type = "moveit_msgs/LinkPadding";
+    static auto layout(auto& m) { return fields_of(m.link_name, m.padding); }
+
+    std::string link_name = {};
+    double padding = 0;
+  };
+  struct Scale {
+    static constexpr std::string_view ros_type = "moveit_msgs/LinkScale";
+    static auto layout(auto& m) { return fields_of(m.link_name, m.scale); }
+
+    std::string link_name = {};
+    double scale = 0;
+  };
+  struct Rgba {
+    static constexpr std::string_view ros_type = "std_msgs/ColorRGBA";
+    static auto layout(auto& m) { return fields_of(m.r, m.g, m.b, m.a); }
+
+    float r = 0, g = 0, b = 0, a = 0;
+  };
+  struct Color {
+    static constexpr std::string_view ros_type = "moveit_msgs/ObjectColor";
+    static auto layout(auto& m) { return fields_of(m.id, m.color); }
+
+    std::string id = {};
+    Rgba color = {};
+  };
+  struct World {
+    static constexpr std::string_view ros_type = "moveit_msgs/PlanningSceneWorld";
+    static auto layout(auto& m) { return fields_of(m.objects); }
+
+    std::vector<CollisionObjectMessage> objects = {};
+  };
   std::string name = {};
   RobotStateMessage robot_state = {};
+  std::string robot_model_name = {};
+  std::vector<TransformMessage> fixed_frames = {};
+  AllowedCollisionMatrixMessage collisions = {};
+  std::vector<Padding> paddings = {};
+  std::vector<Scale> scales = {};
+  std::vector<Color> colors = {};
+  World world = {};
 };
 
 }  // namespace penumbra::io

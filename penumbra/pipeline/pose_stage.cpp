@@ -264,7 +264,8 @@ FrameStatus PoseStage::place_body(const AttachedBody& body) {
   };
   const auto link = robot_.find_link(body.link);
   if (!link) return missing("there is no link '" + body.link + "'");
-  if (!body.mesh || body.mesh->triangles.empty()) return missing("it has no triangles");
+  if (!body.mesh || body.mesh->triangles.empty())
+    return missing(body.reason.empty() ? "it has no triangles" : body.reason);
   if (!is_rigid(body.T_link_body)) return missing("its pose is not a rigid transform");
   if (result_.attached.size() == max_attached)
     return missing("more than " + std::to_string(max_attached) + " bodies are attached");

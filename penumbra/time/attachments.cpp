@@ -13,6 +13,10 @@ constexpr std::int64_t always = std::numeric_limits<std::int64_t>::min();
 }  // namespace
 
 void Attachments::attach(std::int64_t stamp, AttachedBody body) {
+  for (Change& known : changes_)
+    if (body.mesh && known.is_attached && !known.body.mesh && known.body.name == body.name &&
+        known.body.link == body.link)
+      known.body = body;
   add({stamp, std::move(body), true});
 }
 

@@ -21,9 +21,10 @@ struct AttachedBody {
   std::string name;  ///< not empty, and unique in a frame
   std::string link;  ///< the link that carries it
   /// In the body's frame, metres. Pass the same pointer for the same mesh: renderers are cached by
-  /// pointer.
+  /// pointer. Null: not known yet.
   std::shared_ptr<const PreparedMesh> mesh;
   Eigen::Isometry3d T_link_body = Eigen::Isometry3d::Identity();
+  std::string reason = {};  ///< why there is no mesh that can be drawn, for the frames' messages
 };
 
 /// Which bodies are attached to a robot at a stamp. Calls may come late and in any order of stamps.
@@ -31,7 +32,8 @@ class Attachments {
  public:
   static constexpr std::size_t max_changes = 1000;  ///< that are stored; earlier ones are merged
 
-  /// The body is attached from `stamp` (nanoseconds) on. It replaces one of the same name.
+  /// The body is attached from `stamp` (nanoseconds) on. It replaces one of the same name. With a
+  /// mesh it also replaces those of the same name and link that have none, whatever their stamps.
   void attach(std::int64_t stamp, AttachedBody body);
   /// The body is not attached from `stamp` on.
   void detach(std::int64_t stamp, std::string_view name);

@@ -34,6 +34,29 @@ class BagAttachedTest : public BagTest {
     message.object.operation = io::CollisionObjectMessage::remove;
     return message;
   }
+  /// As MoveIt's attachObject("part") publishes it: without shape and stamp.
+  static io::AttachedObjectMessage named_part() {
+    io::AttachedObjectMessage message{.link_name = "board"};
+    message.object.id = "part";
+    return message;
+  }
+  /// What MoveIt publishes then: everything, with the stamp of the robot's last motion.
+  static io::PlanningSceneMessage scene_of(std::int64_t last_motion) {
+    io::PlanningSceneMessage scene;
+    scene.robot_state.joints = {.header = {last_motion, ""}, .names = {"slide"}};
+    scene.robot_state.attached = {part(0)};
+    return scene;
+  }
+  /// Expects labels as of part() from frame 1 on.
+  void expect_part_from_1_on() {
+    EXPECT_EQ(frames_with_part(), "011");
+    EXPECT_EQ(status(1), "ok") << BagTest::message(1);
+    write_file(path("recording.yaml"),
+               read_file(path("recording.yaml")) +
+                   "attached: [{name: part, link: board, box: [0.1, 0.1, 0.1], "
+                   "pose: [0.3, -0.2, 0, 0, 0, 0, 1], frames: [1, 3]}]\n");
+    expect_recorded_labels();
+  }
   static io::LoosePose pose(const Eigen::Vector3d& at) { return {at, {0, 0, 0, 1}}; }
 
   /// Which frames have the part: "010" for the second one.
@@ -81,8 +104,8 @@ TEST_F(BagAttachedTest, PlanningScenesAddAndReplace) {
   io::PlanningSceneMessage of_world;  // a change of the world alone
   bag_.add(scene_topic, tiny_stamp(2) - 20 * ms, of_world);
   EXPECT_EQ(frames_with_part(), "011");
-  io::PlanningSceneMessage whole;
-  whole.robot_state.joints = {.header = {tiny_stamp(2) - 10 * ms, ""}, .names = {"slide"}};
+  io::PlanningSceneMessage whole = scene_of(tiny_stamp(2) - 10 * ms);
+  whole.robot_state.attached.clear();
   bag_.add(scene_topic, tiny_stamp(2) - 5 * ms, whole);
   EXPECT_EQ(frames_with_part(), "010");
 }
@@ -91,6 +114,44 @@ TEST_F(BagAttachedTest, PlanningScenesAddAndReplace) {
 TEST_F(BagAttachedTest, WithoutAStampItHoldsFromNowOn) {
   bag_.add(attached_topic, tiny_stamp(1) - 100 * ms, part(0));
   EXPECT_EQ(frames_with_part(), "011");
+}
+
+TEST_F(BagAttachedTest, AShapeReplacesItsAbsenceWhateverTheStamps) {
+  bag_.add(attached_topic, tiny_stamp(1) - 100 * ms, named_part());
+  bag_.add(scene_topic, tiny_stamp(1) - 50 * ms, scene_of(tiny_stamp(0) + 50 * ms));
+  expect_part_from_1_on();
+}
+
+TEST_F(BagAttachedTest, AShapeStaysIfItIsNotRepeated) {
+  bag_.add(scene_topic, tiny_stamp(1) - 100 * ms, scene_of(tiny_stamp(0) + 50 * ms));
+  bag_.add(attached_topic, tiny_stamp(1) - 50 * ms, named_part());
+  expect_part_from_1_on();
+}
+
+/// The world's objects have their poses in the planning frame. The last joint state before the
+/// object is attached is 20 ms before the image.
+const double board_then = 1.0 + tiny_speed * 0.38;  // z, metres
+
+TEST_F(BagAttachedTest, AnObjectOfTheWorldHasItsShapeThere) {
+  io::PlanningSceneMessage scene;
+  scene.world.objects = {part(0).object};
+  scene.world.objects[0].header.frame_id = "base";
+  scene.world.objects[0].pose = pose({0.3, -0.2, board_then});
+  // Fields between robot_state and world.
+  scene.collisions = {.entry_names = {"a"}, .entry_values = {{.enabled = {1}}}};
+  scene.paddings = {{.link_name = "board", .padding = 0.01}};
+  scene.colors = {{.id = "part"}};
+  bag_.add(scene_topic, tiny_stamp(0), scene);
+  bag_.add(attached_topic, tiny_stamp(1) - 15 * ms, named_part());
+  expect_part_from_1_on();
+}
+
+TEST_F(BagAttachedTest, APoseMayBeGivenInAnotherLink) {
+  io::AttachedObjectMessage attached = part(tiny_stamp(1) - 10 * ms);
+  attached.object.header.frame_id = "base";
+  attached.object.pose = pose({0.3, -0.2, board_then});
+  bag_.add(attached_topic, tiny_stamp(1) - 5 * ms, attached);
+  expect_part_from_1_on();
 }
 
 TEST_F(BagAttachedTest, WhatCannotBeDrawnMakesFramesMissingLinks) {
@@ -107,15 +168,16 @@ TEST_F(BagAttachedTest, WhatCannotBeDrawnMakesFramesMissingLinks) {
     expect_has(outcome.err, {why});
     EXPECT_EQ(status(0), "ok");
     EXPECT_EQ(status(1), "missing_link") << why;
-    EXPECT_NE(BagTest::message(1).find("'part'"), std::string::npos);
+    for (const std::string& part : {std::string("'part'"), why})
+      EXPECT_NE(BagTest::message(1).find(part), std::string::npos) << BagTest::message(1);
   };
   expect_missing([](auto& m) { m.object.primitives.clear(), m.object.primitive_poses.clear(); },
                  "its shape is not in the message");
   expect_missing([](auto& m) { m.object.primitives[0].type = io::SolidPrimitiveMessage::cone; },
                  "only boxes");
-  expect_missing([](auto& m) { m.object.primitives[0].dimensions[1] = -1; }, "is not drawn");
+  expect_missing([](auto& m) { m.object.primitives[0].dimensions[1] = -1; }, "");
   expect_missing([](auto& m) { m.object.primitives[0].dimensions[1] = 11; }, "larger than 10 m");
-  expect_missing([](auto& m) { m.object.header.frame_id = "base"; }, "not in its link");
+  expect_missing([](auto& m) { m.object.header.frame_id = "map"; }, "'map'");
   expect_missing([](auto& m) { m.object.pose.orientation.setZero(); }, "not a rigid transform");
   expect_missing([](auto& m) { m.object.operation = io::CollisionObjectMessage::move; },
                  "adding and removing");

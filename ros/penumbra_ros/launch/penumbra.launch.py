@@ -21,7 +21,7 @@ CAMERA = "/camera/camera"  # realsense2_camera's namespace
 LIKE_OURS = 0.8  # similarity of a misspelt name; camera_name, which is another's, has 0.7 of camera
 
 ARGUMENTS = {
-    "camera": ("", "the camera's namespace, with depth/image_rect_raw below it; without params_file "
+    "camera": ("", "namespace of the camera's depth/image_rect_raw; without params_file: "
                    + CAMERA),
     "depth_topic": ("", "the depth images, in place of the camera's"),
     "robot_description_topic": ("robot_description", "the URDF"),
