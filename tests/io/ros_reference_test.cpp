@@ -313,6 +313,13 @@ TEST(RosReference, ItsPlanningScenesAreFollowed) {
                                     {"wrench", {{{"force", {{"x", 1}}}}}}};
   state["attached_collision_objects"] = {attached};
   Json scene{{"name", "scene"}, {"robot_state", state}, {"robot_model_name", "arm"}};
+  scene["fixed_frame_transforms"] = {{{"child_frame_id", "camera"}}};
+  scene["allowed_collision_matrix"] = {{"entry_names", {"a"}},
+                                       {"entry_values", {{{"enabled", {true, false}}}}},
+                                       {"default_entry_values", {true}}};
+  scene["link_padding"] = {{{"link_name", "gripper"}, {"padding", 0.01}}};
+  scene["object_colors"] = {{{"id", "part"}, {"color", {{"g", 1}}}}};
+  scene["world"]["collision_objects"] = {part};
   scene["world"]["octomap"]["octomap"]["data"] = {1, 2, 3};
   scene["is_diff"] = true;
   Exchange exchange;
@@ -322,6 +329,9 @@ TEST(RosReference, ItsPlanningScenesAreFollowed) {
   const auto fault = Decoder<PlanningSceneMessage>().decode(payload, message);
   ASSERT_FALSE(fault) << *fault;
   EXPECT_EQ(message.name, "scene");
+  ASSERT_EQ(message.world.objects.size(), 1U);
+  EXPECT_EQ(message.world.objects[0].id, "part");
+  EXPECT_EQ(message.world.objects[0].primitives[0].dimensions[2], 0.3);
   AttachedInput input;
   Attachments attachments;
   EXPECT_EQ(input.take(message, 1, attachments), "");
