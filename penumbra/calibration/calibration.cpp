@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -91,7 +92,10 @@ class Calibrator {
     unknowns_.has_shift = std::all_of(frames.begin(), frames.end(),
                                       [](const auto& frame) { return !frame.mask.empty(); });
     unknowns_.has_time = options.time_offset;
-    unknowns_.joint_count = options.joint_offsets ? robot.variables().size() : 0;
+    if (options.joint_offsets) {
+      unknowns_.variables.resize(robot.variables().size());
+      std::iota(unknowns_.variables.begin(), unknowns_.variables.end(), std::size_t{0});
+    }
     for (const CalibrationFrame& frame : frames) used_.push_back(&frame);
   }
 
@@ -147,7 +151,7 @@ class Calibrator {
     std::vector<State> starts;
     for (const Eigen::Isometry3d& pose : poses) {
       State best{.T_parent_camera = pose,
-                 .joint_offsets = std::vector<double>(unknowns_.joint_count)};
+                 .joint_offsets = std::vector<double>(unknowns_.variables.size())};
       double best_score = search.score(best);
       for (const double offset : offsets) {
         State other = best;
@@ -189,7 +193,7 @@ class Calibrator {
       result.shift_right = estimate(fit.state.depth_shift.x(), fit, Unknowns::shift);
       result.shift_down = estimate(fit.state.depth_shift.y(), fit, Unknowns::shift + 1);
     }
-    for (std::size_t j = 0; j < unknowns_.joint_count; ++j)
+    for (std::size_t j = 0; j < unknowns_.variables.size(); ++j)
       result.joint_offsets.push_back(
           estimate(fit.state.joint_offsets[j], fit, unknowns_.joints() + static_cast<int>(j)));
     if (unknowns_.has_time)

@@ -31,8 +31,9 @@ struct State {
   double depth_scale = 0.0;
   double outline = 0.0;                                   ///< pixels
   Eigen::Vector2d depth_shift = Eigen::Vector2d::Zero();  ///< pixels, of depth against the masks
-  std::vector<double> joint_offsets;                      ///< empty: not estimated
-  double time_offset = 0.0;                               ///< seconds from an image to its poses
+  Eigen::Vector2d focal = Eigen::Vector2d::Zero();  ///< fx and fy are 1 + this of the camera's
+  std::vector<double> joint_offsets;                ///< of Robot::variables(); empty: all are 0
+  double time_offset = 0.0;                         ///< seconds from an image to its poses
 
   /// Returns the true depth where the sensor measures `depth`.
   [[nodiscard]] float corrected(float depth) const {
@@ -41,20 +42,26 @@ struct State {
 };
 
 /// The order of the unknowns in a step: the camera's motion in its own frame, depth offset, depth
-/// scale, outline, then the depth's shift, the joints' offsets and the time offset where they are
-/// estimated.
+/// scale, outline, then the depth's shift, the focal lengths, the joints' offsets and the time
+/// offset where they are estimated.
 struct Unknowns {
   static constexpr int pose = 0, depth_offset = 6, depth_scale = 7, outline = 8, shift = 9;
   bool has_shift = false;
-  std::size_t joint_count = 0;
+  int focal_count = 0;                      ///< 1: fx and fy by the same factor; 2: each by its own
+  std::vector<std::size_t> variables = {};  ///< Robot::variables() whose offsets are estimated
   bool has_time = false;
+  bool holds_pose = false;   ///< the pose stays as it is
+  bool holds_depth = false;  ///< depth offset and scale stay as they are
 
-  [[nodiscard]] int joints() const { return has_shift ? shift + 2 : shift; }
-  [[nodiscard]] int time() const { return joints() + static_cast<int>(joint_count); }
+  [[nodiscard]] int focal() const { return has_shift ? shift + 2 : shift; }
+  [[nodiscard]] int joints() const { return focal() + focal_count; }
+  [[nodiscard]] int time() const { return joints() + static_cast<int>(variables.size()); }
   [[nodiscard]] int size() const { return time() + (has_time ? 1 : 0); }
   void step(State& state, const Eigen::VectorXd& by) const;
-  [[nodiscard]] Eigen::VectorXd values(const State& state) const;  ///< 0 for the pose
-  /// Standard deviations of what is expected before anything is measured; infinite for the pose.
+  /// Of those with an expectation of 0; 0 for the pose and for what is held.
+  [[nodiscard]] Eigen::VectorXd values(const State& state) const;
+  /// Standard deviations of what is expected before anything is measured; infinite for the pose,
+  /// next to nothing for what is held.
   [[nodiscard]] Eigen::VectorXd prior_sigmas() const;
 };
 
@@ -121,17 +128,19 @@ class Observer {
   void overlap(const CalibrationFrame& frame, const State& state, std::size_t& both,
                std::size_t& either);
   [[nodiscard]] const Model& model() const { return model_; }
+  /// What observe() estimates from now on.
+  void set_unknowns(const Unknowns& unknowns) { unknowns_ = unknowns; }
 
  private:
   struct View;  // one frame at one state
   void add_surface(const View& view, const Reach& reach, Residuals& out) const;
   void add_outlines(const View& view, const Reach& reach, Residuals& out) const;
   void add_row(const View& view, const Residual& residual, const Twist& gradient,
-               Residuals& out) const;
+               const Eigen::Vector2d& by_focal, Residuals& out) const;
   [[nodiscard]] VirtualDepthView render(const CalibrationFrame& frame, const State& state);
 
   const Model& model_;
-  Intrinsics camera_;
+  Intrinsics nominal_, camera_;  // camera_: with State::focal, that of renderer_
   Unknowns unknowns_;
   int stride_;
   int margin_;  // pixels from the outline inside which depth is not compared
