@@ -7,6 +7,7 @@
 #include "study_page.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -199,6 +200,91 @@ void run_real(const std::filesystem::path& recording, bool masks) {
   print_spread("without any three frames", subsets);
 }
 
+/// What is wrong with a recording of a cell.
+struct Faults {
+  Eigen::Vector2d focal =
+      Eigen::Vector2d::Zero();  ///< fx and fy are too long by this of themselves
+  Setup setup;
+};
+
+RobotChoice ur5e() {
+  const std::filesystem::path folder = data_folder() / "robots/ur5e";
+  RobotChoice choice{"UR5e",
+                     folder / "ur5e.urdf",
+                     robots()[1].options,
+                     "tool0",
+                     {0.0, -1.2, 1.4, -1.0, -1.2, 0.0}};
+  choice.options.packages = {{"ur_description", folder / "ur_description"}};
+  return choice;
+}
+
+constexpr std::array fault_names{
+    "clean", "clean, depth 0.5 % off", "clean, moving", "focal", "fx alone", "joint", "clock",
+    "two"};
+
+double either_way(sim::Random& random, double least, double most) {
+  return random.uniform(0.0, 1.0) < 0.5 ? -random.uniform(least, most)
+                                        : random.uniform(least, most);
+}
+
+void add_fault(std::size_t kind, std::size_t joints, sim::Random& random, Faults& faults) {
+  if (kind == 3) faults.focal.setConstant(either_way(random, 0.01, 0.05));
+  if (kind == 4) faults.focal.x() = either_way(random, 0.01, 0.05);
+  if (kind == 5) {
+    faults.setup.joint_errors.resize(joints);
+    faults.setup.joint_errors[static_cast<std::size_t>(random.uniform(
+        0.0, static_cast<double>(joints) - 0.001))] = either_way(random, 0.5, 2.0) * degree;
+  }
+  if (kind == 6) {
+    faults.setup.late = either_way(random, 0.01, 0.08);
+    faults.setup.speed = random.uniform(0.2, 0.6);
+  }
+}
+
+void run_faulty(const RobotChoice& robot, std::size_t kind, std::uint64_t seed) {
+  sim::Random random(seed, 1000 + kind);
+  Faults faults;
+  if (kind == 1) faults.setup.depth_scale = either_way(random, 0.005, 0.005);
+  if (kind == 2) faults.setup.speed = random.uniform(0.2, 0.6);
+  const std::size_t joints = robot.centre.size();
+  if (kind < 7) add_fault(kind, joints, random, faults);
+  if (kind == 7) {
+    constexpr std::array kinds{3, 4, 5, 6};
+    const auto a = static_cast<std::size_t>(random.uniform(0.0, 3.999));
+    const std::size_t b = (a + 1 + static_cast<std::size_t>(random.uniform(0.0, 2.999))) % 4;
+    add_fault(static_cast<std::size_t>(kinds.at(a)), joints, random, faults);
+    add_fault(static_cast<std::size_t>(kinds.at(b)), joints, random, faults);
+  }
+  Cell cell(robot, faults.setup, seed);
+  const Intrinsics truth = Cell::intrinsics();
+  const Intrinsics given(truth.width(), truth.height(), truth.fx() * (1.0 + faults.focal.x()),
+                         truth.fy() * (1.0 + faults.focal.y()), truth.cx(), truth.cy());
+  std::cout << robot.name << ", " << fault_names.at(kind) << ", seed " << seed << ": focal "
+            << 100.0 * faults.focal.x() << " " << 100.0 * faults.focal.y() << " %, late "
+            << faults.setup.late << " joints";
+  for (const double error : faults.setup.joint_errors) std::cout << " " << error;
+  std::cout << std::endl;
+  const std::vector<CalibrationFrame> frames = cell.frames();
+  CalibrationOptions options;
+  options.initial = cell.off();
+  options.seed = seed;
+  const auto start = std::chrono::steady_clock::now();
+  const Calibration found = calibrate(frames, given, cell.robot(), options);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Eigen::Isometry3d error = found.T_parent_camera.inverse() * cell.truth();
+  const Eigen::AngleAxisd turn(error.linear());
+  Eigen::Matrix<double, 6, 1> twist;
+  twist << turn.angle() * turn.axis(), error.translation();
+  std::cout << "  = " << 1e3 * error.translation().norm() << " mm " << turn.angle() / degree
+            << " deg, stated " << 1e3 * found.position_error() << " "
+            << found.rotation_error() / degree << ", mahalanobis "
+            << std::sqrt(twist.dot(found.covariance.ldlt().solve(twist)) / 12.592) << ", "
+            << seconds << " s" << std::endl;
+  for (const std::string& note : found.notes) std::cout << "  note: " << note << std::endl;
+  for (const std::string& fault : found.faults) std::cout << "  fault: " << fault << std::endl;
+}
+
 int study_all(int argc, char** argv) {
   const std::filesystem::path data = data_folder();
   const std::vector<Setup> setups = {{.name = "in the cell, 10 frames"},
@@ -212,6 +298,18 @@ int study_all(int argc, char** argv) {
   if (wanted == "real") {
     run_real(data / "xarm7_realsense", false);
     run_real(data / "xarm7_realsense", true);
+    return 0;
+  }
+  if (wanted == "faults") {
+    const std::uint64_t runs = argc > 2 ? std::stoull(argv[2]) : 1;
+    const std::size_t only = argc > 3 ? std::stoull(argv[3]) : fault_names.size();
+    const std::uint64_t first = argc > 4 ? std::stoull(argv[4]) : 0;
+    std::vector<RobotChoice> all = robots();
+    all.push_back(ur5e());
+    for (std::uint64_t seed = first; seed < first + runs; ++seed)
+      for (std::size_t kind = 0; kind < fault_names.size(); ++kind)
+        if (only == fault_names.size() || kind == only)
+          run_faulty(all[(seed + kind) % 3], kind, seed);
     return 0;
   }
   const std::uint64_t seeds = argc > 2 ? std::stoull(argv[2]) : 30;

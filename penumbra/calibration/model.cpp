@@ -16,6 +16,13 @@ Eigen::Isometry3d motion(const Twist& twist) {
   return T;
 }
 
+Twist twist_of(const Eigen::Isometry3d& motion) {
+  const Eigen::AngleAxisd turn(motion.linear());
+  Twist twist;
+  twist << turn.angle() * turn.axis(), motion.translation();
+  return twist;
+}
+
 double longest_axis(const Eigen::Matrix3d& covariance) {
   constexpr double chi = 2.7955;  // square root of the 95 % quantile of chi^2 with 3 degrees
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
@@ -125,12 +132,8 @@ std::vector<std::vector<Twist>> Model::link_twists(const CalibrationFrame& frame
     unknowns.step(moved, step * Eigen::VectorXd::Unit(unknowns.size(), i));
     const std::vector<Eigen::Isometry3d> then = T_camera_link(frame, moved);
     twists.emplace_back();
-    for (std::size_t link = 0; link < at.size(); ++link) {
-      const Eigen::Isometry3d T = then[link] * at[link].inverse();
-      const Eigen::AngleAxisd turn(T.linear());
-      twists.back().emplace_back();
-      twists.back().back() << turn.angle() * turn.axis() / step, T.translation() / step;
-    }
+    for (std::size_t link = 0; link < at.size(); ++link)
+      twists.back().push_back(twist_of(then[link] * at[link].inverse()) / step);
   }
   return twists;
 }

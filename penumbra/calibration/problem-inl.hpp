@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -20,6 +21,7 @@ using Twist = Eigen::Matrix<double, 6, 1>;  ///< rotation vector (rad), then tra
 
 /// Returns the small motion.
 [[nodiscard]] Eigen::Isometry3d motion(const Twist& twist);
+[[nodiscard]] Twist twist_of(const Eigen::Isometry3d& motion);
 
 /// Returns half of the longest axis of the 95 % ellipsoid.
 [[nodiscard]] double longest_axis(const Eigen::Matrix3d& covariance);
@@ -147,6 +149,38 @@ class Observer {
   std::unique_ptr<DepthRenderer> renderer_;
 };
 
+/// Normal equations of the residuals that are wrong together.
+struct Part {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd steps;  ///< the gradient, by kind, if all were off by the step of their unit
+
+  Part& operator+=(const Part& other);
+};
+
+/// The normal equations of frames at one state.
+struct Equations {
+  std::vector<Part> parts;         ///< by frame, then link; empty: nothing seen
+  std::vector<std::size_t> views;  ///< of each part: which are wrong together
+  std::size_t links = 0;
+  Eigen::MatrixXd information;  ///< of all, with what is expected of the unknowns
+  Eigen::VectorXd gradient;     ///< likewise
+  Eigen::VectorXd prior;        ///< inverse squares of Unknowns::prior_sigmas()
+
+  /// The equations if only these unknowns are estimated.
+  [[nodiscard]] Equations of(const std::vector<int>& chosen) const;
+  /// Returns the step to where the residuals are least, to first order.
+  [[nodiscard]] Eigen::VectorXd step() const { return -information.ldlt().solve(gradient); }
+  /// Returns the equations after a step, to first order.
+  [[nodiscard]] Equations after(const Eigen::VectorXd& step) const;
+  /// Returns the unknowns' covariance, where the gradient is 0.
+  [[nodiscard]] Eigen::MatrixXd covariance() const;
+};
+
+[[nodiscard]] Equations equations_at(Observer& observer, const Unknowns& unknowns,
+                                     std::span<const CalibrationFrame* const> frames,
+                                     const State& state);
+
 /// The result of refine().
 struct Refined {
   State state;
@@ -157,6 +191,51 @@ struct Refined {
 /// Robust least squares from `start`, whose pose is a few centimetres and degrees off at most.
 [[nodiscard]] Refined refine(Observer& observer, const Unknowns& unknowns,
                              std::span<const CalibrationFrame* const> frames, State start);
+
+/// An input that may be wrong.
+struct Cause {
+  enum class Kind : std::uint8_t { focal, joint, clock };
+  Kind kind = Kind::focal;
+  std::size_t variable = 0;  ///< of Robot::variables(); only of a joint
+
+  bool operator==(const Cause&) const = default;
+};
+
+/// A cause that explains the residuals much better than the inputs do.
+struct FoundCause {
+  Cause cause;
+  std::vector<Cause> or_else;  ///< that explain them as well
+};
+
+/// What explains the residuals of a fit.
+struct Explained {
+  /// Where the camera is if a cause is true, from the fit's pose.
+  struct Pose {
+    Twist motion;
+    PoseCovariance covariance;
+  };
+  Unknowns unknowns;  ///< those of the fit and the causes
+  Refined fit;        ///< with them
+  std::vector<FoundCause> causes = {};
+  std::vector<Pose> poses = {};  ///< of the causes, and of one that chance may explain
+  /// What would be known of the offset of each of Robot::variables() if it was estimated, too.
+  std::vector<double> joint_sigmas = {};
+};
+
+/// Frees causes in turn, the best first, while one explains the residuals of `fit` much better than
+/// zero does.
+[[nodiscard]] Explained explain(Observer& observer, const Unknowns& own,
+                                std::span<const CalibrationFrame* const> frames,
+                                const Refined& fit);
+/// Returns a clause that names what was found, with its amount.
+[[nodiscard]] std::string text_of(const FoundCause& found, const Explained& explained,
+                                  const Robot& robot, const Intrinsics& camera);
+/// Names a depth offset or scale beyond what sensors have; empty: it is not.
+[[nodiscard]] std::string text_of_depth(const Refined& fit);
+/// Returns how the camera moves if the depth has no offset and scale.
+[[nodiscard]] Twist motion_without_depth(Observer& observer, const Unknowns& own,
+                                         std::span<const CalibrationFrame* const> frames,
+                                         const State& state);
 
 /// Rates camera poses on small images: agreement of measured and virtual depth, against what was
 /// measured behind the robot's surface and what moved and is not the robot.
