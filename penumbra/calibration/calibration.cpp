@@ -33,8 +33,9 @@ constexpr double least_agreeing = 0.6;    // of the robot's measured pixels
 constexpr double elsewhere = 0.7;         // of the frames' median share that agrees
 constexpr double widest_position = 0.03;  // metres, half axis of the 95 % region
 constexpr double widest_rotation = 0.03;  // rad
-/// Of the square of how far another pose is: the 95 % region reaches 1.6 times as far.
-constexpr double covering = 1.0 / 3.0;
+constexpr double untold = 0.02;           // rad, half axis of the 95 % region of the rotation
+/// Of the square of how far another pose is: the 95 % region reaches a little farther.
+constexpr double covering = 1.0 / 6.0;
 
 double moved(std::span<const Eigen::Isometry3d> a, std::span<const Eigen::Isometry3d> b) {
   double most = 0.0;
@@ -113,7 +114,7 @@ class Calibrator {
     judge(result, fit);
     if (!result.is_good()) return result;
     const std::string causes = name_causes(result, observer, fit, explained);
-    result.advice = advice(result, observer, fit.state);
+    result.advice = advice(result, observer, fit.state) + untold_joints(explained);
     check_errors(result, causes);
     return result;
   }
@@ -150,7 +151,7 @@ class Calibrator {
     if (const std::string depth = calibration::text_of_depth(explained.fit); !depth.empty()) {
       add(depth);
       const calibration::Twist moved =
-          calibration::motion_without_depth(observer, unknowns_, used_, fit.state);
+          calibration::motion_with_usual_depth(observer, unknowns_, used_, fit.state);
       result.covariance += covering * moved * moved.transpose();
     }
     return text;
@@ -239,8 +240,8 @@ class Calibrator {
       result.focal_y = estimate(fit.state.focal.y(), fit, unknowns_.focal() + 1);
     }
     if (options_.joint_offsets)
-      for (const double sigma : explained.joint_sigmas)
-        result.joint_offsets.push_back({.value = 0.0, .sigma = sigma});
+      for (const Explained::Joint& joint : explained.joints)
+        result.joint_offsets.push_back({.value = 0.0, .sigma = joint.sigma});
     for (std::size_t j = 0; j < unknowns_.variables.size(); ++j)
       result.joint_offsets.at(unknowns_.variables[j]) =
           estimate(fit.state.joint_offsets.at(unknowns_.variables[j]), fit,
@@ -268,6 +269,17 @@ class Calibrator {
     if (joints.size() < 2) return text;
     return text + "; more poses in which " + joints[0] + " and " + joints[1] +
            " turn would add most";
+  }
+
+  /// Names joints, as the first of an arm before a fixed camera, whose offset is to the images the
+  /// same as another pose.
+  [[nodiscard]] std::string untold_joints(const Explained& explained) const {
+    std::string names;
+    for (std::size_t j = 0; j < explained.joints.size(); ++j)
+      if (explained.joints[j].rotation_error > untold)
+        names += (names.empty() ? "" : ", ") + robot_.variables()[j];
+    return names.empty() ? names
+                         : "; the images cannot tell an offset of " + names + " from another pose";
   }
 
   [[nodiscard]] std::vector<std::string> telling_joints(Observer& observer, const State& state,

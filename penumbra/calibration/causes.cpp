@@ -21,6 +21,7 @@ constexpr double least_drop = 16.0;
 /// Causes whose drops are nearer to each other's than first-order steps are to the truth.
 constexpr double told_apart = 0.8;
 constexpr std::size_t most_causes = 3;
+constexpr double usual_offset = 0.005, usual_scale = 0.005;  // metres; Unknowns::prior_sigmas()
 
 /// What freeing one cause does, to first order.
 struct Test {
@@ -58,6 +59,19 @@ bool has(const Unknowns& unknowns, const Cause& cause) {
   return true;
 }
 
+/// The indices of a cause in unknowns that have it.
+std::vector<int> indices(const Unknowns& unknowns, const Cause& cause) {
+  if (cause.kind == Cause::Kind::focal) return {unknowns.focal(), unknowns.focal() + 1};
+  if (cause.kind == Cause::Kind::clock) return {unknowns.time()};
+  const auto at = std::ranges::find(unknowns.variables, cause.variable);
+  return {unknowns.joints() + static_cast<int>(at - unknowns.variables.begin())};
+}
+
+/// How many standard deviations values are from 0.
+double sigmas_of(const Eigen::VectorXd& value, const Eigen::MatrixXd& covariance) {
+  return std::sqrt(value.dot(covariance.ldlt().solve(value)));
+}
+
 /// The indices of `some` in `all`, which has them in any order.
 std::vector<int> indices(const Unknowns& all, const Unknowns& some) {
   std::vector<int> found(static_cast<std::size_t>(some.joints()));
@@ -78,13 +92,10 @@ Test test(const Equations& equations, const Unknowns& all, const Unknowns& own,
   const Equations free = equations.of(chosen);
   const Eigen::VectorXd step = free.step();
   const Eigen::MatrixXd covariance = free.after(step).covariance();
-  std::vector<int> added;  // in `chosen`
-  for (std::size_t i = 0; i < chosen.size(); ++i)
-    if (std::ranges::count(own_indices, chosen[i]) == 0) added.push_back(static_cast<int>(i));
-  const Eigen::VectorXd value = step(added);
+  const std::vector<int> added = indices(freed, cause);
   const Eigen::MatrixXd its = covariance(added, added);
   Test result{.cause = cause};
-  result.sigmas = std::sqrt(value.dot(its.ldlt().solve(value)));
+  result.sigmas = sigmas_of(step(added), its);
   // What the fit's own unknowns would still gain is not this cause's.
   const Equations without = equations.of(own_indices);
   result.drop = without.step().dot(without.gradient) - step.dot(free.gradient);
@@ -148,6 +159,15 @@ std::string focal_text(const Explained& explained, const Intrinsics& camera) {
   return text;
 }
 
+/// Whether a pose is known much worse than a fit's.
+bool is_wider(const Explained::Pose& pose, const Refined& fit) {
+  constexpr double much = 1.5;
+  return longest_axis(pose.covariance.topLeftCorner<3, 3>()) >
+             much * longest_axis(fit.covariance.topLeftCorner<3, 3>()) ||
+         longest_axis(pose.covariance.bottomRightCorner<3, 3>()) >
+             much * longest_axis(fit.covariance.block<3, 3>(3, 3));
+}
+
 }  // namespace
 
 std::string text_of(const FoundCause& found, const Explained& explained, const Robot& robot,
@@ -158,9 +178,7 @@ std::string text_of(const FoundCause& found, const Explained& explained, const R
     text = focal_text(explained, camera);
   } else if (found.cause.kind == Cause::Kind::joint) {
     const std::size_t variable = found.cause.variable;
-    const auto freed = std::ranges::find(explained.unknowns.variables, variable);
-    const int at = explained.unknowns.joints() +
-                   static_cast<int>(freed - explained.unknowns.variables.begin());
+    const int at = indices(explained.unknowns, found.cause)[0];
     const auto joint = std::ranges::find_if(
         robot.joints(), [&](const Joint& one) { return one.variable == variable && !one.mimics; });
     const bool slides = joint->type == JointType::prismatic;
@@ -180,7 +198,6 @@ std::string text_of(const FoundCause& found, const Explained& explained, const R
 }
 
 std::string text_of_depth(const Refined& fit) {
-  constexpr double usual_offset = 0.005, usual_scale = 0.005;  // metres; Unknowns::prior_sigmas()
   constexpr int offset = Unknowns::depth_offset, scale = Unknowns::depth_scale;
   const auto is_beyond = [&](double value, int at, double usual) {
     return std::abs(value) > usual + named * std::sqrt(fit.covariance(at, at));
@@ -197,17 +214,19 @@ std::string text_of_depth(const Refined& fit) {
   return text.empty() ? text : text + ", more than depth cameras are";
 }
 
-Twist motion_without_depth(Observer& observer, const Unknowns& own,
-                           std::span<const CalibrationFrame* const> frames, const State& state) {
+Twist motion_with_usual_depth(Observer& observer, const Unknowns& own,
+                              std::span<const CalibrationFrame* const> frames, const State& state) {
   const Equations equations = equations_at(observer, own, frames, state);
   std::vector<int> others(static_cast<std::size_t>(own.size()));
   std::iota(others.begin(), others.end(), 0);
   std::erase_if(others,
                 [](int i) { return i == Unknowns::depth_offset || i == Unknowns::depth_scale; });
-  Eigen::VectorXd to_zero = Eigen::VectorXd::Zero(own.size());
-  to_zero[Unknowns::depth_offset] = -state.depth_offset;
-  to_zero[Unknowns::depth_scale] = -state.depth_scale;
-  return equations.after(to_zero).of(others).step().head<6>();
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(own.size());
+  step[Unknowns::depth_offset] =
+      std::clamp(state.depth_offset, -usual_offset, usual_offset) - state.depth_offset;
+  step[Unknowns::depth_scale] =
+      std::clamp(state.depth_scale, -usual_scale, usual_scale) - state.depth_scale;
+  return equations.after(step).of(others).step().head<6>();
 }
 
 Explained explain(Observer& observer, const Unknowns& own,
@@ -220,7 +239,7 @@ Explained explain(Observer& observer, const Unknowns& own,
 
   Explained result{.unknowns = own, .fit = fit};
   result.fit.state.joint_offsets.resize(robot.variables().size());
-  result.joint_sigmas.resize(robot.variables().size());
+  result.joints.resize(robot.variables().size());
   const Eigen::Isometry3d from = fit.state.T_parent_camera.inverse();
   for (;;) {
     const State state = result.fit.state;
@@ -235,24 +254,37 @@ Explained explain(Observer& observer, const Unknowns& own,
     };
     for (const Test& test : tests)
       if (test.cause.kind == Cause::Kind::joint)
-        result.joint_sigmas[test.cause.variable] = test.sigma;
-    std::erase_if(tests, [](const Test& test) { return !(test.sigmas > possible); });
+        result.joints[test.cause.variable] = {
+            test.sigma, longest_axis(test.pose.covariance.topLeftCorner<3, 3>())};
+      else if (test.cause.kind == Cause::Kind::clock && is_wider(test.pose, result.fit))
+        result.poses.push_back(pose_after(test));  // a slow motion: the images cannot tell
+    std::erase_if(tests, [](const Test& test) {
+      return !(test.sigmas > possible || test.drop > least_drop);
+    });
     const auto best = std::ranges::max_element(tests, {}, &Test::drop);
     if (best == tests.end()) break;
-    if (best->sigmas < named || best->drop < least_drop || result.causes.size() == most_causes) {
+    if (best->drop < least_drop || result.causes.size() == most_causes) {
       result.poses.push_back(pose_after(*best));
+      break;
+    }
+    // A first-order step falls short where residuals are large: the whole way tells.
+    const Unknowns freed = with(result.unknowns, best->cause);
+    const Refined fitted = refine(observer, freed, frames, state);
+    const std::vector<int> its = indices(freed, best->cause);
+    if (!(sigmas_of(freed.values(fitted.state)(its), fitted.covariance(its, its)) > named)) {
+      result.poses.push_back(
+          {twist_of(from * fitted.state.T_parent_camera), fitted.covariance.topLeftCorner<6, 6>()});
       break;
     }
     FoundCause& found = result.causes.emplace_back();
     found.cause = best->cause;
     for (const Test& test : tests)
-      if (test.cause != best->cause && test.sigmas >= named &&
-          test.drop > told_apart * best->drop) {
+      if (test.cause != best->cause && test.drop > told_apart * best->drop) {
         found.or_else.push_back(test.cause);
         result.poses.push_back(pose_after(test));
       }
-    result.unknowns = with(result.unknowns, best->cause);
-    result.fit = refine(observer, result.unknowns, frames, state);
+    result.unknowns = freed;
+    result.fit = fitted;
   }
   if (!result.causes.empty())
     result.poses.push_back({twist_of(from * result.fit.state.T_parent_camera),

@@ -218,8 +218,12 @@ struct Explained {
   Refined fit;        ///< with them
   std::vector<FoundCause> causes = {};
   std::vector<Pose> poses = {};  ///< of the causes, and of one that chance may explain
-  /// What would be known of the offset of each of Robot::variables() if it was estimated, too.
-  std::vector<double> joint_sigmas = {};
+  /// What would be known of an offset of a joint if it was estimated, too, and then of the camera's
+  /// rotation (half axis of the 95 % region); rad or m.
+  struct Joint {
+    double sigma = 0.0, rotation_error = 0.0;
+  };
+  std::vector<Joint> joints = {};  ///< order of Robot::variables()
 };
 
 /// Frees causes in turn, the best first, while one explains the residuals of `fit` much better than
@@ -232,10 +236,10 @@ struct Explained {
                                   const Robot& robot, const Intrinsics& camera);
 /// Names a depth offset or scale beyond what sensors have; empty: it is not.
 [[nodiscard]] std::string text_of_depth(const Refined& fit);
-/// Returns how the camera moves if the depth has no offset and scale.
-[[nodiscard]] Twist motion_without_depth(Observer& observer, const Unknowns& own,
-                                         std::span<const CalibrationFrame* const> frames,
-                                         const State& state);
+/// Returns how the camera moves if the depth is within what sensors have.
+[[nodiscard]] Twist motion_with_usual_depth(Observer& observer, const Unknowns& own,
+                                            std::span<const CalibrationFrame* const> frames,
+                                            const State& state);
 
 /// Rates camera poses on small images: agreement of measured and virtual depth, against what was
 /// measured behind the robot's surface and what moved and is not the robot.

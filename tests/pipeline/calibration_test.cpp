@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The derivatives of calibration's residuals against differences: a small change of each unknown,
-// in rendered images.
+// Calibration on rendered images without noise: the residuals' derivatives against the difference
+// that a small change of each unknown makes, and what is said of wrong inputs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,9 +27,9 @@ using calibration::Unknowns;
 constexpr std::array<double, calibration::kinds> allowed{0.12, 0.25, 0.25};
 constexpr float wall = 3.0F;  // metres
 
-class CalibrationDerivatives : public testing::Test {
+class RenderedCalibration : public testing::Test {
  protected:
-  CalibrationDerivatives()
+  RenderedCalibration()
       : robot(Robot::load(PENUMBRA_SOURCE_DIR "/examples/arm_over_table/arm_description/arm.urdf",
                           {.geometry = Geometry::visual, .geometry_fallback = true})) {
     unknowns.has_shift = true;
@@ -89,6 +89,20 @@ class CalibrationDerivatives : public testing::Test {
     return sum;
   }
 
+  /// Frames with some turns of the joints.
+  std::vector<CalibrationFrame> drawn(const State& truth, const std::vector<double>& turns) {
+    std::vector<CalibrationFrame> frames;
+    for (const double turn : turns) {
+      for (std::size_t j = 0; j < 4; ++j) frame.joints[j] += (j % 2 == 0 ? 0.3 : -0.3) * turn;
+      robot.forward_kinematics(frame.joints, frame.T_root_link);
+      draw(truth);
+      frames.push_back(frame);
+      frames.back().index = frames.size() - 1;
+      frames.back().mask = {};
+    }
+    return frames;
+  }
+
   Robot robot;
   Intrinsics camera{848, 480, 610.0, 600.0, 423.5, 239.5};
   Unknowns unknowns;
@@ -96,7 +110,7 @@ class CalibrationDerivatives : public testing::Test {
   CalibrationFrame frame;
 };
 
-TEST_F(CalibrationDerivatives, AreThoseOfRenderedImages) {
+TEST_F(RenderedCalibration, DerivativesAreThoseOfRenderedImages) {
   const Model model(robot, 0);
   Observer observer(model, camera, unknowns);
   state.focal = Eigen::Vector2d(0.05, -0.03);  // the derivatives hold away from 0, too
@@ -137,20 +151,14 @@ TEST_F(CalibrationDerivatives, AreThoseOfRenderedImages) {
   }
 }
 
-TEST_F(CalibrationDerivatives, TheFocalLengthsAreFoundAndWhatIsHeldStays) {
+TEST_F(RenderedCalibration, TheFocalLengthsAreFoundAndWhatIsHeldStays) {
   State truth = state;
   truth.focal = Eigen::Vector2d(-0.02, -0.03);
-  std::vector<CalibrationFrame> frames;
-  for (const double turn : {-0.6, -0.3, 0.0, 0.3, 0.6}) {
-    for (std::size_t j = 0; j < 4; ++j) frame.joints[j] += (j % 2 == 0 ? 0.3 : -0.3) * turn;
-    robot.forward_kinematics(frame.joints, frame.T_root_link);
-    draw(truth);
-    frames.push_back(frame);
-  }
+  const std::vector<CalibrationFrame> frames = drawn(truth, {-0.6, -0.3, 0.0, 0.3, 0.6});
   std::vector<const CalibrationFrame*> all;
   for (const CalibrationFrame& one : frames) all.push_back(&one);
   const Model model(robot, 0);
-  unknowns = {.has_shift = true, .focal_count = 2, .holds_depth = true};
+  unknowns = {.focal_count = 2, .holds_depth = true};
   Observer observer(model, camera, unknowns);
   const calibration::Refined found = calibration::refine(observer, unknowns, all, state);
   EXPECT_NEAR(found.state.focal.x(), truth.focal.x(), 0.002);
@@ -160,12 +168,87 @@ TEST_F(CalibrationDerivatives, TheFocalLengthsAreFoundAndWhatIsHeldStays) {
       0.002);
   EXPECT_NEAR(found.state.depth_offset, 0.0, 1e-6);
 
-  unknowns = {.has_shift = true, .focal_count = 1, .holds_pose = true};
+  unknowns = {.focal_count = 1, .holds_pose = true};
   observer.set_unknowns(unknowns);
   const calibration::Refined held = calibration::refine(observer, unknowns, all, state);
   EXPECT_TRUE(held.state.T_parent_camera.isApprox(state.T_parent_camera, 1e-6));
   EXPECT_EQ(held.state.focal.x(), held.state.focal.y());
   EXPECT_NEAR(held.state.focal.x(), -0.025, 0.005);
+}
+
+const std::vector<double> turns{-0.9, 0.5, 0.8, -0.6, 1.2, 0.4, -1.5, 0.7};
+
+bool says(const Calibration& found, const std::string& word) {
+  return std::any_of(found.notes.begin(), found.notes.end(),
+                     [&](const std::string& note) { return note.find(word) != std::string::npos; });
+}
+
+TEST_F(RenderedCalibration, NothingIsSaidOfRightInputs) {
+  const Calibration found = calibrate(drawn(state, turns), camera, robot,
+                                      {.camera_parent = "", .initial = state.T_parent_camera});
+  ASSERT_TRUE(found.is_good());
+  EXPECT_TRUE(found.notes.empty()) << found.notes.front();
+}
+
+TEST_F(RenderedCalibration, AWrongFocalLengthIsNamedAndFound) {
+  const std::vector<CalibrationFrame> frames = drawn(state, turns);
+  const Intrinsics wrong(848, 480, 1.02 * camera.fx(), 1.02 * camera.fy(), camera.cx(),
+                         camera.cy());
+  CalibrationOptions options{.camera_parent = "", .initial = state.T_parent_camera};
+  const auto off = [&](const Calibration& found) {
+    return (found.T_parent_camera.translation() - state.T_parent_camera.translation()).norm();
+  };
+  const Calibration found = calibrate(frames, wrong, robot, options);
+  EXPECT_TRUE(says(found, "fx")) << found.notes.size();
+  EXPECT_GT(off(found), 0.005);
+  EXPECT_LT(off(found), found.position_error());
+
+  options.focal = true;
+  const Calibration freed = calibrate(frames, wrong, robot, options);
+  ASSERT_TRUE(freed.is_good());
+  EXPECT_FALSE(says(freed, "fx"));
+  EXPECT_NEAR(freed.focal_x->value, 1.0 / 1.02 - 1.0, 0.003);
+  EXPECT_NEAR(freed.focal_y->value, 1.0 / 1.02 - 1.0, 0.003);
+  EXPECT_LT(off(freed), 0.004);
+}
+
+TEST_F(RenderedCalibration, AnOffsetOfAJointIsNamedAndFound) {
+  State truth = state;
+  truth.joint_offsets[2] = 0.017;  // a degree
+  const std::vector<CalibrationFrame> frames = drawn(truth, turns);
+  CalibrationOptions options{.camera_parent = "", .initial = state.T_parent_camera};
+  EXPECT_TRUE(says(calibrate(frames, camera, robot, options), robot.variables()[2]));
+  options.joint_offsets = true;
+  const Calibration freed = calibrate(frames, camera, robot, options);
+  ASSERT_TRUE(freed.is_good());
+  EXPECT_NEAR(freed.joint_offsets[2].value, 0.017, 0.002);
+  EXPECT_EQ(freed.joint_offsets[1].value, 0.0);
+  EXPECT_LT((freed.T_parent_camera.translation() - truth.T_parent_camera.translation()).norm(),
+            0.004);
+}
+
+TEST_F(RenderedCalibration, ClocksThatDifferAreNamed) {
+  State truth = state;
+  truth.time_offset = 0.04;
+  std::vector<CalibrationFrame> frames;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    for (std::size_t j = 0; j < 4; ++j) frame.joints[j] += (j % 2 == 0 ? 0.3 : -0.3) * turns[i];
+    for (NearbyPoses& poses : frame.nearby) {
+      std::vector<double> then = frame.joints;
+      for (std::size_t j = 0; j < 4; ++j)
+        then[j] += (i + j) % 2 == 0 ? 0.4 * poses.seconds : -0.5 * poses.seconds;
+      robot.forward_kinematics(then, poses.T_root_link);
+    }
+    frame.T_root_link = frame.nearby[1].T_root_link;
+    draw(truth);
+    frames.push_back(frame);
+    frames.back().mask = {};
+  }
+  const Calibration found =
+      calibrate(frames, camera, robot, {.camera_parent = "", .initial = state.T_parent_camera});
+  EXPECT_TRUE(says(found, "stamps"));
+  EXPECT_LT((found.T_parent_camera.translation() - state.T_parent_camera.translation()).norm(),
+            found.position_error());
 }
 
 }  // namespace
