@@ -264,7 +264,7 @@ Explained explain(Observer& observer, const Unknowns& own,
     const auto best = std::ranges::max_element(tests, {}, &Test::drop);
     if (best == tests.end()) break;
     if (best->drop < least_drop || result.causes.size() == most_causes) {
-      result.poses.push_back(pose_after(*best));
+      result.poses.push_back({pose_after(*best).motion, PoseCovariance::Zero()});
       break;
     }
     // A first-order step falls short where residuals are large: the whole way tells.
