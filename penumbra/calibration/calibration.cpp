@@ -146,6 +146,12 @@ class Calibrator {
     };
     for (const FoundCause& found : explained.causes)
       add(calibration::text_of(found, explained, robot_, camera_));
+    if (explained.clock_is_untold) {
+      result.notes.emplace_back(
+          "the arm moves in one way only, so that the images cannot tell a time between images and "
+          "joint states from another pose: let it stand still, or move there and back");
+      text += (text.empty() ? "" : "; ") + result.notes.back();
+    }
     for (const Explained::Pose& pose : explained.poses)
       result.covariance += pose.covariance + covering * pose.motion * pose.motion.transpose();
     if (const std::string depth = calibration::text_of_depth(explained.fit); !depth.empty()) {
@@ -326,7 +332,7 @@ class Calibrator {
           " % of the robot's pixels show it at its depth: the robot is not in view, the URDF is "
           "not this robot's, the joints are of other times, or " +
           (options_.initial ? "the first guess is too far off (--search does without)"
-                            : "another pose was found"));
+                            : "the search found no better pose"));
     }
   }
 

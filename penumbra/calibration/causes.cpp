@@ -5,6 +5,7 @@
 #include <iterator>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <tuple>
 
@@ -241,6 +242,7 @@ Explained explain(Observer& observer, const Unknowns& own,
   result.fit.state.joint_offsets.resize(robot.variables().size());
   result.joints.resize(robot.variables().size());
   const Eigen::Isometry3d from = fit.state.T_parent_camera.inverse();
+  std::optional<Explained::Pose> untold_clock;
   for (;;) {
     const State state = result.fit.state;
     const Equations equations = equations_at(observer, all, frames, state);
@@ -257,7 +259,7 @@ Explained explain(Observer& observer, const Unknowns& own,
         result.joints[test.cause.variable] = {
             test.sigma, longest_axis(test.pose.covariance.topLeftCorner<3, 3>())};
       else if (test.cause.kind == Cause::Kind::clock && is_wider(test.pose, result.fit))
-        result.poses.push_back(pose_after(test));  // a slow motion: the images cannot tell
+        untold_clock = pose_after(test);  // a slow motion: the images cannot tell
     std::erase_if(tests, [](const Test& test) {
       return !(test.sigmas > possible || test.drop > least_drop);
     });
@@ -289,6 +291,10 @@ Explained explain(Observer& observer, const Unknowns& own,
   if (!result.causes.empty())
     result.poses.push_back({twist_of(from * result.fit.state.T_parent_camera),
                             result.fit.covariance.topLeftCorner<6, 6>()});
+  if (untold_clock && !result.unknowns.has_time) {
+    result.poses.push_back(*untold_clock);
+    result.clock_is_untold = true;
+  }
   observer.set_unknowns(own);
   return result;
 }

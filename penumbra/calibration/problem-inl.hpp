@@ -224,6 +224,7 @@ struct Explained {
     double sigma = 0.0, rotation_error = 0.0;
   };
   std::vector<Joint> joints = {};  ///< order of Robot::variables()
+  bool clock_is_untold = false;    ///< the motion is such that another time is another pose
 };
 
 /// Frees causes in turn, the best first, while one explains the residuals of `fit` much better than

@@ -230,25 +230,35 @@ TEST_F(RenderedCalibration, AnOffsetOfAJointIsNamedAndFound) {
 TEST_F(RenderedCalibration, ClocksThatDifferAreNamed) {
   State truth = state;
   truth.time_offset = 0.04;
-  std::vector<CalibrationFrame> frames;
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    for (std::size_t j = 0; j < 4; ++j) frame.joints[j] += (j % 2 == 0 ? 0.3 : -0.3) * turns[i];
-    for (NearbyPoses& poses : frame.nearby) {
-      std::vector<double> then = frame.joints;
-      for (std::size_t j = 0; j < 4; ++j)
-        then[j] += (i + j) % 2 == 0 ? 0.4 * poses.seconds : -0.5 * poses.seconds;
-      robot.forward_kinematics(then, poses.T_root_link);
+  const auto moving = [&](const auto& velocity) {
+    std::vector<CalibrationFrame> frames;
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      for (std::size_t j = 0; j < 4; ++j) frame.joints[j] += (j % 2 == 0 ? 0.3 : -0.3) * turns[i];
+      for (NearbyPoses& poses : frame.nearby) {
+        std::vector<double> then = frame.joints;
+        for (std::size_t j = 0; j < 4; ++j) then[j] += velocity(i, j) * poses.seconds;
+        robot.forward_kinematics(then, poses.T_root_link);
+      }
+      frame.T_root_link = frame.nearby[1].T_root_link;
+      draw(truth);
+      frames.push_back(frame);
+      frames.back().mask = {};
     }
-    frame.T_root_link = frame.nearby[1].T_root_link;
-    draw(truth);
-    frames.push_back(frame);
-    frames.back().mask = {};
-  }
-  const Calibration found =
-      calibrate(frames, camera, robot, {.camera_parent = "", .initial = state.T_parent_camera});
-  EXPECT_TRUE(says(found, "stamps"));
-  EXPECT_LT((found.T_parent_camera.translation() - state.T_parent_camera.translation()).norm(),
-            found.position_error());
+    return calibrate(frames, camera, robot,
+                     {.camera_parent = "", .initial = state.T_parent_camera});
+  };
+  const auto off = [&](const Calibration& found) {
+    return (found.T_parent_camera.translation() - state.T_parent_camera.translation()).norm();
+  };
+  const Calibration both_ways =
+      moving([](std::size_t i, std::size_t j) { return (i + j) % 2 == 0 ? 0.4 : -0.5; });  // rad/s
+  EXPECT_TRUE(says(both_ways, "stamps"));
+  EXPECT_LT(off(both_ways), both_ways.position_error());
+
+  // A turn of the whole arm is to the images a turn of the camera.
+  const Calibration one_way = moving([](std::size_t, std::size_t j) { return j == 0 ? 0.3 : 0.0; });
+  EXPECT_TRUE(says(one_way, "time between images and joint states"));
+  EXPECT_LT(off(one_way), one_way.position_error());
 }
 
 }  // namespace
