@@ -14,7 +14,7 @@
 namespace penumbra::calibration {
 namespace {
 
-// In 480 simulated runs without a fault (bench/calibration_study) no cause reached `named`.
+// In 60 simulated runs without a fault (bench/calibration_study) nothing was named.
 constexpr double named = 4.0;     // sigmas from 0
 constexpr double possible = 2.5;  // the same: the pose's region covers it
 /// A cause must also lower the weighted squares: a sigma of few frames can be small by chance.
