@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calibrates simulated cameras whose pose is known, and counts how far off the results and their
-// stated errors are. Without arguments it writes the table of docs/calibration.md.
+// stated errors are; or calibrates with wrong inputs, and counts what is said of them. Without
+// arguments and with "faults" alone it writes a table of docs/calibration.md.
 // usage: calibration_study [PART OF A SETUP'S NAME [RUNS [PART OF A ROBOT'S NAME]]]
+//        calibration_study faults [RUNS [PART OF A FAULT'S NAME [FIRST SEED]]]
 //        calibration_study real
 #include "simulated_cell.hpp"
 #include "study_page.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -199,6 +202,178 @@ void run_real(const std::filesystem::path& recording, bool masks) {
   print_spread("without any three frames", subsets);
 }
 
+/// What is wrong with a recording of a cell.
+struct Faults {
+  Eigen::Vector2d focal =
+      Eigen::Vector2d::Zero();  ///< fx and fy are too long by this of themselves
+  Setup setup;
+};
+
+RobotChoice ur5e() {
+  const std::filesystem::path folder = data_folder() / "robots/ur5e";
+  RobotChoice choice{"UR5e",
+                     folder / "ur5e.urdf",
+                     robots()[1].options,
+                     "tool0",
+                     {0.0, -1.2, 1.4, -1.0, -1.2, 0.0}};
+  choice.options.packages = {{"ur_description", folder / "ur_description"}};
+  return choice;
+}
+
+constexpr std::array fault_names{
+    "nothing",   "nothing, depth 0.5 % off", "nothing, moving arm", "fx and fy", "fx alone",
+    "one joint", "clocks, moving arm",       "two of these"};
+constexpr std::size_t right_kinds = 3;  // the first of them have no fault
+
+double either_way(sim::Random& random, double least, double most) {
+  return random.uniform(0.0, 1.0) < 0.5 ? -random.uniform(least, most)
+                                        : random.uniform(least, most);
+}
+
+void add_fault(std::size_t kind, std::size_t joints, sim::Random& random, Faults& faults) {
+  if (kind == 3) faults.focal.setConstant(either_way(random, 0.01, 0.05));
+  if (kind == 4) faults.focal.x() = either_way(random, 0.01, 0.05);
+  if (kind == 5) {
+    faults.setup.joint_errors.resize(joints);
+    faults.setup.joint_errors[static_cast<std::size_t>(random.uniform(
+        0.0, static_cast<double>(joints) - 0.001))] = either_way(random, 0.5, 2.0) * degree;
+  }
+  if (kind == 6) faults.setup.late = either_way(random, 0.01, 0.08);
+  if (kind == 2 || kind == 6) faults.setup.speed = random.uniform(0.2, 0.6);
+}
+
+Faults faults_of(std::size_t kind, std::size_t joints, std::uint64_t seed) {
+  sim::Random random(seed, 1000 + kind);
+  Faults faults;
+  if (kind == 1) faults.setup.depth_scale = either_way(random, 0.005, 0.005);
+  if (kind < 7) {
+    add_fault(kind, joints, random, faults);
+    return faults;
+  }
+  const auto first = static_cast<std::size_t>(random.uniform(0.0, 3.999));
+  const auto second = (first + 1 + static_cast<std::size_t>(random.uniform(0.0, 2.999))) % 4;
+  add_fault(right_kinds + first, joints, random, faults);
+  add_fault(right_kinds + second, joints, random, faults);
+  return faults;
+}
+
+bool says(const Calibration& found, const std::string& word) {
+  return std::any_of(found.notes.begin(), found.notes.end(), [&](const std::string& note) {
+    return note.find("contradict") != std::string::npos && note.find(word) != std::string::npos;
+  });
+}
+
+/// What was said of some runs with a fault.
+struct Said {
+  int runs = 0, named = 0, others = 0, refused = 0, wrong = 0, held = 0;
+  int mended_refused = 0, mended_wrong = 0;
+  std::vector<double> position, mended_position, seconds;  // millimetres
+};
+
+constexpr double six_freedoms = 12.592;  // 95 % quantile of chi^2 with as many
+
+void run_faulty(const RobotChoice& robot, std::size_t kind, std::uint64_t seed, Said& said) {
+  const Faults faults = faults_of(kind, robot.centre.size(), seed);
+  Cell cell(robot, faults.setup, seed);
+  const Intrinsics right = Cell::intrinsics();
+  const Intrinsics given(right.width(), right.height(), right.fx() * (1.0 + faults.focal.x()),
+                         right.fy() * (1.0 + faults.focal.y()), right.cx(), right.cy());
+  Eigen::Isometry3d truth = cell.truth();
+  const auto& errors = faults.setup.joint_errors;
+  if (!errors.empty())  // the first joint turns the whole arm: its zero is a matter of definition
+    truth = Eigen::AngleAxisd(errors[0], Eigen::Vector3d::UnitZ()) * truth;
+  const std::vector<CalibrationFrame> frames = cell.frames();
+  CalibrationOptions options{.camera_parent = "", .initial = cell.off(), .seed = seed};
+  const auto start = std::chrono::steady_clock::now();
+  const Calibration found = calibrate(frames, given, cell.robot(), options);
+  said.seconds.push_back(
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+
+  const auto twist_to_truth = [&](const Calibration& from) {
+    const Eigen::Isometry3d error = from.T_parent_camera.inverse() * truth;
+    const Eigen::AngleAxisd turn(error.linear());
+    Eigen::Matrix<double, 6, 1> twist;
+    twist << turn.angle() * turn.axis(), error.translation();
+    return twist;
+  };
+  const auto outside = [&](const Calibration& from) {  // squared, 1: on the region's border
+    const Eigen::Matrix<double, 6, 1> twist = twist_to_truth(from);
+    return twist.dot(from.covariance.ldlt().solve(twist)) / six_freedoms;
+  };
+  constexpr double much = 1.5 * 1.5;
+  bool named = faults.setup.late != 0.0 && says(found, "stamps");
+  named |= faults.focal.x() != 0.0 && says(found, "fx is");
+  for (std::size_t j = 0; j < errors.size(); ++j)
+    named |= errors[j] != 0.0 && says(found, cell.robot().variables()[j] + " ");
+  const bool other = !named && says(found, "");
+  const bool wrong = found.is_good() && !named && outside(found) > much;
+  ++said.runs;
+  said.named += named;
+  said.others += other;
+  said.refused += !found.is_good();
+  said.wrong += wrong;
+  said.held += outside(found) < 1.0;
+  said.position.push_back(1e3 * twist_to_truth(found).tail<3>().norm());
+  if (other || wrong || (kind < right_kinds && !found.is_good())) {
+    std::cout << fault_names.at(kind) << ", " << robot.name << ", seed " << seed << ": focal "
+              << faults.focal.transpose() << ", late " << faults.setup.late << " s, joints";
+    for (const double error : errors) std::cout << ' ' << error / degree;
+    std::cout << ": off by " << said.position.back() << " mm, outside " << outside(found);
+    for (const auto* lines : {&found.notes, &found.faults})
+      for (const std::string& line : *lines) std::cout << "\n  " << line;
+    std::cout << std::endl;
+  }
+  if (!named) return;
+  options.focal = says(found, "--focal");
+  options.joint_offsets = says(found, "--joint-offsets");
+  options.time_offset = says(found, "--time-offset");
+  const Calibration mended = calibrate(frames, given, cell.robot(), options);
+  said.mended_refused += !mended.is_good();
+  if (!mended.is_good()) return;
+  said.mended_wrong += outside(mended) > much;
+  said.mended_position.push_back(1e3 * twist_to_truth(mended).tail<3>().norm());
+}
+
+const std::vector<std::string> fault_heads{"wrong",           "runs",       "named",
+                                           "another named",   "refused",    "wrong, not said",
+                                           "region holds, %", "off by, mm", "mended: refused",
+                                           "outside",         "off by, mm", "seconds"};
+
+std::vector<std::string> row_of(const std::string& name, const Said& said) {
+  return {name,
+          std::to_string(said.runs),
+          std::to_string(said.named),
+          std::to_string(said.others),
+          std::to_string(said.refused),
+          std::to_string(said.wrong),
+          number(100.0 * said.held / std::max(1, said.runs), 0),
+          number(quantile(said.position, 0.5), 1),
+          std::to_string(said.mended_refused),
+          std::to_string(said.mended_wrong),
+          number(quantile(said.mended_position, 0.5), 1),
+          number(quantile(said.seconds, 0.5), 1)};
+}
+
+/// The table of what is said of wrong inputs, by fault; robots take turns.
+int study_faults(std::size_t runs, const std::string& wanted, std::uint64_t first) {
+  std::vector<RobotChoice> all = robots();
+  all.push_back(ur5e());
+  std::vector<std::vector<std::string>> rows{fault_heads};
+  for (std::size_t kind = 0; kind < fault_names.size(); ++kind) {
+    if (std::string(fault_names.at(kind)).find(wanted) == std::string::npos) continue;
+    Said said;
+    for (std::uint64_t seed = first; seed < first + runs * (kind < right_kinds ? 2 : 1); ++seed)
+      run_faulty(all[seed % all.size()], kind, seed, said);
+    rows.push_back(row_of(fault_names.at(kind), said));
+    for (const std::string& cell : rows.back()) std::cout << "| " << cell << ' ';
+    std::cout << '|' << std::endl;
+  }
+  if (wanted.empty())
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md",
+                "calibration_faults", table(rows));
+  return 0;
+}
+
 int study_all(int argc, char** argv) {
   const std::filesystem::path data = data_folder();
   const std::vector<Setup> setups = {{.name = "in the cell, 10 frames"},
@@ -214,6 +389,9 @@ int study_all(int argc, char** argv) {
     run_real(data / "xarm7_realsense", true);
     return 0;
   }
+  if (wanted == "faults")
+    return study_faults(argc > 2 ? std::stoull(argv[2]) : 20, argc > 3 ? argv[3] : "",
+                        argc > 4 ? std::stoull(argv[4]) : 1);
   const std::uint64_t seeds = argc > 2 ? std::stoull(argv[2]) : 30;
   const std::string only = argc > 3 ? argv[3] : "";
   std::vector<std::vector<std::string>> rows{heads}, time_rows{time_heads};

@@ -36,6 +36,8 @@ struct Setup {
   bool wrong_joints = false;  ///< of one frame
   double speed = 0.0;         ///< of the arm's tip, m/s, root mean square; 0: it stands
   double late = 0.0;          ///< seconds from an image's stamp to when it was taken
+  double depth_scale = 0.0;   ///< of the sensor: by how much of itself its depth is too large
+  std::vector<double> joint_errors = {};  ///< of the positions that are reported, rad
 };
 
 struct RobotChoice {
@@ -91,6 +93,7 @@ class Cell {
       draw(frame);
       if (setup_.wrong_joints && frame.index == 4)
         for (double& joint : frame.joints) joint += random_.uniform(0.1, 0.3);
+      frame.joints = reported(std::move(frame.joints));
       frame.T_root_link.resize(robot().links().size());
       robot().forward_kinematics(frame.joints, frame.T_root_link);
       all.push_back(std::move(frame));
@@ -146,7 +149,8 @@ class Cell {
     sensor_.measure(depth, frame.index, measured);
     frame.depth = Image<float>(measured.width(), measured.height());
     for (std::size_t i = 0; i < measured.size(); ++i)
-      frame.depth.data()[i] = metres_of(measured.data()[i]);
+      frame.depth.data()[i] =
+          static_cast<float>(metres_of(measured.data()[i]) * (1.0 + setup_.depth_scale));
   }
 
   /// A first guess: 100 mm and 10 degrees off, in any direction.
@@ -161,6 +165,12 @@ class Cell {
   }
 
  private:
+  [[nodiscard]] std::vector<double> reported(std::vector<double> joints) const {
+    for (std::size_t i = 0; i < setup_.joint_errors.size(); ++i)
+      joints[i] += setup_.joint_errors[i];
+    return joints;
+  }
+
   static sim::DepthNoise noise(const Setup& setup) {
     sim::DepthNoise noise = sim::DepthNoise::d415();
     noise.holes = std::max(noise.holes, setup.missing);
@@ -231,10 +241,10 @@ class Cell {
       const double stamp = 1.7 / pace_ * static_cast<double>(all.size());
       frame.joints = joints_at(stamp + setup_.late);
       draw(frame);
-      frame.joints = joints_at(stamp);
+      frame.joints = reported(joints_at(stamp));
       frame.T_root_link.resize(robot().links().size());
       for (int k = -around; k <= around; ++k) {
-        robot().forward_kinematics(joints_at(stamp + period * k), frame.T_root_link);
+        robot().forward_kinematics(reported(joints_at(stamp + period * k)), frame.T_root_link);
         frame.nearby.push_back({period * k, frame.T_root_link});
       }
       frame.T_root_link = frame.nearby[around].T_root_link;

@@ -70,7 +70,7 @@ Trajectory trajectory_of(const std::vector<OwnedFrame>& motion, const Robot& rob
 Calibration calibrate_frames(const std::vector<OwnedFrame>& frames, const Intrinsics& camera,
                              const Robot& robot, const std::optional<Eigen::Isometry3d>& initial,
                              const std::string& camera_parent,
-                             const std::vector<MaskArgument>& masks, bool joint_offsets,
+                             const std::vector<MaskArgument>& masks, bool focal, bool joint_offsets,
                              const std::vector<OwnedFrame>& motion, std::uint64_t seed) {
   if (!masks.empty() && masks.size() != frames.size())
     throw py::value_error("masks: expected one for each of " + std::to_string(frames.size()) +
@@ -90,6 +90,7 @@ Calibration calibrate_frames(const std::vector<OwnedFrame>& frames, const Intrin
   return calibrate(all, camera, robot,
                    {.camera_parent = camera_parent,
                     .initial = initial,
+                    .focal = focal,
                     .joint_offsets = joint_offsets,
                     .time_offset = !motion.empty(),
                     .seed = seed});
@@ -127,8 +128,11 @@ void bind_calibration(py::module_& m) {
           "shift_right", &C::shift_right,
           "Pixels by which the depth image lies to the right of the colour image; None: no masks."},
       Field{"shift_down", &C::shift_down, "The same, below."},
+      Field{"focal_x", &C::focal_x, "fx is 1 + this of the camera's; None: not asked."},
+      Field{"focal_y", &C::focal_y, "fy is 1 + this of the camera's; None: not asked."},
       Field{"joint_offsets", &C::joint_offsets,
-            "In the order of Robot.variables, rad or m; empty: not asked."},
+            "In the order of Robot.variables, rad or m; empty: not asked. 0: the images do not "
+            "contradict it."},
       Field{"time_offset", &C::time_offset,
             "Seconds to add to an image's stamp before poses are looked up; None: no motion."},
       Field{"frames", &C::frames, "By frame."},
@@ -137,7 +141,8 @@ void bind_calibration(py::module_& m) {
       Field{"mask_overlap", &C::mask_overlap, "Intersection over union with the masks."},
       Field{"faults", &C::faults,
             "Why the pose must not be used and what to record instead; empty: it is good."},
-      Field{"notes", &C::notes, "Frames that were left out."},
+      Field{"notes", &C::notes,
+            "Frames that were left out, and inputs that the images contradict."},
       Field{"advice", &C::advice, "What is known least, and which joints' motion would add most."},
       Field{"is_good", &C::is_good, "Whether there are no faults."},
       Field{"position_error", &C::position_error,
@@ -167,13 +172,16 @@ void bind_calibration(py::module_& m) {
   bind_repr(drift, {"is_known", "has_moved", "position", "position_error"});
   m.def("calibrate", &calibrate_frames, py::arg("frames"), py::arg("camera"), py::arg("robot"),
         py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
-        py::arg("masks") = std::vector<MaskArgument>(), py::arg("joint_offsets") = false,
-        py::arg("motion") = std::vector<OwnedFrame>(), py::arg("seed") = 1,
+        py::arg("masks") = std::vector<MaskArgument>(), py::arg("focal") = false,
+        py::arg("joint_offsets") = false, py::arg("motion") = std::vector<OwnedFrame>(),
+        py::arg("seed") = 1,
         "Estimates a depth camera's pose from the robot that it sees. frames: three or more, with "
         "depth and joints (or T_root_link), between which the robot moves. camera: of images "
         "without distortion. initial: a guess of the camera's pose in its parent link, at most "
         "100 mm and 10 degrees off; None: it is searched for. masks: images that are not 0 where "
-        "the colour image shows the robot. motion: frames with stamps and poses "
+        "the colour image shows the robot. focal: estimate the focal lengths, too. joint_offsets: "
+        "estimate the offsets of joints that the images contradict. motion: frames with stamps and "
+        "poses "
         "that reach 0.1 s before and after each of `frames`, in which the robot moves: the time "
         "offset is estimated, too. Raises InputError for too few frames; any other failure is "
         "Calibration.faults.");

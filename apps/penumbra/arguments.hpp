@@ -67,6 +67,7 @@ struct CalibrateArguments {
   std::filesystem::path output;  ///< empty: nothing is written
   std::optional<std::filesystem::path> initial;
   bool search = false;
+  bool focal = false;
   bool joint_offsets = false;  ///< the time offset is in `input`
 };
 

@@ -35,7 +35,7 @@ std::string joined(const auto& values, int digits, const char* separator) {
   return text;
 }
 
-void print_fit(const Calibration& found, const Robot& robot) {
+void print_fit(const Calibration& found, const Robot& robot, const Intrinsics& camera) {
   std::cout << "position within " << fixed(1e3 * found.position_error(), 1)
             << " mm, rotation within " << fixed(degrees * found.rotation_error(), 2)
             << " degrees (95 %)\n"
@@ -48,6 +48,12 @@ void print_fit(const Calibration& found, const Robot& robot) {
               << plus_minus(*found.shift_right, 1.0, 1) << " px to its right and "
               << plus_minus(*found.shift_down, 1.0, 1) << " px below; overlap with the masks "
               << fixed(100.0 * found.mask_overlap, 1) << " %\n";
+  if (found.focal_x)
+    std::cout << "focal lengths: fx " << plus_minus(*found.focal_x, 100.0, 2) << " %, fy "
+              << plus_minus(*found.focal_y, 100.0, 2) << " % longer: use fx "
+              << fixed(camera.fx() * (1.0 + found.focal_x->value), 2) << ", fy "
+              << fixed(camera.fy() * (1.0 + found.focal_y->value), 2)
+              << " px with this pose (in P too, if the camera_info has it)\n";
   for (std::size_t j = 0; j < found.joint_offsets.size(); ++j)
     std::cout << "  " << robot.variables()[j] << ": "
               << plus_minus(found.joint_offsets[j], degrees, 2) << " degrees\n";
@@ -90,6 +96,7 @@ int execute(const CalibrateArguments& arguments) {
   const Robot& robot = input.input.robot;
   CalibrationOptions options{.camera_parent = input.input.config.camera_parent,
                              .initial = input.input.config.T_parent_camera,
+                             .focal = arguments.focal,
                              .joint_offsets = arguments.joint_offsets,
                              .time_offset = arguments.input.time_offset};
   if (arguments.initial) options.initial = io::read_pose_csv(*arguments.initial);
@@ -114,7 +121,7 @@ int execute(const CalibrateArguments& arguments) {
     for (const std::string& fault : found.faults) why += (why.empty() ? "" : "; ") + fault;
     throw InputError(arguments.input.input.path.string() + ": not calibrated: " + why);
   }
-  print_fit(found, robot);
+  print_fit(found, robot, input.input.camera.intrinsics);
   const std::string parent =
       options.camera_parent.empty() ? robot.links().front() : options.camera_parent;
   print_pose(found, parent, input.input.camera.frame_id);

@@ -248,8 +248,9 @@ void add_calibrate(CLI::App& app, CalibrateArguments& calibrate) {
   add_text(app, "--masks",
            "images that are not 0 where the colour image shows the robot, as mask_%d.png",
            "PATTERN", calibrate.input.masks);
+  app.add_flag("--focal", calibrate.focal, "estimate the focal lengths fx and fy, too");
   app.add_flag("--joint-offsets", calibrate.joint_offsets,
-               "estimate the zero offset of each joint, too");
+               "estimate the zero offset of joints that the images contradict, too");
   app.add_flag("--time-offset", calibrate.input.time_offset,
                "estimate the time between images and poses, too, from frames of a moving arm");
   add_geometry(app, input.geometry, "the recording's, else collision");

@@ -53,6 +53,9 @@ std::string calibration_json(const Calibration& found, const Robot& robot,
                {"outline_px", estimate_json(found.outline)},
                {"frames", std::move(frames)},
                {"link_residuals_m", std::move(links)}};
+  if (found.focal_x)
+    json["focal"] = {{"fx_relative", estimate_json(*found.focal_x)},
+                     {"fy_relative", estimate_json(*found.focal_y)}};
   if (!joints.empty()) json["joint_offsets"] = std::move(joints);
   if (found.time_offset) json["time_offset_s"] = estimate_json(*found.time_offset);
   if (found.shift_right)

@@ -78,7 +78,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   Frame frame;
   CalibrationFrames resting, all;
   Trajectory trajectory;
-  std::map<std::size_t, std::int64_t> stamps;  // of kept frames
+  std::map<std::size_t, std::int64_t> stamps;
   Speed speed;
   std::size_t seen = 0, faulty = 0;
   std::string fault;
@@ -110,13 +110,14 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
     }
     const std::optional<double> now = speed.of(frame, kept.T_root_link);
     const bool rests = !now || *now <= still;
-    if (options.time_offset) {
-      if (!frame.stamp)
-        throw InputError(path.string() + ": has no stamps: a time offset cannot be estimated");
+    const bool will_rest = resting.frames().size() >= CalibrationFrames::least;
+    if (frame.stamp && (options.time_offset || !will_rest)) {
       trajectory.emplace_back(*frame.stamp, kept.T_root_link);
-      if (!now || *now < moving) continue;
       stamps[kept.index] = *frame.stamp;
+    } else if (options.time_offset) {
+      throw InputError(path.string() + ": has no stamps: a time offset cannot be estimated");
     }
+    if (options.time_offset && (!now || *now < moving)) continue;
     if (!all.wants(kept.T_root_link) && !(rests && resting.wants(kept.T_root_link))) continue;
     kept.depth = rectified_copy(lens, metres(frame.depth, input.camera.range));
     if (masks) {
@@ -141,11 +142,12 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   const bool rested = !options.time_offset && resting.frames().size() >= CalibrationFrames::least;
   const auto chosen = (rested ? resting : all).frames();
   result.frames.assign(chosen.begin(), chosen.end());
-  if (options.time_offset) {
+  if (!rested)
     for (CalibrationFrame& kept : result.frames)
-      kept.nearby = nearby_poses(trajectory, stamps.at(kept.index));
+      if (const auto stamp = stamps.find(kept.index); stamp != stamps.end())
+        kept.nearby = nearby_poses(trajectory, stamp->second);
+  if (options.time_offset)
     std::erase_if(result.frames, [](const auto& kept) { return kept.nearby.empty(); });
-  }
   if (!rested && !options.time_offset && resting.frames().size() < chosen.size())
     result.notes.push_back(
         "the arm moves in most frames: joint states that are early or late move the result; let it "

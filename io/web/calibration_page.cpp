@@ -98,6 +98,9 @@ std::string result(const CalibrationOf& of, const Calibration& found) {
     rows.push_back({"depth image right of, below the colour image",
                     plus_minus(*found.shift_right, 1.0, 1) + ", " +
                         plus_minus(*found.shift_down, 1.0, 1) + " px"});
+  if (found.focal_x)
+    rows.push_back({"focal lengths", "fx " + plus_minus(*found.focal_x, 100.0, 2) + " %, fy " +
+                                         plus_minus(*found.focal_y, 100.0, 2) + " % longer"});
   if (found.time_offset)
     rows.push_back({"time offset", plus_minus(*found.time_offset, 1e3, 1) + " ms"});
   for (std::size_t j = 0; j < found.joint_offsets.size(); ++j)

@@ -16,6 +16,9 @@
 namespace penumbra {
 namespace {
 
+using calibration::Cause;
+using calibration::Explained;
+using calibration::FoundCause;
 using calibration::Model;
 using calibration::Observer;
 using calibration::PoseSearch;
@@ -30,6 +33,9 @@ constexpr double least_agreeing = 0.6;    // of the robot's measured pixels
 constexpr double elsewhere = 0.7;         // of the frames' median share that agrees
 constexpr double widest_position = 0.03;  // metres, half axis of the 95 % region
 constexpr double widest_rotation = 0.03;  // rad
+constexpr double untold = 0.02;           // rad, half axis of the 95 % region of the rotation
+/// Of the square of how far another pose is: the 95 % region reaches a little farther.
+constexpr double covering = 1.0 / 6.0;
 
 double moved(std::span<const Eigen::Isometry3d> a, std::span<const Eigen::Isometry3d> b) {
   double most = 0.0;
@@ -51,8 +57,6 @@ using FramePointers = std::vector<const CalibrationFrame*>;
 
 void check_input(std::span<const CalibrationFrame> frames, const Intrinsics& camera,
                  const CalibrationOptions& options) {
-  if (options.time_offset && options.joint_offsets)
-    throw InputError("joint offsets and the time offset are estimated one at a time");
   if (frames.size() < CalibrationFrames::least)
     throw InputError("calibration needs " + std::to_string(CalibrationFrames::least) +
                      " frames or more with different poses of the robot, and has " +
@@ -68,9 +72,6 @@ void check_input(std::span<const CalibrationFrame> frames, const Intrinsics& cam
         (frame.mask.width() != camera.width() || frame.mask.height() != camera.height()))
       throw InputError("frame " + std::to_string(frame.index) +
                        ": its mask is not of the camera's size");
-    if (options.joint_offsets && frame.joints.empty())
-      throw InputError("frame " + std::to_string(frame.index) +
-                       ": has no joint positions (its poses are from TF); leave joint offsets out");
     if (options.time_offset && frame.nearby.empty())
       throw InputError("frame " + std::to_string(frame.index) +
                        ": has no poses before and after it; leave the time offset out");
@@ -91,14 +92,14 @@ class Calibrator {
     unknowns_.has_shift = std::all_of(frames.begin(), frames.end(),
                                       [](const auto& frame) { return !frame.mask.empty(); });
     unknowns_.has_time = options.time_offset;
-    unknowns_.joint_count = options.joint_offsets ? robot.variables().size() : 0;
     for (const CalibrationFrame& frame : frames) used_.push_back(&frame);
   }
 
   Calibration run() {
     Observer observer(model_, camera_, unknowns_);
-    const Refined fit = best_fit(observer);
-    Calibration result = result_of(fit);
+    const Refined fit = freed(observer, best_fit(observer));
+    const Explained explained = calibration::explain(observer, unknowns_, used_, fit);
+    Calibration result = result_of(fit, explained);
     for (const CalibrationFrame& frame : frames_) {
       result.frames.push_back(observer.fit(frame, fit.state));
       result.frames.back().used = std::find(used_.begin(), used_.end(), &frame) != used_.end();
@@ -111,11 +112,63 @@ class Calibrator {
           static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
     }
     judge(result, fit);
-    if (result.is_good()) result.advice = advice(result, observer, fit.state);
+    if (!result.is_good()) return result;
+    const std::string causes = name_causes(result, observer, fit, explained);
+    result.advice = advice(result, observer, fit.state) + untold_joints(explained);
+    check_errors(result, causes);
     return result;
   }
 
  private:
+  /// Estimates the focal lengths and the joints that the images contradict, if asked for.
+  Refined freed(Observer& observer, Refined fit) {
+    if (options_.focal) {
+      unknowns_.focal_count = 2;
+      fit = calibration::refine(observer, unknowns_, used_, fit.state);
+    }
+    if (!options_.joint_offsets) return fit;
+    const Explained explained = calibration::explain(observer, unknowns_, used_, fit);
+    for (const FoundCause& found : explained.causes)
+      if (found.cause.kind == Cause::Kind::joint)
+        unknowns_.variables.push_back(found.cause.variable);
+    return calibration::refine(observer, unknowns_, used_, explained.fit.state);
+  }
+
+  /// Adds a note for each input that the images contradict, and widens the pose's region to what
+  /// the pose is then. Returns the notes' text.
+  std::string name_causes(Calibration& result, Observer& observer, const Refined& fit,
+                          const Explained& explained) const {
+    if (agreement(observer, explained.fit.state) < least_agreeing) return {};
+    std::string text;
+    const auto add = [&](const std::string& cause) {
+      result.notes.push_back("the images contradict the input: " + cause);
+      text += (text.empty() ? "" : "; ") + cause;
+    };
+    for (const FoundCause& found : explained.causes)
+      add(calibration::text_of(found, explained, robot_, camera_));
+    if (explained.clock_is_untold) {
+      result.notes.emplace_back(
+          "the arm moves in one way only, so that the images cannot tell a time between images and "
+          "joint states from another pose: let it stand still, or move there and back");
+      text += (text.empty() ? "" : "; ") + result.notes.back();
+    }
+    for (const Explained::Pose& pose : explained.poses)
+      result.covariance += pose.covariance + covering * pose.motion * pose.motion.transpose();
+    if (const std::string depth = calibration::text_of_depth(explained.fit); !depth.empty()) {
+      add(depth);
+      const calibration::Twist moved =
+          calibration::motion_with_usual_depth(observer, unknowns_, used_, fit.state);
+      result.covariance += covering * moved * moved.transpose();
+    }
+    return text;
+  }
+
+  [[nodiscard]] double agreement(Observer& observer, const State& state) const {
+    double sum = 0.0;
+    for (const CalibrationFrame* frame : used_) sum += observer.fit(*frame, state).agreeing;
+    return sum / static_cast<double>(used_.size());
+  }
+
   Refined best_fit(Observer& observer) {
     FramePointers some;  // spread over all frames
     for (std::size_t i = 0; i < std::min(searched, used_.size()); ++i)
@@ -146,8 +199,7 @@ class Calibrator {
     constexpr std::array offsets{0.0, -0.08, -0.04, 0.04, 0.08};  // seconds
     std::vector<State> starts;
     for (const Eigen::Isometry3d& pose : poses) {
-      State best{.T_parent_camera = pose,
-                 .joint_offsets = std::vector<double>(unknowns_.joint_count)};
+      State best{.T_parent_camera = pose, .joint_offsets = {}};
       double best_score = search.score(best);
       for (const double offset : offsets) {
         State other = best;
@@ -178,7 +230,7 @@ class Calibrator {
     return true;
   }
 
-  [[nodiscard]] Calibration result_of(const Refined& fit) const {
+  [[nodiscard]] Calibration result_of(const Refined& fit, const Explained& explained) const {
     Calibration result;
     result.T_parent_camera = fit.state.T_parent_camera;
     result.covariance = fit.covariance.topLeftCorner<6, 6>();
@@ -189,9 +241,17 @@ class Calibrator {
       result.shift_right = estimate(fit.state.depth_shift.x(), fit, Unknowns::shift);
       result.shift_down = estimate(fit.state.depth_shift.y(), fit, Unknowns::shift + 1);
     }
-    for (std::size_t j = 0; j < unknowns_.joint_count; ++j)
-      result.joint_offsets.push_back(
-          estimate(fit.state.joint_offsets[j], fit, unknowns_.joints() + static_cast<int>(j)));
+    if (options_.focal) {
+      result.focal_x = estimate(fit.state.focal.x(), fit, unknowns_.focal());
+      result.focal_y = estimate(fit.state.focal.y(), fit, unknowns_.focal() + 1);
+    }
+    if (options_.joint_offsets)
+      for (const Explained::Joint& joint : explained.joints)
+        result.joint_offsets.push_back({.value = 0.0, .sigma = joint.sigma});
+    for (std::size_t j = 0; j < unknowns_.variables.size(); ++j)
+      result.joint_offsets.at(unknowns_.variables[j]) =
+          estimate(fit.state.joint_offsets.at(unknowns_.variables[j]), fit,
+                   unknowns_.joints() + static_cast<int>(j));
     if (unknowns_.has_time)
       result.time_offset = estimate(fit.state.time_offset, fit, unknowns_.time());
     result.link_residuals = fit.link_residuals;
@@ -215,6 +275,17 @@ class Calibrator {
     if (joints.size() < 2) return text;
     return text + "; more poses in which " + joints[0] + " and " + joints[1] +
            " turn would add most";
+  }
+
+  /// Names joints, as the first of an arm before a fixed camera, whose offset is to the images the
+  /// same as another pose.
+  [[nodiscard]] std::string untold_joints(const Explained& explained) const {
+    std::string names;
+    for (std::size_t j = 0; j < explained.joints.size(); ++j)
+      if (explained.joints[j].rotation_error > untold)
+        names += (names.empty() ? "" : ", ") + robot_.variables()[j];
+    return names.empty() ? names
+                         : "; the images cannot tell an offset of " + names + " from another pose";
   }
 
   [[nodiscard]] std::vector<std::string> telling_joints(Observer& observer, const State& state,
@@ -259,14 +330,20 @@ class Calibrator {
       result.faults.push_back(
           "only " + number(100.0 * agreeing, 0) +
           " % of the robot's pixels show it at its depth: the robot is not in view, the URDF is "
-          "not this robot's, the joints are of other times, or the first guess is too far off");
-      return;
+          "not this robot's, the joints are of other times, or " +
+          (options_.initial ? "the first guess is too far off (--search does without)"
+                            : "the search found no better pose"));
     }
-    if (result.position_error() > widest_position || result.rotation_error() > widest_rotation)
-      result.faults.push_back("the pose is known to " + number(1e3 * result.position_error(), 0) +
-                              " mm and " +
-                              number(result.rotation_error() * 180.0 / 3.14159265358979, 1) +
-                              " degrees only: record more poses of the robot");
+  }
+
+  /// Refuses a pose that is not known well enough.
+  static void check_errors(Calibration& result, const std::string& causes) {
+    if (result.position_error() <= widest_position && result.rotation_error() <= widest_rotation)
+      return;
+    result.faults.push_back(
+        "the pose is known to " + number(1e3 * result.position_error(), 0) + " mm and " +
+        number(result.rotation_error() * 180.0 / 3.14159265358979, 1) + " degrees only: " +
+        (causes.empty() ? "record more poses of the robot; " + result.advice : causes));
   }
 
   std::span<const CalibrationFrame> frames_;

@@ -39,7 +39,8 @@ struct CalibrationFrame {
   Image<std::uint8_t> mask;    ///< not 0 where the colour image shows the robot; empty: not known
   std::vector<double> joints;  ///< order of Robot::variables(); empty if the poses are from TF
   std::vector<Eigen::Isometry3d> T_root_link;
-  /// In time's order, this frame's own among them; only for CalibrationOptions::time_offset.
+  /// In time's order, this frame's own among them; empty: not known. Tells whether the poses are of
+  /// another time, and is needed for CalibrationOptions::time_offset.
   std::vector<NearbyPoses> nearby;
 };
 
@@ -47,8 +48,9 @@ struct CalibrationOptions {
   std::string camera_parent;  ///< link that carries the camera; empty: the root
   /// The camera's pose in that link, at most 100 mm and 10 degrees off; null: it is searched for.
   std::optional<Eigen::Isometry3d> initial;
-  bool joint_offsets = false;  ///< estimate the zero offsets of the joints, too
-  bool time_offset = false;    ///< estimate the time between images and poses, too; not with joints
+  bool focal = false;          ///< estimate the focal lengths, too
+  bool joint_offsets = false;  ///< estimate the zero offsets of joints that the images contradict
+  bool time_offset = false;    ///< estimate the time between images and poses, too
   std::uint64_t seed = 1;      ///< of the poses that are tried
 };
 
@@ -73,7 +75,7 @@ struct Estimate {
 struct Calibration {
   Eigen::Isometry3d T_parent_camera;
   /// Of T_parent_camera, the larger of two: from the residuals' correlation, and from what the pose
-  /// is without each frame in turn.
+  /// is without each frame in turn. It covers the pose that each cause in `notes` gives.
   PoseCovariance covariance;
   Estimate depth_offset;  ///< metres: measured = true (1 + depth_scale) + depth_offset
   Estimate depth_scale;
@@ -81,7 +83,11 @@ struct Calibration {
   /// Pixels by which the depth image lies to the right of and below the colour image; only with
   /// masks, and then the pose is that of the colour image.
   std::optional<Estimate> shift_right, shift_down;
-  std::vector<Estimate> joint_offsets;  ///< order of Robot::variables(), rad or m; empty: not asked
+  /// Relative: fx and fy are 1 + this of the camera's; only with CalibrationOptions::focal.
+  std::optional<Estimate> focal_x, focal_y;
+  /// Order of Robot::variables(), rad or m; empty: not asked. Those that the images do not
+  /// contradict stay 0.
+  std::vector<Estimate> joint_offsets;
   /// Seconds to add to an image's stamp before poses are looked up.
   std::optional<Estimate> time_offset;
   std::vector<FrameFit> frames;
@@ -90,8 +96,10 @@ struct Calibration {
 
   /// Why the pose must not be used and what to record instead, a line each; empty: it is good.
   std::vector<std::string> faults;
-  std::vector<std::string> notes;  ///< frames that were left out
-  std::string advice;              ///< what is known least, and which joints' motion would add most
+  /// Frames that were left out, and inputs that the images contradict, with the amount: a focal
+  /// length, a joint's zero, the time of the poses, the sensor's depth.
+  std::vector<std::string> notes;
+  std::string advice;  ///< what is known least, and which joints' motion would add most
 
   [[nodiscard]] bool is_good() const { return faults.empty(); }
   /// Half of the longest axis of the 95 % ellipsoid of the camera's position (m) and rotation

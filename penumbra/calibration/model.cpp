@@ -16,6 +16,13 @@ Eigen::Isometry3d motion(const Twist& twist) {
   return T;
 }
 
+Twist twist_of(const Eigen::Isometry3d& motion) {
+  const Eigen::AngleAxisd turn(motion.linear());
+  Twist twist;
+  twist << turn.angle() * turn.axis(), motion.translation();
+  return twist;
+}
+
 double longest_axis(const Eigen::Matrix3d& covariance) {
   constexpr double chi = 2.7955;  // square root of the 95 % quantile of chi^2 with 3 degrees
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
@@ -30,30 +37,36 @@ void Unknowns::step(State& state, const Eigen::VectorXd& by) const {
   state.depth_scale += by[depth_scale];
   state.outline += by[outline];
   if (has_shift) state.depth_shift += by.segment<2>(shift);
-  for (std::size_t j = 0; j < joint_count; ++j)
-    state.joint_offsets[j] += by[joints() + static_cast<int>(j)];
+  if (focal_count > 0) state.focal += Eigen::Vector2d(by[focal()], by[joints() - 1]);
+  for (std::size_t j = 0; j < variables.size(); ++j)
+    state.joint_offsets.at(variables[j]) += by[joints() + static_cast<int>(j)];
   if (has_time) state.time_offset += by[time()];
 }
 
 Eigen::VectorXd Unknowns::values(const State& state) const {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(size());
-  all[depth_offset] = state.depth_offset;
-  all[depth_scale] = state.depth_scale;
+  if (!holds_depth) {
+    all[depth_offset] = state.depth_offset;
+    all[depth_scale] = state.depth_scale;
+  }
   all[outline] = state.outline;
   if (has_shift) all.segment<2>(shift) = state.depth_shift;
-  for (std::size_t j = 0; j < joint_count; ++j)
-    all[joints() + static_cast<int>(j)] = state.joint_offsets[j];
+  for (int i = 0; i < focal_count; ++i) all[focal() + i] = state.focal[i];
+  for (std::size_t j = 0; j < variables.size(); ++j)
+    all[joints() + static_cast<int>(j)] = state.joint_offsets.at(variables[j]);
   if (has_time) all[time()] = state.time_offset;
   return all;
 }
 
 Eigen::VectorXd Unknowns::prior_sigmas() const {
   Eigen::VectorXd sigmas = Eigen::VectorXd::Constant(size(), 0.02);  // joints: rad or m
-  sigmas.head<6>().setConstant(std::numeric_limits<double>::infinity());
-  sigmas[depth_offset] = 0.005;
-  sigmas[depth_scale] = 0.005;
+  constexpr double held = 1e-9;  // far below what any measurement tells
+  sigmas.head<6>().setConstant(holds_pose ? held : std::numeric_limits<double>::infinity());
+  sigmas[depth_offset] = holds_depth ? held : 0.005;
+  sigmas[depth_scale] = holds_depth ? held : 0.005;
   sigmas[outline] = 10.0;
   if (has_shift) sigmas.segment<2>(shift).setConstant(10.0);
+  sigmas.segment(focal(), focal_count).setConstant(0.1);
   if (has_time) sigmas[time()] = 0.1;
   return sigmas;
 }
@@ -79,6 +92,22 @@ std::vector<Eigen::Isometry3d> poses_at(std::span<const NearbyPoses> nearby, dou
   return poses;
 }
 
+/// Turns or moves joints by offsets, in their order in Robot::variables(), rad or m. Planar and
+/// floating joints stay.
+void move_joints(const Robot& robot, std::span<const double> offsets,
+                 std::vector<Eigen::Isometry3d>& T_root_link) {
+  const std::vector<Eigen::Isometry3d> before = T_root_link;
+  for (const Joint& joint : robot.joints()) {
+    Eigen::Isometry3d T_parent_child = before[joint.parent].inverse() * before[joint.child];
+    const double by = joint.variable ? joint.multiplier * offsets[*joint.variable] : 0.0;
+    if (joint.type == JointType::revolute || joint.type == JointType::continuous)
+      T_parent_child.rotate(Eigen::AngleAxisd(by, joint.axis));
+    else if (joint.type == JointType::prismatic)
+      T_parent_child.translate(by * joint.axis);
+    T_root_link[joint.child] = T_root_link[joint.parent] * T_parent_child;
+  }
+}
+
 }  // namespace
 
 std::vector<Eigen::Isometry3d> Model::T_camera_link(const CalibrationFrame& frame,
@@ -86,11 +115,7 @@ std::vector<Eigen::Isometry3d> Model::T_camera_link(const CalibrationFrame& fram
   std::vector<Eigen::Isometry3d> poses = state.time_offset == 0.0 || frame.nearby.empty()
                                              ? frame.T_root_link
                                              : poses_at(frame.nearby, state.time_offset);
-  if (!state.joint_offsets.empty()) {
-    std::vector<double> joints = frame.joints;
-    for (std::size_t j = 0; j < joints.size(); ++j) joints[j] += state.joint_offsets[j];
-    robot_.forward_kinematics(joints, poses);
-  }
+  if (!state.joint_offsets.empty()) move_joints(robot_, state.joint_offsets, poses);
   const Eigen::Isometry3d T_camera_root = (poses[parent_] * state.T_parent_camera).inverse();
   for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
   return poses;
@@ -107,12 +132,8 @@ std::vector<std::vector<Twist>> Model::link_twists(const CalibrationFrame& frame
     unknowns.step(moved, step * Eigen::VectorXd::Unit(unknowns.size(), i));
     const std::vector<Eigen::Isometry3d> then = T_camera_link(frame, moved);
     twists.emplace_back();
-    for (std::size_t link = 0; link < at.size(); ++link) {
-      const Eigen::Isometry3d T = then[link] * at[link].inverse();
-      const Eigen::AngleAxisd turn(T.linear());
-      twists.back().emplace_back();
-      twists.back().back() << turn.angle() * turn.axis() / step, T.translation() / step;
-    }
+    for (std::size_t link = 0; link < at.size(); ++link)
+      twists.back().push_back(twist_of(then[link] * at[link].inverse()) / step);
   }
   return twists;
 }

@@ -56,6 +56,7 @@ struct Observer::View {
 
 Observer::Observer(const Model& model, const Intrinsics& camera, const Unknowns& unknowns)
     : model_(model),
+      nominal_(camera),
       camera_(camera),
       unknowns_(unknowns),
       stride_(std::max(1, (camera.width() + columns / 2) / columns)),
@@ -63,6 +64,13 @@ Observer::Observer(const Model& model, const Intrinsics& camera, const Unknowns&
       renderer_(make_depth_renderer(Backend::cpu, camera, bodies_of(model.robot()))) {}
 
 VirtualDepthView Observer::render(const CalibrationFrame& frame, const State& state) {
+  const Intrinsics scaled(nominal_.width(), nominal_.height(),
+                          nominal_.fx() * (1.0 + state.focal.x()),
+                          nominal_.fy() * (1.0 + state.focal.y()), nominal_.cx(), nominal_.cy());
+  if (scaled != camera_) {
+    camera_ = scaled;
+    renderer_ = make_depth_renderer(Backend::cpu, camera_, bodies_of(model_.robot()));
+  }
   return renderer_->render(model_.T_camera_link(frame, state));
 }
 
@@ -78,13 +86,16 @@ void Observer::observe(const CalibrationFrame& frame, std::size_t number, const 
 }
 
 /// `gradient` is the residual's derivative by a motion of its link in the camera's frame. The
-/// camera moves by the opposite.
+/// camera moves by the opposite. `by_focal` is that by the focal lengths' relative change.
 void Observer::add_row(const View& view, const Residual& residual, const Twist& gradient,
-                       Residuals& out) const {
+                       const Eigen::Vector2d& by_focal, Residuals& out) const {
   out.list.push_back(residual);
   out.rows.resize(out.rows.size() + static_cast<std::size_t>(unknowns_.size()), 0.0);
   double* const row = out.rows.data() + out.rows.size() - unknowns_.size();
   for (int i = 0; i < 6; ++i) row[i] = -gradient[i];
+  const Eigen::Vector2d by_change = by_focal.array() / (1.0 + view.state.focal.array());
+  if (unknowns_.focal_count == 1) row[unknowns_.focal()] = by_change.sum();
+  if (unknowns_.focal_count == 2) Eigen::Map<Eigen::Vector2d>(row + unknowns_.focal()) = by_change;
   for (int i = unknowns_.joints(); i < unknowns_.size(); ++i)
     row[i] = gradient.dot(
         view.link_twists[static_cast<std::size_t>(i - unknowns_.joints())][residual.link]);
@@ -125,7 +136,7 @@ void Observer::add_surface(const View& view, const Reach& reach, Residuals& out)
                .link = static_cast<std::uint16_t>(links(u, v) - 1),
                .frame = view.number,
                .value = (measured - expected) * along + view.rest().dot(sideways)},
-              gradient, out);
+              gradient, -measured * normal.head<2>().cwiseProduct(ray.head<2>()), out);
       double* const row = out.rows.data() + out.rows.size() - unknowns_.size();
       row[Unknowns::depth_offset] = -along;
       row[Unknowns::depth_scale] = -measured * along;
@@ -198,13 +209,15 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
       const Eigen::Vector3d by_point = -(normal.transpose() * projection).transpose();
       Twist gradient;
       gradient << p.cross(by_point), by_point;
+      const Eigen::Vector2d by_focal =
+          -normal.cwiseProduct(Eigen::Vector2d(u - camera_.cx(), v - camera_.cy()));
       const auto add = [&](Kind kind, double value) {
         add_row(view,
                 {.kind = kind,
                  .link = static_cast<std::uint16_t>(view.robot.links(u, v) - 1),
                  .frame = view.number,
                  .value = value},
-                gradient, out);
+                gradient, by_focal, out);
         return out.rows.data() + out.rows.size() - unknowns_.size();
       };
       if (const auto step = step_of(depth_at, static_cast<int>(reach.pixels))) {

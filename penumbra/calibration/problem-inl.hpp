@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -20,6 +21,7 @@ using Twist = Eigen::Matrix<double, 6, 1>;  ///< rotation vector (rad), then tra
 
 /// Returns the small motion.
 [[nodiscard]] Eigen::Isometry3d motion(const Twist& twist);
+[[nodiscard]] Twist twist_of(const Eigen::Isometry3d& motion);
 
 /// Returns half of the longest axis of the 95 % ellipsoid.
 [[nodiscard]] double longest_axis(const Eigen::Matrix3d& covariance);
@@ -31,8 +33,9 @@ struct State {
   double depth_scale = 0.0;
   double outline = 0.0;                                   ///< pixels
   Eigen::Vector2d depth_shift = Eigen::Vector2d::Zero();  ///< pixels, of depth against the masks
-  std::vector<double> joint_offsets;                      ///< empty: not estimated
-  double time_offset = 0.0;                               ///< seconds from an image to its poses
+  Eigen::Vector2d focal = Eigen::Vector2d::Zero();  ///< fx and fy are 1 + this of the camera's
+  std::vector<double> joint_offsets;                ///< of Robot::variables(); empty: all are 0
+  double time_offset = 0.0;                         ///< seconds from an image to its poses
 
   /// Returns the true depth where the sensor measures `depth`.
   [[nodiscard]] float corrected(float depth) const {
@@ -41,20 +44,26 @@ struct State {
 };
 
 /// The order of the unknowns in a step: the camera's motion in its own frame, depth offset, depth
-/// scale, outline, then the depth's shift, the joints' offsets and the time offset where they are
-/// estimated.
+/// scale, outline, then the depth's shift, the focal lengths, the joints' offsets and the time
+/// offset where they are estimated.
 struct Unknowns {
   static constexpr int pose = 0, depth_offset = 6, depth_scale = 7, outline = 8, shift = 9;
   bool has_shift = false;
-  std::size_t joint_count = 0;
+  int focal_count = 0;                      ///< 1: fx and fy by the same factor; 2: each by its own
+  std::vector<std::size_t> variables = {};  ///< Robot::variables() whose offsets are estimated
   bool has_time = false;
+  bool holds_pose = false;   ///< the pose stays as it is
+  bool holds_depth = false;  ///< depth offset and scale stay as they are
 
-  [[nodiscard]] int joints() const { return has_shift ? shift + 2 : shift; }
-  [[nodiscard]] int time() const { return joints() + static_cast<int>(joint_count); }
+  [[nodiscard]] int focal() const { return has_shift ? shift + 2 : shift; }
+  [[nodiscard]] int joints() const { return focal() + focal_count; }
+  [[nodiscard]] int time() const { return joints() + static_cast<int>(variables.size()); }
   [[nodiscard]] int size() const { return time() + (has_time ? 1 : 0); }
   void step(State& state, const Eigen::VectorXd& by) const;
-  [[nodiscard]] Eigen::VectorXd values(const State& state) const;  ///< 0 for the pose
-  /// Standard deviations of what is expected before anything is measured; infinite for the pose.
+  /// Of those with an expectation of 0; 0 for the pose and for what is held.
+  [[nodiscard]] Eigen::VectorXd values(const State& state) const;
+  /// Standard deviations of what is expected before anything is measured; infinite for the pose,
+  /// next to nothing for what is held.
   [[nodiscard]] Eigen::VectorXd prior_sigmas() const;
 };
 
@@ -121,22 +130,56 @@ class Observer {
   void overlap(const CalibrationFrame& frame, const State& state, std::size_t& both,
                std::size_t& either);
   [[nodiscard]] const Model& model() const { return model_; }
+  /// What observe() estimates from now on.
+  void set_unknowns(const Unknowns& unknowns) { unknowns_ = unknowns; }
 
  private:
   struct View;  // one frame at one state
   void add_surface(const View& view, const Reach& reach, Residuals& out) const;
   void add_outlines(const View& view, const Reach& reach, Residuals& out) const;
   void add_row(const View& view, const Residual& residual, const Twist& gradient,
-               Residuals& out) const;
+               const Eigen::Vector2d& by_focal, Residuals& out) const;
   [[nodiscard]] VirtualDepthView render(const CalibrationFrame& frame, const State& state);
 
   const Model& model_;
-  Intrinsics camera_;
+  Intrinsics nominal_, camera_;  // camera_: with State::focal, that of renderer_
   Unknowns unknowns_;
   int stride_;
   int margin_;  // pixels from the outline inside which depth is not compared
   std::unique_ptr<DepthRenderer> renderer_;
 };
+
+/// Normal equations of the residuals that are wrong together.
+struct Part {
+  Eigen::MatrixXd information;
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd steps;  ///< the gradient, by kind, if all were off by the step of their unit
+
+  Part& operator+=(const Part& other);
+};
+
+/// The normal equations of frames at one state.
+struct Equations {
+  std::vector<Part> parts;         ///< by frame, then link; empty: nothing seen
+  std::vector<std::size_t> views;  ///< of each part: which are wrong together
+  std::size_t links = 0;
+  Eigen::MatrixXd information;  ///< of all, with what is expected of the unknowns
+  Eigen::VectorXd gradient;     ///< likewise
+  Eigen::VectorXd prior;        ///< inverse squares of Unknowns::prior_sigmas()
+
+  /// The equations if only these unknowns are estimated.
+  [[nodiscard]] Equations of(const std::vector<int>& chosen) const;
+  /// Returns the step to where the residuals are least, to first order.
+  [[nodiscard]] Eigen::VectorXd step() const { return -information.ldlt().solve(gradient); }
+  /// Returns the equations after a step, to first order.
+  [[nodiscard]] Equations after(const Eigen::VectorXd& step) const;
+  /// Returns the unknowns' covariance, where the gradient is 0.
+  [[nodiscard]] Eigen::MatrixXd covariance() const;
+};
+
+[[nodiscard]] Equations equations_at(Observer& observer, const Unknowns& unknowns,
+                                     std::span<const CalibrationFrame* const> frames,
+                                     const State& state);
 
 /// The result of refine().
 struct Refined {
@@ -148,6 +191,56 @@ struct Refined {
 /// Robust least squares from `start`, whose pose is a few centimetres and degrees off at most.
 [[nodiscard]] Refined refine(Observer& observer, const Unknowns& unknowns,
                              std::span<const CalibrationFrame* const> frames, State start);
+
+/// An input that may be wrong.
+struct Cause {
+  enum class Kind : std::uint8_t { focal, joint, clock };
+  Kind kind = Kind::focal;
+  std::size_t variable = 0;  ///< of Robot::variables(); only of a joint
+
+  bool operator==(const Cause&) const = default;
+};
+
+/// A cause that explains the residuals much better than the inputs do.
+struct FoundCause {
+  Cause cause;
+  std::vector<Cause> or_else;  ///< that explain them as well
+};
+
+/// What explains the residuals of a fit.
+struct Explained {
+  /// Where the camera is if a cause is true, from the fit's pose.
+  struct Pose {
+    Twist motion;
+    PoseCovariance covariance;
+  };
+  Unknowns unknowns;  ///< those of the fit and the causes
+  Refined fit;        ///< with them
+  std::vector<FoundCause> causes = {};
+  std::vector<Pose> poses = {};  ///< of the causes, and of one that chance may explain
+  /// What would be known of an offset of a joint if it was estimated, too, and then of the camera's
+  /// rotation (half axis of the 95 % region); rad or m.
+  struct Joint {
+    double sigma = 0.0, rotation_error = 0.0;
+  };
+  std::vector<Joint> joints = {};  ///< order of Robot::variables()
+  bool clock_is_untold = false;    ///< the motion is such that another time is another pose
+};
+
+/// Frees causes in turn, the best first, while one explains the residuals of `fit` much better than
+/// zero does.
+[[nodiscard]] Explained explain(Observer& observer, const Unknowns& own,
+                                std::span<const CalibrationFrame* const> frames,
+                                const Refined& fit);
+/// Returns a clause that names what was found, with its amount.
+[[nodiscard]] std::string text_of(const FoundCause& found, const Explained& explained,
+                                  const Robot& robot, const Intrinsics& camera);
+/// Names a depth offset or scale beyond what sensors have; empty: it is not.
+[[nodiscard]] std::string text_of_depth(const Refined& fit);
+/// Returns how the camera moves if the depth is within what sensors have.
+[[nodiscard]] Twist motion_with_usual_depth(Observer& observer, const Unknowns& own,
+                                            std::span<const CalibrationFrame* const> frames,
+                                            const State& state);
 
 /// Rates camera poses on small images: agreement of measured and virtual depth, against what was
 /// measured behind the robot's surface and what moved and is not the robot.

@@ -30,26 +30,6 @@ constexpr double same_view = 0.01;  // metres that a link moves in the camera, a
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// Normal equations of some residuals.
-struct Part {
-  Matrix information;
-  Vector gradient;
-  Matrix steps;  // the gradient, by kind, if all residuals were off by the step of their unit
-
-  Part& operator+=(const Part& other) {
-    information += other.information;
-    gradient += other.gradient;
-    steps += other.steps;
-    return *this;
-  }
-};
-
-struct Equations {
-  std::vector<Part> parts;  // by frame, then link; empty: nothing seen
-  Matrix information;       // of all
-  Vector gradient;
-};
-
 /// What is wrong together, by frame, then link: a view of a link, which its mesh, its joint and the
 /// sensor's error there put out of place, and every later frame with the same view.
 std::vector<std::size_t> views_of(const Model& model,
@@ -117,8 +97,9 @@ double correlation(const std::vector<std::array<Sum, kinds>>& sums, std::size_t 
 
 /// Weighs residuals as generalised least squares does where those of a view are correlated: many
 /// in one view count little more than a few.
-Equations equations_of(const Residuals& residuals, int size, const std::vector<std::size_t>& views,
-                       std::size_t links) {
+Equations equations_of(const Residuals& residuals, const Unknowns& unknowns, const State& state,
+                       const std::vector<std::size_t>& views, std::size_t links) {
+  const int size = unknowns.size();
   const std::array<double, kinds> sigmas = sigmas_of(residuals);
   std::vector<std::array<Sum, kinds>> sums(views.size());
   std::vector<double> weights(residuals.list.size());
@@ -136,10 +117,14 @@ Equations equations_of(const Residuals& residuals, int size, const std::vector<s
   std::array<double, kinds> correlations{};
   for (std::size_t k = 0; k < kinds; ++k) correlations[k] = correlation(sums, k);
 
-  Equations all;
-  all.information = Matrix::Zero(size, size);
-  all.gradient = Vector::Zero(size);
-  all.parts.resize(views.size());
+  Equations all{.parts = std::vector<Part>(views.size()),
+                .views = views,
+                .links = links,
+                .information = {},
+                .gradient = {},
+                .prior = unknowns.prior_sigmas().array().square().inverse().matrix()};
+  all.information = all.prior.asDiagonal();
+  all.gradient = all.prior.cwiseProduct(unknowns.values(state));
   for (std::size_t i = 0; i < weights.size(); ++i) {
     if (weights[i] == 0.0) continue;
     const Residual& residual = residuals.list[i];
@@ -166,9 +151,8 @@ Equations equations_of(const Residuals& residuals, int size, const std::vector<s
 
 /// The covariance by the jackknife (Efron 1982): how far the solution moves without each group of
 /// parts, in one step from all of them. `groups` names each part's.
-Matrix jackknife(const Equations& equations, const Vector& prior,
-                 const std::vector<std::size_t>& groups) {
-  const Matrix information = equations.information + Matrix(prior.asDiagonal());
+Matrix jackknife(const Equations& equations, const std::vector<std::size_t>& groups) {
+  const Matrix& information = equations.information;
   std::map<std::size_t, Part> left_out;
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const Part& part = equations.parts[i];
@@ -176,7 +160,7 @@ Matrix jackknife(const Equations& equations, const Vector& prior,
     const auto [at, is_new] = left_out.try_emplace(groups[i], part);
     if (!is_new) at->second += part;
   }
-  Matrix unseen = prior.asDiagonal();
+  Matrix unseen = equations.prior.asDiagonal();
   for (const auto& [group, part] : left_out) unseen += part.steps * part.steps.transpose();
   const Matrix inverse = information.inverse();
   Matrix covariance = inverse * unseen * inverse;
@@ -186,22 +170,6 @@ Matrix jackknife(const Equations& equations, const Vector& prior,
     covariance += (count - 1.0) / count * moved * moved.transpose();
   }
   return covariance;
-}
-
-/// The larger, in each unknown, of leaving out views and of leaving out frames. With few frames it
-/// is wider, as the variance of Student's t is with as many degrees of freedom.
-Matrix covariance_of(const Equations& equations, const Vector& prior,
-                     const std::vector<std::size_t>& views, std::size_t links) {
-  std::vector<std::size_t> frames;
-  for (std::size_t i = 0; i < views.size(); ++i) frames.push_back(i / links);
-  const Matrix by_view = jackknife(equations, prior, views);
-  const Vector scale =
-      (jackknife(equations, prior, frames).diagonal().array() / by_view.diagonal().array())
-          .max(1.0)
-          .sqrt()
-          .matrix();
-  const auto freedoms = static_cast<double>(views.size()) / static_cast<double>(links);
-  return freedoms / (freedoms - 2.0) * scale.asDiagonal() * by_view * scale.asDiagonal();
 }
 
 std::vector<double> medians_by_link(const Residuals& residuals, std::size_t links) {
@@ -218,27 +186,77 @@ std::vector<double> medians_by_link(const Residuals& residuals, std::size_t link
   return medians;
 }
 
+Residuals residuals_at(Observer& observer, std::span<const CalibrationFrame* const> frames,
+                       const State& state, const Reach& reach) {
+  Residuals residuals;
+  for (std::size_t k = 0; k < frames.size(); ++k)
+    observer.observe(*frames[k], k, state, reach, residuals);
+  return residuals;
+}
+
 }  // namespace
+
+Part& Part::operator+=(const Part& other) {
+  information += other.information;
+  gradient += other.gradient;
+  steps += other.steps;
+  return *this;
+}
+
+Equations Equations::of(const std::vector<int>& chosen) const {
+  Equations some = *this;
+  some.information = information(chosen, chosen);
+  some.gradient = gradient(chosen);
+  some.prior = prior(chosen);
+  for (Part& part : some.parts)
+    if (part.information.size() > 0)
+      part = {part.information(chosen, chosen), part.gradient(chosen),
+              part.steps(chosen, Eigen::all)};
+  return some;
+}
+
+Equations Equations::after(const Vector& step) const {
+  Equations there = *this;
+  there.gradient += information * step;
+  for (Part& part : there.parts)
+    if (part.information.size() > 0) part.gradient += part.information * step;
+  return there;
+}
+
+/// The larger, in each unknown, of leaving out views and of leaving out frames. With few frames it
+/// is wider, as the variance of Student's t is with as many degrees of freedom.
+Matrix Equations::covariance() const {
+  std::vector<std::size_t> frames;
+  for (std::size_t i = 0; i < views.size(); ++i) frames.push_back(i / links);
+  const Matrix by_view = jackknife(*this, views);
+  const Vector scale = (jackknife(*this, frames).diagonal().array() / by_view.diagonal().array())
+                           .max(1.0)
+                           .sqrt()
+                           .matrix();
+  const auto freedoms = static_cast<double>(views.size()) / static_cast<double>(links);
+  return freedoms / (freedoms - 2.0) * scale.asDiagonal() * by_view * scale.asDiagonal();
+}
+
+Equations equations_at(Observer& observer, const Unknowns& unknowns,
+                       std::span<const CalibrationFrame* const> frames, const State& state) {
+  observer.set_unknowns(unknowns);
+  return equations_of(residuals_at(observer, frames, state, last_reach), unknowns, state,
+                      views_of(observer.model(), frames), observer.model().robot().links().size());
+}
 
 Refined refine(Observer& observer, const Unknowns& unknowns,
                std::span<const CalibrationFrame* const> frames, State start) {
   const std::size_t links = observer.model().robot().links().size();
   const std::vector<std::size_t> views = views_of(observer.model(), frames);
-  const Vector prior = unknowns.prior_sigmas().array().square().inverse().matrix();
+  observer.set_unknowns(unknowns);
   Refined result{.state = std::move(start), .covariance = {}, .link_residuals = {}};
   Reach reach = first_reach;
   Residuals residuals;
   Equations equations;
   for (int round = 0; round < most_rounds; ++round) {
-    residuals.list.clear();
-    residuals.rows.clear();
-    for (std::size_t k = 0; k < frames.size(); ++k)
-      observer.observe(*frames[k], k, result.state, reach, residuals);
-    equations = equations_of(residuals, unknowns.size(), views, links);
-    const Matrix information = equations.information + Matrix(prior.asDiagonal());
-    const Vector gradient =
-        equations.gradient + (prior.array() * unknowns.values(result.state).array()).matrix();
-    const Vector step = -information.ldlt().solve(gradient);
+    residuals = residuals_at(observer, frames, result.state, reach);
+    equations = equations_of(residuals, unknowns, result.state, views, links);
+    const Vector step = equations.step();
     if (!step.allFinite()) break;
     const bool is_last = reach.depth <= last_reach.depth && reach.pixels <= last_reach.pixels;
     if (is_last && step.head<3>().norm() < small_turn && step.segment<3>(3).norm() < small_shift)
@@ -247,7 +265,7 @@ Refined refine(Observer& observer, const Unknowns& unknowns,
     reach.depth = std::max(last_reach.depth, narrowing * reach.depth);
     reach.pixels = std::max(last_reach.pixels, narrowing * reach.pixels);
   }
-  result.covariance = covariance_of(equations, prior, views, links);
+  result.covariance = equations.covariance();
   result.link_residuals = medians_by_link(residuals, links);
   return result;
 }
