@@ -140,7 +140,86 @@ class WatchStudy {
   double watch_seconds_ = 0.0, pipeline_seconds_ = 0.0;
 };
 
+/// Sequences of cameras that stay, whose clocks differ from the joint states'.
+class ClockStudy {
+ public:
+  explicit ClockStudy(const RobotChoice& choice) : choice_(choice) {}
+
+  std::vector<std::string> run(std::size_t sequences) {
+    for (std::size_t i = 0; i < sequences; ++i) follow(i);
+    return {choice_.name,
+            std::to_string(sequences)};
+  }
+
+ private:
+  void follow(std::size_t number) {
+    sim::Random random(number, 11);
+    const Setup setup{.name = "", .speed = random.uniform(0.1, 1.0)};
+    Cell cell(choice_, setup, number);
+    cell.start_swing();
+    const bool is_slow = std::getenv("ONE") != nullptr;
+    const std::size_t only = number % choice_.centre.size();
+    const auto joints_at = [&](double t) {
+      std::vector<double> joints = cell.joints_at(t);
+      if (is_slow) {
+        const std::vector<double> at = cell.joints_at(0.0);
+        for (std::size_t j = 0; j < joints.size(); ++j) if (j != only) joints[j] = at[j];
+      }
+      return joints;
+    };
+    const Camera camera{Cell::intrinsics(), {}, {}, {}};
+    Pipeline pipeline(cell.robot(), camera, {});
+    std::vector<CalibrationWatch> watches;
+    std::vector<double> lates;
+    const std::size_t n = 4;
+    const double shift = std::getenv("SHIFT") != nullptr ? std::stod(std::getenv("SHIFT")) : 0.0;
+    const double scale = std::getenv("LATE") != nullptr ? std::stod(std::getenv("LATE")) : 1.0;
+    const std::size_t shift_at = std::getenv("SHIFT_AT") != nullptr ? std::stoul(std::getenv("SHIFT_AT")) : 0;
+    std::vector<std::string> said(n);
+    std::vector<std::string> first(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      watches.emplace_back(camera);
+      lates.push_back((k % 2 == 0 ? 1.0 : -1.0) * random.uniform(0.010, 0.080) * scale);
+    }
+    CalibrationFrame frame;
+    const std::size_t frames = 600;
+    for (std::size_t i = 0; i < frames; ++i) {
+      const double seconds = 1e-9 * static_cast<double>(period) * static_cast<double>(i);
+      frame.joints = joints_at(seconds);
+      frame.index = i;
+      if (i % 4 == 0) cell.draw(frame);
+      for (std::size_t k = 0; k < n; ++k) {
+        Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+        if (i >= shift_at) {
+        sim::Random again(number * n + k, 5);
+        motion.translation() = shift * Eigen::Vector3d(again.normal(), again.normal(), again.normal()).normalized();
+        motion.linear() = Eigen::AngleAxisd(0.67 / 0.01 * degree * shift, Eigen::Vector3d(again.normal(), again.normal(), again.normal()).normalized()).matrix();
+        }
+        const std::vector<double> joints = joints_at(seconds - lates[k]);
+        watches[k].add(pipeline.process({.stamp = period * static_cast<std::int64_t>(i),
+                           .depth = frame.depth.view(),
+                           .joints = joints,
+                           .T_parent_camera = cell.truth() * motion.inverse(),
+                           .index = i}));
+        const auto m = watches[k].drift().message();
+        if (!m.empty() && first[k].empty()) first[k] = std::to_string(i) + " " + m;
+      }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      const Drift& drift = watches[k].drift();
+      std::cout << number << " speed " << setup.speed << " late " << 1e3 * lates[k] << " ms: estimate " << 1e3 * drift.time_offset.value << " +- " << 2e3 * drift.time_offset.sigma
+        << " moved " << 1e3 * drift.position() << " +- " << 1e3 * drift.position_error() << " dbg " << drift.dbg[0] << " " << drift.dbg[1] << " " << drift.dbg[2] << " D " << drift.dbg[3] << " t " << drift.dbg[4] << " | " << first[k] << " | " << drift.message() << std::endl;
+    }
+  }
+
+  const RobotChoice& choice_;
+};
+
 int study_all(int argc, char** argv) {
+  if (argc > 2) {
+    for (const RobotChoice& robot : robots()) { std::cout << robot.name << std::endl; ClockStudy(robot).run(std::stoull(argv[1])); }
+    return 0;
+  }
   const std::size_t frames = argc > 1 ? std::stoull(argv[1]) : 20000;
   std::vector<std::vector<std::string>> rows{{"robot", "frames", "false alarms", "bumps detected",
                                               "frames until then, median, most", "frames off, most",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -29,11 +30,13 @@ struct Drift {
   PoseCovariance covariance = PoseCovariance::Zero();
   Estimate time_offset;    ///< seconds to add to an image's stamp before poses are looked up
   bool has_moved = false;  ///< farther than the limits, and not by chance
+  bool clocks_differ = false;  ///< the time offset is more than 5 ms, and not by chance
   std::optional<std::size_t> bumped_at;         ///< index of the frame at which it moved suddenly
   std::optional<std::int64_t> bumped_at_stamp;  ///< that frame's stamp, nanoseconds
   /// Share of the robot's pixels in which the sensor sees past its surface; about 1 if the robot is
   /// elsewhere by more than its size.
   double seen_through = 0.0;
+  std::array<double, 5> dbg{};
 
   /// Metres and rad, and half of the longest axis of their 95 % ellipsoids.
   [[nodiscard]] double position() const { return T_calibrated_camera.translation().norm(); }
