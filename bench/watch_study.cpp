@@ -111,8 +111,11 @@ class WatchStudy {
     if (bump_.frames < stay + bumped) return;
     ++bumps_;
     if (bump_.told) told_.push_back(static_cast<double>(*bump_.told) - static_cast<double>(stay));
-    if (const auto at = bump_.watch.drift().bumped_at)
+    if (const auto at = bump_.watch.drift().bumped_at) {
       off_.push_back(std::abs(static_cast<double>(*at) - static_cast<double>(stay)));
+      within_ += off_.back() <= static_cast<double>(bump_.watch.drift().bumped_within);
+      if (std::getenv("DBG")) std::cout << "bump told " << (bump_.told ? *bump_.told : 0) << " at " << *at << " +- " << bump_.watch.drift().bumped_within << " | " << bump_.watch.drift().message() << std::endl;
+    } else if (std::getenv("DBG")) std::cout << "bump told " << (bump_.told ? *bump_.told : 0) << " no frame " << bump_.watch.drift().bumped_within << " | " << bump_.watch.drift().message() << std::endl;
     again(bump_);
   }
 
@@ -135,7 +138,7 @@ class WatchStudy {
   std::size_t frames_;
   CalibrationFrame frame_;
   Watched still_{camera_}, bump_{camera_}, drift_{camera_};
-  std::size_t false_alarms_ = 0, bumps_ = 0, drifts_ = 0, processed_ = 0;
+  std::size_t within_ = 0, false_alarms_ = 0, bumps_ = 0, drifts_ = 0, processed_ = 0;
   std::vector<double> told_, off_, drifts_told_;
   double watch_seconds_ = 0.0, pipeline_seconds_ = 0.0;
 };
@@ -208,7 +211,7 @@ class ClockStudy {
     for (std::size_t k = 0; k < n; ++k) {
       const Drift& drift = watches[k].drift();
       std::cout << number << " speed " << setup.speed << " late " << 1e3 * lates[k] << " ms: estimate " << 1e3 * drift.time_offset.value << " +- " << 2e3 * drift.time_offset.sigma
-        << " moved " << 1e3 * drift.position() << " +- " << 1e3 * drift.position_error() << " dbg " << drift.dbg[0] << " " << drift.dbg[1] << " " << drift.dbg[2] << " D " << drift.dbg[3] << " t " << drift.dbg[4] << " | " << first[k] << " | " << drift.message() << std::endl;
+        << " moved " << 1e3 * drift.position() << " +- " << 1e3 * drift.position_error() << " | " << first[k] << " | " << drift.message() << std::endl;
     }
   }
 

@@ -79,11 +79,15 @@ Twist velocity_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, d
   return twist / seconds;
 }
 
+// Squares by which views may tell against the frame of a bump, and frames within which it is known.
+constexpr double unclear = 20.0;
+constexpr std::size_t most_within = 30;
+
 /// A link in one place: what puts it out of place there is the same for all of its residuals.
 struct View {
   std::size_t link = 0, place = 0, first_frame = 0, count = 0;
-  std::size_t index = 0;              // of the first frame in its source
-  std::optional<std::int64_t> stamp;  // likewise
+  std::size_t index = 0, last_index = 0;  // of the first and last frame in their source
+  std::optional<std::int64_t> stamp;      // of the first frame
   Eigen::Isometry3d T_camera_link;
   Matrix information = Matrix::Zero();
   Vector gradient = Vector::Zero();
@@ -91,6 +95,10 @@ struct View {
   [[nodiscard]] double weight() const {
     const auto n = static_cast<double>(count);
     return n > independent ? independent / n : 1.0;
+  }
+  /// The squares by which the residuals rise from those at zero.
+  [[nodiscard]] double rise(const Vector& unknown) const {
+    return weight() * unknown.dot(information * unknown + 2.0 * gradient);
   }
 };
 
@@ -103,13 +111,12 @@ struct Solution {
   /// The parts that clocks alone and the pose alone explain of what both explain.
   [[nodiscard]] double by_clocks() const { return share(depth_offset, 3); }
   [[nodiscard]] double by_pose() const { return share(0, 8); }
-  /// Which of them is to blame: what explains enough alone, else both.
-  [[nodiscard]] bool blames_clocks() const {
-    return by_pose() < enough || by_clocks() >= by_pose();
-  }
-  [[nodiscard]] bool blames_pose() const {
-    return by_clocks() < enough || by_pose() > by_clocks();
-  }
+  /// Which of them is to blame: what explains more if that is enough, else both.
+  [[nodiscard]] bool blames_clocks() const { return is_both() || by_clocks() >= by_pose(); }
+  [[nodiscard]] bool blames_pose() const { return is_both() || by_pose() > by_clocks(); }
+  [[nodiscard]] bool is_both() const { return std::max(by_clocks(), by_pose()) < enough; }
+  /// Whether each of them explains enough alone.
+  [[nodiscard]] bool is_either() const { return std::min(by_clocks(), by_pose()) >= enough; }
 
  private:
   [[nodiscard]] double share(int first, int count) const {
@@ -127,6 +134,15 @@ struct Solution {
 struct Prior {
   Vector value = Vector::Zero();
   Matrix information = Matrix::Zero();
+
+  /// The same if `count` unknowns from `first` on are zero.
+  [[nodiscard]] Prior with_zero(int first, int count) const {
+    constexpr double certain = 1e12;
+    Prior prior = *this;
+    prior.value.segment(first, count).setZero();
+    prior.information.diagonal().segment(first, count).array() += certain;
+    return prior;
+  }
 };
 
 /// Least squares over views. The covariance is that of sums over places (the sandwich estimator,
@@ -161,6 +177,14 @@ std::optional<Solution> solve(std::vector<const View*> views, const Prior& prior
   return solution;
 }
 
+Estimate time_of(const Solution& solution) {
+  return {solution.value[time_offset], std::sqrt(solution.covariance(time_offset, time_offset))};
+}
+
+bool is_beyond_chance(const Estimate& time) {
+  return std::abs(time.value) > std::max(time_limit, clear_sigmas * time.sigma);
+}
+
 /// How improbable a motion is if there was none.
 double distance(const Twist& motion, const PoseCovariance& covariance) {
   return motion.dot(covariance.ldlt().solve(motion));
@@ -191,8 +215,11 @@ struct CalibrationWatch::State {
   void accumulate(const FrameReport& report);
   void close(View& view);
   void estimate();
+  void set(const Solution& pose, const Solution& clocks);
+  [[nodiscard]] bool is_moved(const Solution& solution) const;
   [[nodiscard]] bool settle(const Solution& all);
   void look_for_bump();
+  void locate_bump(const Vector& before, const Vector& after);
   [[nodiscard]] bool is_beyond_limits(const Twist& motion) const;
 
   Camera camera;
@@ -207,7 +234,6 @@ struct CalibrationWatch::State {
   Vector at = Vector::Zero();        // pose and time offset with which frames are compared
   double time_reach = time_prior;    // seconds by which that may be wrong
   bool is_settled = false;           // the estimate agrees with it
-  int restarts = 0;
   std::vector<Sample> found;
   std::vector<double> sizes;
   double sigma = 0.005;    // metres
@@ -368,6 +394,7 @@ void CalibrationWatch::State::accumulate(const FrameReport& report) {
     const double weight = (1.0 - x * x) * (1.0 - x * x) / (sigma * sigma);
     view.information += weight * sample.row * sample.row.transpose();
     view.gradient += weight * (sample.value - sample.row.dot(at)) * sample.row;
+    view.last_index = report.index;
     ++view.count;
   }
 }
@@ -397,44 +424,75 @@ void CalibrationWatch::State::look_for_bump() {
         distance(moved, (later->covariance + earlier->covariance).topLeftCorner<6, 6>()) <
             by_chance)
       continue;
-    drift.bumped_at = after.front()->index;
-    drift.bumped_at_stamp = after.front()->stamp;
+    locate_bump(earlier->value, later->value);
     prior = sensor;
     std::erase_if(views, [&](const View& view) { return view.first_frame < start; });
     return;
   }
 }
 
+/// Finds the frames at which the camera may have moved: where views change from one solution to the
+/// other.
+void CalibrationWatch::State::locate_bump(const Vector& before, const Vector& after) {
+  std::vector<const View*> sorted;
+  for (const View& view : views) sorted.push_back(&view);
+  std::ranges::sort(sorted, {}, &View::first_frame);
+  std::vector<double> squares{0.0};  // with the first so many views before
+  for (const View* view : sorted)
+    squares.push_back(squares.back() + view->rise(before) - view->rise(after));
+  const auto best = std::ranges::min_element(squares);
+  const auto may_be = [&](double square) { return square < *best + unclear; };
+  const auto first = std::ranges::find_if(squares, may_be) - squares.begin();
+  const auto last = std::find_if(squares.rbegin(), squares.rend(), may_be).base() - squares.begin();
+  const auto nth = [&](std::ptrdiff_t i) { return sorted[static_cast<std::size_t>(i)]; };
+  const std::size_t from = nth(std::max<std::ptrdiff_t>(first - 1, 0))->index;
+  std::size_t to = from;
+  for (std::ptrdiff_t i = 0; i < std::min<std::ptrdiff_t>(last, std::ssize(sorted)); ++i)
+    to = std::max(to, nth(i)->last_index);
+  drift.bumped_at.reset();
+  drift.bumped_at_stamp.reset();
+  drift.bumped_within = (to - from + 1) / 2;
+  if (drift.bumped_within > most_within) return;
+  drift.bumped_at = from + drift.bumped_within;
+  drift.bumped_at_stamp = nth(std::min(best - squares.begin(), std::ssize(sorted) - 1))->stamp;
+}
+
 bool CalibrationWatch::State::is_beyond_limits(const Twist& motion) const {
   return motion.tail<3>().norm() > limits.position || motion.head<3>().norm() > limits.rotation;
 }
 
+void CalibrationWatch::State::set(const Solution& pose, const Solution& clocks) {
+  drift.T_calibrated_camera = calibration::motion(pose.value.head<6>());
+  drift.covariance = pose.covariance.topLeftCorner<6, 6>();
+  drift.time_offset = time_of(clocks);
+}
+
+bool CalibrationWatch::State::is_moved(const Solution& solution) const {
+  const Twist twist = solution.value.head<6>();
+  return is_beyond_limits(twist) &&
+         distance(twist, solution.covariance.topLeftCorner<6, 6>()) > by_chance;
+}
+
 void CalibrationWatch::State::estimate() {
-  const auto of_all = [&] {
-    std::vector<const View*> all;
-    for (const View& view : views) all.push_back(&view);
-    return solve(all, prior);
-  };
   if (views.size() < least_views) return;
   if (is_settled) look_for_bump();
-  const auto all = of_all();
-  if (!all) return;
-  if (!settle(*all)) return;
+  std::vector<const View*> all;
+  for (const View& view : views) all.push_back(&view);
+  const auto both = solve(all, prior);
+  if (!both || !settle(*both)) return;
   drift.is_known = true;
-  const Twist twist = all->value.head<6>();
-  drift.T_calibrated_camera = calibration::motion(twist);
-  drift.covariance = all->covariance.topLeftCorner<6, 6>();
-  drift.time_offset = {all->value[time_offset],
-                       std::sqrt(all->covariance(time_offset, time_offset))};
-  if (std::getenv("DBG") != nullptr) {
-    drift.dbg = {all->by_clocks(), all->by_pose(), double(restarts), distance(twist, drift.covariance), all->value[8] / std::sqrt(all->covariance(8, 8))};
-  }
-  drift.clocks_differ = all->blames_clocks() && std::abs(drift.time_offset.value) > time_limit &&
-                        std::abs(drift.time_offset.value) > clear_sigmas * drift.time_offset.sigma;
-  drift.has_moved = all->blames_pose() && is_beyond_limits(twist) &&
-                    (drift.position() > drift.position_error() ||
-                     drift.rotation() > drift.rotation_error()) &&
-                    distance(twist, drift.covariance) > by_chance;
+  set(*both, *both);
+  const bool is_off = is_moved(*both), is_late = is_beyond_chance(drift.time_offset);
+  drift.has_moved = is_off && both->blames_pose();
+  drift.clocks_differ = is_late && both->blames_clocks() && (is_off || !both->is_both());
+  drift.camera_or_clocks = false;
+  if (is_off || is_late || !both->is_either()) return;
+  // Too much alike: each alone.
+  const auto pose = solve(all, prior.with_zero(time_offset, 1));
+  const auto clocks = solve(all, prior.with_zero(0, 6));
+  if (!pose || !clocks || !is_moved(*pose)) return;
+  drift.camera_or_clocks = is_beyond_chance(time_of(*clocks));
+  if (drift.camera_or_clocks) set(*pose, *clocks);
 }
 
 /// Whether the estimate is where frames were compared; else begins again there, because residuals
@@ -451,7 +509,6 @@ bool CalibrationWatch::State::settle(const Solution& all) {
       distance(by.head<6>(), all.covariance.topLeftCorner<6, 6>()) > by_chance;
   is_settled = !is_late && !is_off;
   if (is_settled) return true;
-  ++restarts;
   if (is_off) at.head<6>() = all.value.head<6>();
   if (is_late) {
     at[time_offset] = all.value[time_offset];
@@ -512,22 +569,33 @@ std::string Drift::message() const {
         100.0 * seen_through);
     return text.data();
   }
+  std::snprintf(text.data(), text.size(), "images and joint states are about %.0f +- %.0f ms apart",
+                1e3 * std::abs(time_offset.value), std::max(1.0, 2e3 * time_offset.sigma));
+  const std::string apart = text.data();
   std::string line;
   if (clocks_differ) {
-    std::snprintf(text.data(), text.size(),
-                  "images and joint states are about %.0f +- %.0f ms apart: use --time-offset %.3f",
-                  1e3 * std::abs(time_offset.value), std::max(1.0, 2e3 * time_offset.sigma),
-                  time_offset.value);
-    line = text.data();
+    std::snprintf(text.data(), text.size(), ": use --time-offset %.3f", time_offset.value);
+    line = apart + text.data();
   }
-  if (has_moved) {
-    std::snprintf(text.data(), text.size(),
-                  "the camera is %.1f +- %.1f mm and %.2f +- %.2f degrees from its calibration",
-                  1e3 * position(), 1e3 * position_error(), degrees * rotation(),
-                  degrees * rotation_error());
-    line += (clocks_differ ? ", and " : "") + std::string(text.data());
-    if (bumped_at) line += ", bumped at frame " + std::to_string(*bumped_at);
-    line += clocks_differ ? ": see to the time first" : ": run 'penumbra calibrate'";
+  if (has_moved || camera_or_clocks) {
+    std::string by;
+    const auto add = [&](const char* format, double value, double error) {
+      if (error > value) return;
+      std::snprintf(text.data(), text.size(), format, value, error);
+      by += (by.empty() ? "" : " and ") + std::string(text.data());
+    };
+    add("%.1f +- %.1f mm", 1e3 * position(), 1e3 * position_error());
+    add("%.2f +- %.2f degrees", degrees * rotation(), degrees * rotation_error());
+    if (clocks_differ) line += "; ";
+    line += by.empty() ? "the camera has moved since its calibration, how far is not known yet"
+                       : "the camera is " + by + " from its calibration";
+    if (has_moved && bumped_at)
+      line += ", bumped at frame " + std::to_string(*bumped_at) + " +- " +
+              std::to_string(bumped_within);
+    if (camera_or_clocks)
+      line += ", or " + apart + ": the robot's motion does not tell which, move it at other speeds";
+    else if (!clocks_differ)
+      line += ": run 'penumbra calibrate'";
   }
   return line;
 }
