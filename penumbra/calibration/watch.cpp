@@ -247,8 +247,7 @@ void CalibrationWatch::State::place(const FrameReport& report) {
   const Eigen::Isometry3d T_camera_root = report.T_root_camera->inverse();
   const std::size_t links = report.T_root_link.size();
   T_camera_link.resize(links);
-  for (std::size_t i = 0; i < links; ++i)
-    T_camera_link[i] = T_camera_root * report.T_root_link[i];
+  for (std::size_t i = 0; i < links; ++i) T_camera_link[i] = T_camera_root * report.T_root_link[i];
   velocities.assign(links, {});
   open.resize(links);
   if (!report.stamp) return;
@@ -256,7 +255,7 @@ void CalibrationWatch::State::place(const FrameReport& report) {
     return 1e-9 * static_cast<double>(to - from);
   };
   if (!past.empty() && (past.back().T_camera_link.size() != links ||
-                           !(seconds(past.back().stamp, *report.stamp) > 0.0)))
+                        !(seconds(past.back().stamp, *report.stamp) > 0.0)))
     past.clear();
   auto last = past.rbegin();
   while (last != past.rend() && seconds(last->stamp, *report.stamp) < least_between) ++last;
@@ -317,9 +316,10 @@ void CalibrationWatch::State::sample_at(int u, int v, const FrameReport& report)
   const Eigen::Vector3d p = motion * points[0];
   const Eigen::Vector3d normal =
       motion.linear() * (points[2] - points[1]).cross(points[4] - points[3]).normalized();
-  const Eigen::Vector2d pixel = camera.intrinsics.project(
-      camera.distortion.distort(p.head<2>() / p.z()).homogeneous());
-  const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
+  const Eigen::Vector2d pixel =
+      camera.intrinsics.project(camera.distortion.distort(p.head<2>() / p.z()).homogeneous());
+  const int x = static_cast<int>(std::lround(pixel.x())),
+            y = static_cast<int>(std::lround(pixel.y()));
   if (!(p.z() > 0.0) || x < 0 || x >= z.width || y < 0 || y >= z.height) return;
   const double measured = measured_at(x, y);
   const auto ray = ray_of(x, y);
@@ -330,7 +330,8 @@ void CalibrationWatch::State::sample_at(int u, int v, const FrameReport& report)
   gradient << -p.cross(normal), -normal;
   const double by_time = gradient.dot(velocities[link].at(time));
   const double value = measured * along - normal.dot(p);
-  if (!(std::abs(value) < (gate + time_reach * std::abs(by_time / along)) * std::abs(along))) return;
+  if (!(std::abs(value) < (gate + time_reach * std::abs(by_time / along)) * std::abs(along)))
+    return;
   Sample& sample = found.emplace_back();
   sample.link = link;
   sample.value = value;
@@ -502,11 +503,10 @@ bool CalibrationWatch::State::settle(const Solution& all) {
   time_reach = std::sqrt(all.covariance(time_offset, time_offset));
   const bool is_late = all.blames_clocks() &&
                        std::abs(by[time_offset]) > std::max(time_step, clear_sigmas * time_reach);
-  const bool is_off =
-      all.blames_pose() &&
-      pose_difference(calibration::motion(at.head<6>()), calibration::motion(all.value.head<6>())) >
-          pose_step &&
-      distance(by.head<6>(), all.covariance.topLeftCorner<6, 6>()) > by_chance;
+  const bool is_off = all.blames_pose() &&
+                      pose_difference(calibration::motion(at.head<6>()),
+                                      calibration::motion(all.value.head<6>())) > pose_step &&
+                      distance(by.head<6>(), all.covariance.topLeftCorner<6, 6>()) > by_chance;
   is_settled = !is_late && !is_off;
   if (is_settled) return true;
   if (is_off) at.head<6>() = all.value.head<6>();

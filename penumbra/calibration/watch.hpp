@@ -35,8 +35,8 @@ struct Drift {
   /// were right, and the time offset as if the pose were.
   bool camera_or_clocks = false;
 
-  /// Index and stamp (ns) of the frame at which the camera moved suddenly; null if it did not, or if
-  /// the frame is not known within 30 frames.
+  /// Index and stamp (ns) of the frame at which the camera moved suddenly; null if it did not, or
+  /// if the frame is not known within 30 frames.
   std::optional<std::size_t> bumped_at;
   std::optional<std::int64_t> bumped_at_stamp;
   std::size_t bumped_within = 0;  ///< frames by which that may be off
