@@ -233,7 +233,8 @@ struct CalibrationWatch::State {
   std::vector<Velocity> velocities;  // of each link
   Vector at = Vector::Zero();        // pose and time offset with which frames are compared
   double time_reach = time_prior;    // seconds by which that may be wrong
-  bool is_settled = false;           // the estimate agrees with it
+  bool is_bumped = false;
+  bool is_settled = false;  // the estimate agrees with it
   std::vector<Sample> found;
   std::vector<double> sizes;
   double sigma = 0.005;    // metres
@@ -425,6 +426,7 @@ void CalibrationWatch::State::look_for_bump() {
         distance(moved, (later->covariance + earlier->covariance).topLeftCorner<6, 6>()) <
             by_chance)
       continue;
+    is_bumped = true;
     locate_bump(earlier->value, later->value);
     prior = sensor;
     std::erase_if(views, [&](const View& view) { return view.first_frame < start; });
@@ -476,7 +478,7 @@ bool CalibrationWatch::State::is_moved(const Solution& solution) const {
 
 void CalibrationWatch::State::estimate() {
   if (views.size() < least_views) return;
-  if (is_settled) look_for_bump();
+  if (is_settled && !drift.clocks_differ) look_for_bump();
   std::vector<const View*> all;
   for (const View& view : views) all.push_back(&view);
   const auto both = solve(all, prior);
@@ -484,9 +486,12 @@ void CalibrationWatch::State::estimate() {
   drift.is_known = true;
   set(*both, *both);
   const bool is_off = is_moved(*both), is_late = is_beyond_chance(drift.time_offset);
-  drift.has_moved = is_off && both->blames_pose();
-  drift.clocks_differ = is_late && both->blames_clocks() && (is_off || !both->is_both());
-  drift.camera_or_clocks = false;
+  const bool is_unclear = is_off && is_late && both->is_both();
+  const bool is_amount_known =
+      drift.position() > drift.position_error() || drift.rotation() > drift.rotation_error();
+  drift.has_moved = is_off && both->blames_pose() && !is_unclear && (is_amount_known || is_bumped);
+  drift.clocks_differ = is_late && !both->is_both() && both->blames_clocks();
+  drift.camera_or_clocks = is_unclear;
   if (is_off || is_late || !both->is_either()) return;
   // Too much alike: each alone.
   const auto pose = solve(all, prior.with_zero(time_offset, 1));
@@ -586,15 +591,14 @@ std::string Drift::message() const {
     };
     add("%.1f +- %.1f mm", 1e3 * position(), 1e3 * position_error());
     add("%.2f +- %.2f degrees", degrees * rotation(), degrees * rotation_error());
-    if (clocks_differ) line += "; ";
     line += by.empty() ? "the camera has moved since its calibration, how far is not known yet"
                        : "the camera is " + by + " from its calibration";
     if (has_moved && bumped_at)
       line += ", bumped at frame " + std::to_string(*bumped_at) + " +- " +
               std::to_string(bumped_within);
     if (camera_or_clocks)
-      line += ", or " + apart + ": the robot's motion does not tell which, move it at other speeds";
-    else if (!clocks_differ)
+      line += ", or " + apart + ", or both: move the robot at other speeds to tell them apart";
+    else
       line += ": run 'penumbra calibrate'";
   }
   return line;
