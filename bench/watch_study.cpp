@@ -178,7 +178,6 @@ class ClockStudy {
     CalibrationWatch watch;
     std::optional<std::size_t> told = {};
     bool is_moved = false, is_either = false;
-    std::string first = {};
   };
 
   void follow(std::size_t number) {
@@ -213,8 +212,6 @@ class ClockStudy {
                                          .T_parent_camera = cell.truth(),
                                          .index = i}));
         const Drift& drift = late.watch.drift();
-        if (late.first.empty() && (drift.has_moved || drift.bumped_at || drift.camera_or_clocks))
-          late.first = std::to_string(i) + " " + drift.message();
         late.is_moved |= drift.has_moved || drift.bumped_at;
         late.is_either |= drift.camera_or_clocks;
         if (drift.clocks_differ && !late.told) late.told = i;
@@ -222,10 +219,6 @@ class ClockStudy {
     }
     for (const Late& late : all) {
       ++sequences_;
-      if (std::getenv("DBG") != nullptr && (late.is_moved || !late.told || late.is_either)) {
-        const Drift& drift = late.watch.drift();
-        std::cout << number << " speed " << setup.speed << " late " << 1e3 * late.seconds << " estimate " << 1e3 * drift.time_offset.value << " +- " << 2e3 * drift.time_offset.sigma << (drift.is_known ? " known " : " unknown ") << drift.position() * 1e3 << " +- " << drift.position_error() * 1e3 << " moved " << late.is_moved << " either " << late.is_either << " first " << late.first << " | " << drift.message() << std::endl;
-      }
       moved_ += late.is_moved;
       either_ += late.is_either;
       if (!late.told) continue;
@@ -256,7 +249,6 @@ int study_all(int argc, char** argv) {
     print(clocks.back());
   }
   if (argc == 1) update_page(page, "watch_clocks", table(clocks));
-  if (frames == 0) return 0;
   std::vector<std::vector<std::string>> rows{
       {"robot", "frames", "false alarms", "clocks blamed", "bumps detected",
        "frames until then, median, most", "frame named and right", "frames off, most",

@@ -96,7 +96,7 @@ class LateImages {
 
  private:
   static constexpr std::size_t frames = 300;
-  sim::Simulation simulation_{"conveyor", without_color(3, true)};
+  sim::Simulation simulation_{"handover", without_color(3, true)};
   Pipeline pipeline_{visual_robot(simulation_), simulation_.camera(), {}};
   CalibrationWatch watch_{simulation_.camera()};
   bool has_moved_ = false;
@@ -104,13 +104,13 @@ class LateImages {
 
 TEST(Watch, NamesClocksThatDifferAndNotTheCamera) {
   PENUMBRA_REQUIRE_SIMULATION();
-  constexpr std::size_t late = 2;
+  constexpr std::size_t late = 2;       // frames
   constexpr double frame = 1.0 / 30.0;  // seconds
   const LateImages images(late);
   EXPECT_FALSE(images.has_moved());
   EXPECT_TRUE(images.drift().clocks_differ) << images.drift().time_offset.value;
   constexpr double error = 0.006;  // seconds
-  EXPECT_NEAR(images.drift().time_offset.value, late * frame, error);
+  EXPECT_NEAR(images.drift().time_offset.value, -(late * frame), error);
   EXPECT_NE(images.drift().message().find("--time-offset"), std::string::npos);
   EXPECT_EQ(images.drift().message().find("calibrate"), std::string::npos);
 }
