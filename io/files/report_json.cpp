@@ -266,7 +266,10 @@ Json drift_json(const Drift& drift) {
           {"time_offset_ms", rounded(1e3 * drift.time_offset.value)},
           {"time_offset_error_ms", rounded(2e3 * drift.time_offset.sigma)},
           {"has_moved", drift.has_moved},
-          {"bumped_at", or_null(drift.bumped_at)}};
+          {"clocks_differ", drift.clocks_differ},
+          {"camera_or_clocks", drift.camera_or_clocks},
+          {"bumped_at", or_null(drift.bumped_at)},
+          {"bumped_within", drift.bumped_at ? Json(drift.bumped_within) : Json(nullptr)}};
 }
 
 Json renderer_json(const RendererInfo& info) {

@@ -21,7 +21,7 @@ constexpr std::size_t period = 4;      // one of so many frames is compared, to 
 constexpr std::size_t samples = 80;    // pixels of the robot that are compared in it
 constexpr int least_step = 8;          // pixels between them
 constexpr float continuous = 0.02F;    // metres between neighbours of one surface
-constexpr float gate = 0.03F;          // metres between measured and virtual depth
+constexpr double gate = 0.03;          // metres between measured and virtual depth
 constexpr float through = 0.05F;       // metres behind the surface
 constexpr double least_cosine = 0.35;  // of the angle between ray and normal
 constexpr double tukey_width = 4.685;  // sigmas; 95 % efficient for normal residuals
@@ -42,15 +42,52 @@ using Vector = Eigen::Matrix<double, unknowns, 1>;
 using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
 constexpr double offset_prior = 0.01, scale_prior = 0.01, time_prior = 0.1;  // metres, 1, seconds
 
+// Velocities are from poses so far apart, seconds: joint positions have noise, motion changes.
+constexpr double least_between = 0.025, most_between = 0.5;
+// Residuals are linear in steps so small: seconds, and metres as of pose_difference.
+constexpr double time_step = 0.002, pose_step = 0.01;
+constexpr double clear_sigmas = 6.0;  // of the time offset, that chance does not reach
+constexpr double time_limit = 0.005;  // seconds: 5 mm of an arm at 1 m/s
+constexpr double enough = 0.9;        // of what pose and clocks explain together
+
 constexpr std::array<std::size_t, 6> recent{24, 32, 40, 48, 56, 64};  // views after a possible bump
 constexpr double by_chance =
     56.0;  // squared Mahalanobis distance of six that chance does not reach
 
+/// The links' poses in the camera at a stamp.
+struct Poses {
+  std::int64_t stamp;  // nanoseconds
+  std::vector<Eigen::Isometry3d> T_camera_link;
+};
+
+/// How a link moves in the camera: (rotation, translation) per second, and per second squared.
+struct Velocity {
+  Twist first = Twist::Zero(), second = Twist::Zero();
+  [[nodiscard]] Twist at(double seconds) const { return first + seconds * second; }
+  [[nodiscard]] Eigen::Isometry3d motion(double seconds) const {
+    return calibration::motion(seconds * at(0.5 * seconds));
+  }
+};
+
+/// The mean velocity from pose `a` to pose `b`.
+Twist velocity_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double seconds) {
+  const Eigen::Isometry3d moved = b * a.inverse();
+  const Eigen::AngleAxisd angle(moved.linear());
+  const Eigen::Vector3d turn = angle.angle() * angle.axis(), t = moved.translation();
+  Twist twist;
+  twist << turn, t - 0.5 * turn.cross(t);
+  return twist / seconds;
+}
+
+// Squares by which views may tell against the frame of a bump, and frames within which it is known.
+constexpr double unclear = 20.0;
+constexpr std::size_t most_within = 30;
+
 /// A link in one place: what puts it out of place there is the same for all of its residuals.
 struct View {
   std::size_t link = 0, place = 0, first_frame = 0, count = 0;
-  std::size_t index = 0;              // of the first frame in its source
-  std::optional<std::int64_t> stamp;  // likewise
+  std::size_t index = 0, last_index = 0;  // of the first and last frame in their source
+  std::optional<std::int64_t> stamp;      // of the first frame
   Eigen::Isometry3d T_camera_link;
   Matrix information = Matrix::Zero();
   Vector gradient = Vector::Zero();
@@ -59,17 +96,53 @@ struct View {
     const auto n = static_cast<double>(count);
     return n > independent ? independent / n : 1.0;
   }
+  /// The squares by which the residuals rise from those at zero.
+  [[nodiscard]] double rise(const Vector& unknown) const {
+    return weight() * unknown.dot(information * unknown + 2.0 * gradient);
+  }
 };
 
 struct Solution {
   Vector value;
   Matrix covariance;
+  Matrix information;
+  Vector gradient;
+
+  /// The parts that clocks alone and the pose alone explain of what both explain.
+  [[nodiscard]] double by_clocks() const { return share(depth_offset, 3); }
+  [[nodiscard]] double by_pose() const { return share(0, 8); }
+  /// Which of them is to blame: what explains more if that is enough, else both.
+  [[nodiscard]] bool blames_clocks() const { return is_both() || by_clocks() >= by_pose(); }
+  [[nodiscard]] bool blames_pose() const { return is_both() || by_pose() > by_clocks(); }
+  [[nodiscard]] bool is_both() const { return std::max(by_clocks(), by_pose()) < enough; }
+  /// Whether each of them explains enough alone.
+  [[nodiscard]] bool is_either() const { return std::min(by_clocks(), by_pose()) >= enough; }
+
+ private:
+  [[nodiscard]] double share(int first, int count) const {
+    const double sensor = fall(depth_offset, 2);
+    return (fall(first, count) - sensor) / (fall(0, unknowns) - sensor);
+  }
+  /// By how much the squares fall if `count` unknowns from `first` on are free, the others zero.
+  [[nodiscard]] double fall(int first, int count) const {
+    const Eigen::VectorXd g = gradient.segment(first, count);
+    return g.dot(information.block(first, first, count, count).ldlt().solve(g));
+  }
 };
 
 /// What is expected before anything is measured.
 struct Prior {
   Vector value = Vector::Zero();
   Matrix information = Matrix::Zero();
+
+  /// The same if `count` unknowns from `first` on are zero.
+  [[nodiscard]] Prior with_zero(int first, int count) const {
+    constexpr double certain = 1e12;
+    Prior prior = *this;
+    prior.value.segment(first, count).setZero();
+    prior.information.diagonal().segment(first, count).array() += certain;
+    return prior;
+  }
 };
 
 /// Least squares over views. The covariance is that of sums over places (the sandwich estimator,
@@ -82,7 +155,10 @@ std::optional<Solution> solve(std::vector<const View*> views, const Prior& prior
     gradient += view->weight() * view->gradient;
   }
   const Eigen::LDLT<Matrix> solver(information);
-  Solution solution{.value = -solver.solve(gradient), .covariance = {}};
+  Solution solution{.value = -solver.solve(gradient),
+                    .covariance = {},
+                    .information = information,
+                    .gradient = gradient};
   if (!solution.value.allFinite()) return std::nullopt;
   std::ranges::sort(views, {}, &View::place);
   Matrix meat = Matrix::Zero();
@@ -99,6 +175,14 @@ std::optional<Solution> solve(std::vector<const View*> views, const Prior& prior
   const Matrix inverse = solver.solve(Matrix::Identity());
   solution.covariance = inverse * meat * inverse.transpose();
   return solution;
+}
+
+Estimate time_of(const Solution& solution) {
+  return {solution.value[time_offset], std::sqrt(solution.covariance(time_offset, time_offset))};
+}
+
+bool is_beyond_chance(const Estimate& time) {
+  return std::abs(time.value) > std::max(time_limit, clear_sigmas * time.sigma);
 }
 
 /// How improbable a motion is if there was none.
@@ -125,23 +209,32 @@ struct CalibrationWatch::State {
     Vector row;
   };
 
+  void place(const FrameReport& report);
   void sample(const FrameReport& report);
   void sample_at(int u, int v, const FrameReport& report);
   void accumulate(const FrameReport& report);
   void close(View& view);
   void estimate();
+  void set(const Solution& pose, const Solution& clocks);
+  [[nodiscard]] bool is_moved(const Solution& solution) const;
+  [[nodiscard]] bool settle(const Solution& all);
   void look_for_bump();
+  void locate_bump(const Vector& before, const Vector& after);
   [[nodiscard]] bool is_beyond_limits(const Twist& motion) const;
 
   Camera camera;
   DriftLimits limits;
   int margin;
   Drift drift;
-  Prior prior;
+  Prior at_first, prior;
   std::size_t seen = 0, frames = 0;  // frames: those that are compared
-  std::optional<std::int64_t> last_stamp;
   std::vector<Eigen::Isometry3d> T_camera_link;
-  std::vector<Twist> velocities;  // of each link, per second
+  std::deque<Poses> past;            // the newest last
+  std::vector<Velocity> velocities;  // of each link
+  Vector at = Vector::Zero();        // pose and time offset with which frames are compared
+  double time_reach = time_prior;    // seconds by which that may be wrong
+  bool is_bumped = false;
+  bool is_settled = false;  // the estimate agrees with it
   std::vector<Sample> found;
   std::vector<double> sizes;
   double sigma = 0.005;    // metres
@@ -150,6 +243,43 @@ struct CalibrationWatch::State {
   std::size_t places = 0;
 };
 
+/// Sets the links' poses, and their velocities by the frames before.
+void CalibrationWatch::State::place(const FrameReport& report) {
+  const Eigen::Isometry3d T_camera_root = report.T_root_camera->inverse();
+  const std::size_t links = report.T_root_link.size();
+  T_camera_link.resize(links);
+  for (std::size_t i = 0; i < links; ++i) T_camera_link[i] = T_camera_root * report.T_root_link[i];
+  velocities.assign(links, {});
+  open.resize(links);
+  if (!report.stamp) return;
+  const auto seconds = [](std::int64_t from, std::int64_t to) {
+    return 1e-9 * static_cast<double>(to - from);
+  };
+  if (!past.empty() && (past.back().T_camera_link.size() != links ||
+                        !(seconds(past.back().stamp, *report.stamp) > 0.0)))
+    past.clear();
+  auto last = past.rbegin();
+  while (last != past.rend() && seconds(last->stamp, *report.stamp) < least_between) ++last;
+  const double step = last == past.rend() ? most_between : seconds(last->stamp, *report.stamp);
+  if (step < most_between) {
+    const auto before = std::next(last);
+    const double step_before =
+        before == past.rend() ? most_between : seconds(before->stamp, last->stamp);
+    for (std::size_t i = 0; i < links; ++i) {
+      Velocity& velocity = velocities[i];
+      velocity.first = velocity_between(last->T_camera_link[i], T_camera_link[i], step);
+      if (!(step_before < most_between)) continue;
+      velocity.second = 2.0 / (step + step_before) *
+                        (velocity.first - velocity_between(before->T_camera_link[i],
+                                                           last->T_camera_link[i], step_before));
+      velocity.first += 0.5 * step * velocity.second;
+    }
+  }
+  if (!past.empty() && seconds(past.back().stamp, *report.stamp) < least_between) return;
+  past.push_back({*report.stamp, T_camera_link});
+  if (past.size() > 3) past.pop_front();
+}
+
 void CalibrationWatch::State::sample_at(int u, int v, const FrameReport& report) {
   const auto& z = report.virtual_depth.depth;
   const auto& links = report.virtual_depth.links;
@@ -157,37 +287,59 @@ void CalibrationWatch::State::sample_at(int u, int v, const FrameReport& report)
   const auto is_near = [&](int du, int dv) {
     return std::abs(z(u + du, v + dv) - expected) < continuous;
   };
+  const auto ray_of = [&](int x, int y) -> std::optional<Eigen::Vector3d> {
+    const auto point = camera.distortion.undistort(camera.intrinsics.ray(x, y).head<2>());
+    if (!point) return std::nullopt;
+    return point->homogeneous();
+  };
   if (!(is_near(-margin, 0) && is_near(margin, 0) && is_near(0, -margin) && is_near(0, margin)))
     return;
-  const float measured =
-      std::visit([&](const auto& depth) { return metres_of(depth(u, v)); }, report.depth);
-  const bool is_attached = links(u, v) > report.T_root_link.size();  // its pose is not calibrated
-  if (!(measured > 0.0F) || is_attached) return;
-  drift.seen_through += ((measured > expected + through) - drift.seen_through) / 5000.0;
-  if (!(std::abs(measured - expected) < gate)) return;
+  if (links(u, v) > report.T_root_link.size()) return;  // attached: its pose is not calibrated
+  const auto measured_at = [&](int x, int y) {
+    return std::visit([&](const auto& depth) { return metres_of(depth(x, y)); }, report.depth);
+  };
+  if (const float here = measured_at(u, v); here > 0.0F)
+    drift.seen_through += ((here > expected + through) - drift.seen_through) / 5000.0;
   for (const auto& [du, dv] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
     if (links(u + du, v + dv) != links(u, v) || !is_near(du, dv)) return;
-  std::array<Eigen::Vector3d, 5> rays;
+  std::array<Eigen::Vector3d, 5> points;
   std::size_t i = 0;
   for (const auto& [du, dv] : {std::pair{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-    const auto ray = camera.distortion.undistort(camera.intrinsics.ray(u + du, v + dv).head<2>());
+    const auto ray = ray_of(u + du, v + dv);
     if (!ray) return;
-    rays[i++] = Eigen::Vector3d(ray->x(), ray->y(), 1.0) * static_cast<double>(z(u + du, v + dv));
+    points[i++] = *ray * static_cast<double>(z(u + du, v + dv));
   }
-  const Eigen::Vector3d& p = rays[0];
-  const Eigen::Vector3d normal = (rays[2] - rays[1]).cross(rays[4] - rays[3]).normalized();
-  const double along = normal.dot(p) / p.z();
-  if (!(std::abs(along) > least_cosine * p.norm() / p.z())) return;
+  // Where that piece of the surface is when the image was taken, and what is measured there.
+  const auto link = static_cast<std::size_t>(links(u, v) - 1);
+  const double time = at[time_offset];
+  const Eigen::Isometry3d motion =
+      calibration::motion(at.head<6>()).inverse() * velocities[link].motion(time);
+  const Eigen::Vector3d p = motion * points[0];
+  const Eigen::Vector3d normal =
+      motion.linear() * (points[2] - points[1]).cross(points[4] - points[3]).normalized();
+  const Eigen::Vector2d pixel =
+      camera.intrinsics.project(camera.distortion.distort(p.head<2>() / p.z()).homogeneous());
+  const int x = static_cast<int>(std::lround(pixel.x())),
+            y = static_cast<int>(std::lround(pixel.y()));
+  if (!(p.z() > 0.0) || x < 0 || x >= z.width || y < 0 || y >= z.height) return;
+  const double measured = measured_at(x, y);
+  const auto ray = ray_of(x, y);
+  if (!(measured > 0.0) || !ray) return;
+  const double along = normal.dot(*ray);
+  if (!(std::abs(along) > least_cosine * ray->norm())) return;
   Twist gradient;  // by a motion of the link
   gradient << -p.cross(normal), -normal;
-  const auto link = static_cast<std::size_t>(links(u, v) - 1);
+  const double by_time = gradient.dot(velocities[link].at(time));
+  const double value = measured * along - normal.dot(p);
+  if (!(std::abs(value) < (gate + time_reach * std::abs(by_time / along)) * std::abs(along)))
+    return;
   Sample& sample = found.emplace_back();
   sample.link = link;
-  sample.value = (measured - expected) * along;
+  sample.value = value;
   sample.row.head<6>() = -gradient;
   sample.row[depth_offset] = -along;
   sample.row[depth_scale] = -measured * along;
-  sample.row[time_offset] = gradient.dot(velocities[link]);
+  sample.row[time_offset] = by_time;
 }
 
 void CalibrationWatch::State::sample(const FrameReport& report) {
@@ -229,7 +381,8 @@ void CalibrationWatch::State::accumulate(const FrameReport& report) {
     close(view);
   }
   for (const Sample& sample : found) {
-    const double x = sample.value / (tukey_width * sigma);
+    const double x =
+        sample.value / (tukey_width * sigma + time_reach * std::abs(sample.row[time_offset]));
     if (std::abs(x) >= 1.0) continue;
     View& view = open[sample.link];
     if (view.count == 0) {
@@ -242,7 +395,8 @@ void CalibrationWatch::State::accumulate(const FrameReport& report) {
     }
     const double weight = (1.0 - x * x) * (1.0 - x * x) / (sigma * sigma);
     view.information += weight * sample.row * sample.row.transpose();
-    view.gradient += weight * sample.value * sample.row;
+    view.gradient += weight * (sample.value - sample.row.dot(at)) * sample.row;
+    view.last_index = report.index;
     ++view.count;
   }
 }
@@ -272,35 +426,103 @@ void CalibrationWatch::State::look_for_bump() {
         distance(moved, (later->covariance + earlier->covariance).topLeftCorner<6, 6>()) <
             by_chance)
       continue;
-    drift.bumped_at = after.front()->index;
-    drift.bumped_at_stamp = after.front()->stamp;
+    is_bumped = true;
+    locate_bump(earlier->value, later->value);
     prior = sensor;
     std::erase_if(views, [&](const View& view) { return view.first_frame < start; });
     return;
   }
 }
 
+/// Finds the frames at which the camera may have moved: where views change from one solution to the
+/// other.
+void CalibrationWatch::State::locate_bump(const Vector& before, const Vector& after) {
+  std::vector<const View*> sorted;
+  for (const View& view : views) sorted.push_back(&view);
+  std::ranges::sort(sorted, {}, &View::first_frame);
+  std::vector<double> squares{0.0};  // with the first so many views before
+  for (const View* view : sorted)
+    squares.push_back(squares.back() + view->rise(before) - view->rise(after));
+  const auto best = std::ranges::min_element(squares);
+  const auto may_be = [&](double square) { return square < *best + unclear; };
+  const auto first = std::ranges::find_if(squares, may_be) - squares.begin();
+  const auto last = std::find_if(squares.rbegin(), squares.rend(), may_be).base() - squares.begin();
+  const auto nth = [&](std::ptrdiff_t i) { return sorted[static_cast<std::size_t>(i)]; };
+  const std::size_t from = nth(std::max<std::ptrdiff_t>(first - 1, 0))->index;
+  std::size_t to = from;
+  for (std::ptrdiff_t i = 0; i < std::min<std::ptrdiff_t>(last, std::ssize(sorted)); ++i)
+    to = std::max(to, nth(i)->last_index);
+  drift.bumped_at.reset();
+  drift.bumped_at_stamp.reset();
+  drift.bumped_within = (to - from + 1) / 2;
+  if (drift.bumped_within > most_within) return;
+  drift.bumped_at = from + drift.bumped_within;
+  drift.bumped_at_stamp = nth(std::min(best - squares.begin(), std::ssize(sorted) - 1))->stamp;
+}
+
 bool CalibrationWatch::State::is_beyond_limits(const Twist& motion) const {
   return motion.tail<3>().norm() > limits.position || motion.head<3>().norm() > limits.rotation;
 }
 
+void CalibrationWatch::State::set(const Solution& pose, const Solution& clocks) {
+  drift.T_calibrated_camera = calibration::motion(pose.value.head<6>());
+  drift.covariance = pose.covariance.topLeftCorner<6, 6>();
+  drift.time_offset = time_of(clocks);
+}
+
+bool CalibrationWatch::State::is_moved(const Solution& solution) const {
+  const Twist twist = solution.value.head<6>();
+  return is_beyond_limits(twist) &&
+         distance(twist, solution.covariance.topLeftCorner<6, 6>()) > by_chance;
+}
+
 void CalibrationWatch::State::estimate() {
-  const auto of_all = [&] {
-    std::vector<const View*> all;
-    for (const View& view : views) all.push_back(&view);
-    return solve(all, prior);
-  };
   if (views.size() < least_views) return;
-  look_for_bump();
-  const auto all = of_all();
-  if (!all) return;
+  if (is_settled && !drift.clocks_differ) look_for_bump();
+  std::vector<const View*> all;
+  for (const View& view : views) all.push_back(&view);
+  const auto both = solve(all, prior);
+  if (!both || !settle(*both)) return;
   drift.is_known = true;
-  const Twist twist = all->value.head<6>();
-  drift.T_calibrated_camera = calibration::motion(twist);
-  drift.covariance = all->covariance.topLeftCorner<6, 6>();
-  drift.time_offset = {all->value[time_offset],
-                       std::sqrt(all->covariance(time_offset, time_offset))};
-  drift.has_moved = is_beyond_limits(twist) && distance(twist, drift.covariance) > by_chance;
+  set(*both, *both);
+  const bool is_off = is_moved(*both), is_late = is_beyond_chance(drift.time_offset);
+  const bool is_unclear = is_off && is_late && both->is_both();
+  const bool is_amount_known =
+      drift.position() > drift.position_error() || drift.rotation() > drift.rotation_error();
+  drift.has_moved = is_off && both->blames_pose() && !is_unclear && (is_amount_known || is_bumped);
+  drift.clocks_differ = is_late && !both->is_both() && both->blames_clocks();
+  drift.camera_or_clocks = is_unclear;
+  if (is_off || is_late || !both->is_either()) return;
+  // Too much alike: each alone.
+  const auto pose = solve(all, prior.with_zero(time_offset, 1));
+  const auto clocks = solve(all, prior.with_zero(0, 6));
+  if (!pose || !clocks || !is_moved(*pose)) return;
+  drift.camera_or_clocks = is_beyond_chance(time_of(*clocks));
+  if (drift.camera_or_clocks) set(*pose, *clocks);
+}
+
+/// Whether the estimate is where frames were compared; else begins again there, because residuals
+/// are linear in small steps only, and large ones are left out.
+bool CalibrationWatch::State::settle(const Solution& all) {
+  const Vector by = all.value - at;
+  time_reach = std::sqrt(all.covariance(time_offset, time_offset));
+  const bool is_late = all.blames_clocks() &&
+                       std::abs(by[time_offset]) > std::max(time_step, clear_sigmas * time_reach);
+  const bool is_off = all.blames_pose() &&
+                      pose_difference(calibration::motion(at.head<6>()),
+                                      calibration::motion(all.value.head<6>())) > pose_step &&
+                      distance(by.head<6>(), all.covariance.topLeftCorner<6, 6>()) > by_chance;
+  is_settled = !is_late && !is_off;
+  if (is_settled) return true;
+  if (is_off) at.head<6>() = all.value.head<6>();
+  if (is_late) {
+    at[time_offset] = all.value[time_offset];
+    time_reach += std::abs(by[time_offset]);
+  }
+  views.clear();
+  for (View& view : open) view.count = 0;
+  prior = at_first;
+  return false;
 }
 
 CalibrationWatch::CalibrationWatch(const Camera& camera, const DriftLimits& limits)
@@ -311,6 +533,7 @@ CalibrationWatch::CalibrationWatch(const Camera& camera, const DriftLimits& limi
   sigmas.tail<3>() << offset_prior, scale_prior, time_prior;
   state_->prior.information.diagonal() = sigmas.array().square().inverse();
   state_->prior.information.topLeftCorner<6, 6>().setZero();
+  state_->at_first = state_->prior;
 }
 
 CalibrationWatch::~CalibrationWatch() = default;
@@ -320,26 +543,8 @@ CalibrationWatch& CalibrationWatch::operator=(CalibrationWatch&&) noexcept = def
 void CalibrationWatch::add(const FrameReport& report) {
   if (report.status != FrameStatus::ok || report.virtual_depth.depth.empty()) return;
   State& state = *state_;
+  state.place(report);
   if (state.seen++ % period != 0) return;
-  const Eigen::Isometry3d T_camera_root = report.T_root_camera->inverse();
-  const std::size_t links = report.T_root_link.size();
-  const bool has_last = state.T_camera_link.size() == links && state.last_stamp && report.stamp &&
-                        *report.stamp > *state.last_stamp;
-  const double seconds =
-      has_last ? 1e-9 * static_cast<double>(*report.stamp - *state.last_stamp) : 0.0;
-  state.velocities.assign(links, Twist::Zero());
-  state.open.resize(links);
-  state.T_camera_link.resize(links);
-  for (std::size_t i = 0; i < links; ++i) {
-    const Eigen::Isometry3d T = T_camera_root * report.T_root_link[i];
-    if (has_last && seconds < 0.5) {
-      const Eigen::Isometry3d moved = T * state.T_camera_link[i].inverse();
-      const Eigen::AngleAxisd turn(moved.linear());
-      state.velocities[i] << turn.angle() * turn.axis() / seconds, moved.translation() / seconds;
-    }
-    state.T_camera_link[i] = T;
-  }
-  state.last_stamp = report.stamp;
   state.sample(report);
   state.accumulate(report);
   if (++state.frames % solve_period == 0) state.estimate();
@@ -361,20 +566,41 @@ std::string Drift::message() const {
   constexpr double degrees = 180.0 / std::numbers::pi;
   constexpr double much = 0.4;
   std::array<char, 256> text{};
-  if (seen_through > much)
+  if (seen_through > much) {
     std::snprintf(
         text.data(), text.size(),
         "the sensor sees past %.0f %% of the robot: the camera is elsewhere than calibrated, "
-        "or the joints are another robot's",
+        "or the joints are another robot's: run 'penumbra calibrate'",
         100.0 * seen_through);
-  else if (has_moved)
-    std::snprintf(text.data(), text.size(),
-                  "the camera is %.1f +- %.1f mm and %.2f +- %.2f degrees from its calibration",
-                  1e3 * position(), 1e3 * position_error(), degrees * rotation(),
-                  degrees * rotation_error());
-  std::string line = text.data();
-  if (!line.empty() && bumped_at) line += ", bumped at frame " + std::to_string(*bumped_at);
-  if (!line.empty()) line += ": run 'penumbra calibrate'";
+    return text.data();
+  }
+  std::snprintf(text.data(), text.size(), "images and joint states are about %.0f +- %.0f ms apart",
+                1e3 * std::abs(time_offset.value), std::max(1.0, 2e3 * time_offset.sigma));
+  const std::string apart = text.data();
+  std::string line;
+  if (clocks_differ) {
+    std::snprintf(text.data(), text.size(), ": use --time-offset %.3f", time_offset.value);
+    line = apart + text.data();
+  }
+  if (has_moved || camera_or_clocks) {
+    std::string by;
+    const auto add = [&](const char* format, double value, double error) {
+      if (error > value) return;
+      std::snprintf(text.data(), text.size(), format, value, error);
+      by += (by.empty() ? "" : " and ") + std::string(text.data());
+    };
+    add("%.1f +- %.1f mm", 1e3 * position(), 1e3 * position_error());
+    add("%.2f +- %.2f degrees", degrees * rotation(), degrees * rotation_error());
+    line += by.empty() ? "the camera has moved since its calibration, how far is not known yet"
+                       : "the camera is " + by + " from its calibration";
+    if (has_moved && bumped_at)
+      line += ", bumped at frame " + std::to_string(*bumped_at) + " +- " +
+              std::to_string(bumped_within);
+    if (camera_or_clocks)
+      line += ", or " + apart + ", or both: move the robot at other speeds to tell them apart";
+    else
+      line += ": run 'penumbra calibrate'";
+  }
   return line;
 }
 

@@ -27,10 +27,19 @@ struct Drift {
   /// The camera's pose in its calibrated frame.
   Eigen::Isometry3d T_calibrated_camera = Eigen::Isometry3d::Identity();
   PoseCovariance covariance = PoseCovariance::Zero();
-  Estimate time_offset;    ///< seconds to add to an image's stamp before poses are looked up
-  bool has_moved = false;  ///< farther than the limits, and not by chance
-  std::optional<std::size_t> bumped_at;         ///< index of the frame at which it moved suddenly
-  std::optional<std::int64_t> bumped_at_stamp;  ///< that frame's stamp, nanoseconds
+  Estimate time_offset;  ///< seconds to add to an image's stamp before poses are looked up
+
+  bool has_moved = false;      ///< farther than the limits; neither chance nor clocks explain it
+  bool clocks_differ = false;  ///< by more than 5 ms; neither chance nor the pose explains it
+  /// One of the two, and the robot's motion does not tell which: then the pose is as if the clocks
+  /// were right, and the time offset as if the pose were.
+  bool camera_or_clocks = false;
+
+  /// Index and stamp (ns) of the frame at which the camera moved suddenly; null if it did not, or
+  /// if the frame is not known within 30 frames.
+  std::optional<std::size_t> bumped_at;
+  std::optional<std::int64_t> bumped_at_stamp;
+  std::size_t bumped_within = 0;  ///< frames by which that may be off
   /// Share of the robot's pixels in which the sensor sees past its surface; about 1 if the robot is
   /// elsewhere by more than its size.
   double seen_through = 0.0;
@@ -40,7 +49,7 @@ struct Drift {
   [[nodiscard]] double rotation() const;
   [[nodiscard]] double position_error() const;
   [[nodiscard]] double rotation_error() const;
-  /// One line for users if the camera has moved; else empty.
+  /// One line for users if the camera has moved or clocks differ; else empty.
   [[nodiscard]] std::string message() const;
 };
 

@@ -22,9 +22,11 @@ constexpr double tolerance_sigmas = 2;  // e(z) in standard deviations of the de
 constexpr double target_speed = 0.5;    // m/s at most: covariances grow by it times a view's age
 constexpr double contradiction_bound = 16.27;  // chi-square of 3 degrees of freedom, 99.9 %
 constexpr double kept_windows = 10;            // in which a target is in no frame
-// Parts of the target's radius: from its centre to its middle in the image; the middle of an oblong
-// target's end; and its centre behind the surface, evenly between 0 (a plate) and 1.
-constexpr double extent_across = 0.25, cut_reach = 1.5;
+constexpr double calibration = 0.005;          // metres, of a camera's pose; its standard deviation
+// Parts of the target's radius: from its centre to the middle of what is seen in the image, if all
+// is seen and for each part of it that is not; the middle of an oblong target's end; and its centre
+// behind the surface, evenly between 0 (a plate) and 1.
+constexpr double extent_across = 0.05, hidden_across = 1.0, cut_reach = 1.5;
 constexpr double behind_surface = 0.5, behind_sigma = 0.5 * std::numbers::inv_sqrt3;
 
 /// Radius of a disc with as many pixels as the target, metres.
@@ -54,8 +56,9 @@ void measure(const ViewCamera& camera, const Eigen::Isometry3d& T_root_camera,
   *view.point += behind_surface * radius * (T_root_camera.linear() * ray);
   const double noise = camera.tolerance.at(z) / tolerance_sigmas * view.distance / z;
   const double pixel = z / std::min(camera.intrinsics.fx(), camera.intrinsics.fy());
-  const double along = std::hypot(noise, behind_sigma * radius);
-  const double across = std::hypot(pixel, extent_across * radius);
+  const double part = extent_across + hidden_across * (1.0 - view.visible_fraction);
+  const double along = std::hypot(noise, behind_sigma * radius, calibration);
+  const double across = std::hypot(pixel, part * radius, calibration);
   const Eigen::Matrix3d on_ray = ray * ray.transpose();
   const Eigen::Matrix3d in_camera =
       along * along * on_ray + across * across * (Eigen::Matrix3d::Identity() - on_ray);

@@ -40,7 +40,8 @@ struct CameraView {
   /// valid only with a point.
   std::optional<Eigen::Vector3d> point;
   /// Of the point, square metres. Along the ray: the noise of the depth, and the centre anywhere
-  /// between the surface and a radius behind it. Across: a pixel and a quarter of the radius.
+  /// between the surface and a radius behind it. Across: a pixel, a twentieth of the radius, and
+  /// the radius times the part that is not seen. In all directions 5 mm, of the camera's pose.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double distance = 0;  ///< from the camera's centre to the surface, metres
   double angle = 0;     ///< from the optical axis, radians

@@ -175,12 +175,13 @@ TEST(TargetFusion, TwoCamerasAtRightAnglesHelpEachOther) {
   const FusedTarget target = views.fused("part");
   ASSERT_TRUE(target.point);
   EXPECT_LT(target.point->norm(), 1e-12);
-  // Noise e / 2 = 5 mm along the ray, a pixel across, and of the radius: along the ray the variance
-  // of what is evenly between 0 and 1, a twelfth; across a quarter.
+  // The camera's pose within 5 mm, noise e / 2 = 5 mm along the ray, a pixel across, and of the
+  // radius: along the ray the variance of what is evenly between 0 and 1, a twelfth; across a
+  // twentieth.
   const double distance = (camera_at(0).translation() - surface_at(0)).norm();
   const double radius = distance * unit_radius;
-  const double along = 0.005 * 0.005 + radius * radius / 12;
-  const double across = distance * distance / (600.0 * 600) + radius * radius / 16;
+  const double along = 2 * 0.005 * 0.005 + radius * radius / 12;
+  const double across = 0.005 * 0.005 + distance * distance / (600.0 * 600) + radius * radius / 400;
   const double both = 1 / (1 / along + 1 / across);
   const Eigen::Matrix3d expected = Eigen::Vector3d(both, both, across / 2).asDiagonal();
   EXPECT_LT((target.covariance - expected).norm(), 1e-12);
@@ -194,7 +195,8 @@ TEST(TargetFusion, PointsAtDifferentPlacesAreAContradiction) {
     views.add(2, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, apart)).get());
     return views.fused("part");
   };
-  const double across = std::sqrt(1.0 / (600.0 * 600) + unit_radius * unit_radius / 16);
+  const double across =
+      std::sqrt(0.005 * 0.005 + 1.0 / (600.0 * 600) + unit_radius * unit_radius / 400);
   const double limit = std::sqrt(16.27 * 2) * across;
   constexpr double oblique = 0.01;  // part of the limit: the rays to the points are not parallel
   EXPECT_TRUE(fused_at((1 - oblique) * limit).point);
@@ -207,6 +209,18 @@ TEST(TargetFusion, PointsAtDifferentPlacesAreAContradiction) {
   EXPECT_EQ(apart.verdict, Verdict::unknown);
   EXPECT_FALSE(apart.point);
   EXPECT_NE(apart.reason.find("'left' and 'right'"), std::string::npos) << apart.reason;
+}
+
+TEST(TargetFusion, AHalfHiddenTargetMayBeAnywhereInIt) {
+  const auto fused_at = [](double visible, double apart) {
+    TargetFusion views = fusion_of({"left", "right"});
+    views.add(0, Shot(0, Verdict::partial, Eigen::Vector3d(0, 0, 0), visible).get());
+    views.add(1, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, apart)).get());
+    return views.fused("part");
+  };
+  constexpr double apart = 0.04;  // metres; the disc's radius is 9.4 mm, a pose is known to 5 mm
+  EXPECT_TRUE(fused_at(1.0, apart).contradiction);
+  EXPECT_FALSE(fused_at(0.3, apart / 2).contradiction);
 }
 
 TEST(TargetFusion, FusedPointsAreAsGoodAsTheirCovarianceSays) {
