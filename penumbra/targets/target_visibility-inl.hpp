@@ -105,7 +105,7 @@ class ExtentObserver {
   [[nodiscard]] Visibility observe_last(const TargetInFrame& at, std::size_t missing);
   void move_last(const TargetInFrame& at, const TargetMemory& memory);
   [[nodiscard]] bool is_other_object(const TargetInFrame& at, const TargetMemory& memory,
-                                     const Visibility& now, const SpanBox& box) const;
+                                     const SpanBox& box) const;
   [[nodiscard]] bool can_be_part_of_last(const TargetInFrame& at, const TargetMemory& memory,
                                          const SpanBox& box) const;
   [[nodiscard]] bool may_hide_missing(const TargetInFrame& at, const SpanBox& box,

@@ -17,12 +17,15 @@ constexpr int averaged_frames = 100;
 /// Standard deviations by which a size may differ from the average.
 constexpr double size_deviations = 2.0;
 
+/// Factor by which another object is wider or higher than one that turns.
+constexpr double another_shape = 1.2;
+
 /// Number of differences over which the noise of sizes is averaged, and the standard deviation by
 /// the mean absolute difference of two sizes: sqrt(pi) / 2 of a normal distribution.
 constexpr double averaged_noise = 20.0, change_to_sigma = 0.8862;
 
 /// The largest standard deviation / size. Larger differences are not noise.
-constexpr double most_size_noise = 0.05;
+constexpr double most_size_noise = 0.04;
 
 double bad_share(const Visibility& visibility, bool others_hide) {
   return visibility.hidden(others_hide) + visibility.fraction(PixelState::unknown);
@@ -89,12 +92,14 @@ bool has_proportions(const SpanBox& box, const SpanBox& whole) {
          2 * mask_error / std::min(width, height);
 }
 
-/// Returns whether the target is as wide and as high as it was seen last.
-bool has_last_size(const TargetMemory& memory, const SpanBox& box) {
-  const SpanBox last = box_of_spans(memory.extent);
-  const double most = size_deviations * memory.size_noise + 0.5 * TargetThresholds().partial_enter;
-  return std::abs(width_of(box) - width_of(last)) <= most * width_of(last) &&
-         std::abs(height_of(box) - height_of(last)) <= most * height_of(last);
+bool outgrows(const SpanBox& a, const SpanBox& b, double factor) {
+  return width_of(a) > factor * width_of(b) || height_of(a) > factor * height_of(b);
+}
+
+/// Returns the relative difference of widths and heights that noise and tolerance of areas permit.
+double linear_tolerance(const TargetMemory& memory, const TargetThresholds& thresholds) {
+  return std::max(size_deviations * memory.size_noise / std::sqrt(2.0),
+                  0.5 * thresholds.partial_enter);
 }
 
 double pixels_of(std::span<const RowSpan> spans) {
@@ -174,7 +179,7 @@ Visibility ExtentObserver::observe_modal(const TargetInFrame& at, TargetMemory& 
   const SpanBox box = box_of_spans(seen_.spans());
   touches_robot_ = may_be_hidden_ = holds_robot(at, grown(box, at.reach(), at.reach()));
   move_last(at, memory);
-  if (is_other_object(at, memory, now, box)) {
+  if (is_other_object(at, memory, box)) {
     const Verdict level = memory.level;
     memory = {};
     memory.level = level;
@@ -200,26 +205,27 @@ Visibility ExtentObserver::observe_modal(const TargetInFrame& at, TargetMemory& 
 Visibility ExtentObserver::compare(const TargetInFrame& at, const TargetMemory& memory,
                                    const Visibility& now, const SpanBox& box) {
   const TargetThresholds& thresholds = at.target.thresholds;
+  const SpanBox last = box_of_spans(memory.extent);
   const bool is_placed = can_be_part_of_last(at, memory, box);
   const double whole = is_placed && reaches_border() ? static_cast<double>(last_.inside())
                                                      : memory.size / area_scale(memory, at.target);
   const double noise = size_deviations * memory.size_noise * whole;
   const double lacking = std::max(whole - static_cast<double>(now.inside), 0.0);
-  const bool may_be_missing =
-      lacking > noise && may_hide_missing(at, box, box_of_spans(memory.extent));
+  const bool may_be_missing = lacking > noise && may_hide_missing(at, box, last);
   const auto missing = may_be_missing ? static_cast<std::size_t>(lacking) : std::size_t{0};
   const double tolerance = std::max(thresholds.partial_enter * whole, noise);
   may_be_hidden_ = touches_robot_ || may_be_missing;
   const bool has_depths = memory.depth && at.target.expected_depth;
   Visibility moved = now;
-  if (lacking <= tolerance && touches_robot_ && !has_depths && !has_last_size(memory, box) &&
-      (!is_placed || static_cast<double>(now.inside) > whole + tolerance)) {
+  const double same = 1 + linear_tolerance(memory, thresholds);
+  const bool is_changed = outgrows(box, last, same) || (!is_placed && outgrows(last, box, same));
+  if (lacking <= tolerance && touches_robot_ && !has_depths && is_changed) {
     moved.size_unknown = SizeUnknown::moved;  // it may have come nearer and be partly hidden
   } else if (is_placed) {
-    const Visibility last = observe_last(at, missing);
+    const Visibility whole_extent = observe_last(at, missing);
     const bool is_worse =
-        bad_share(last, thresholds.others_hide) >= bad_share(now, thresholds.others_hide);
-    return is_worse ? last : now;
+        bad_share(whole_extent, thresholds.others_hide) >= bad_share(now, thresholds.others_hide);
+    return is_worse ? whole_extent : now;
   } else if (lacking > tolerance) {
     moved.covered += missing;
     moved.inside += missing;
@@ -239,14 +245,15 @@ void ExtentObserver::move_last(const TargetInFrame& at, const TargetMemory& memo
 /// Returns whether the mask is of another object than the memory, by its size at its depth or its
 /// place: a track id was used again.
 bool ExtentObserver::is_other_object(const TargetInFrame& at, const TargetMemory& memory,
-                                     const Visibility& now, const SpanBox& box) const {
+                                     const SpanBox& box) const {
   if (memory.extent.empty() || memory.is_cut) return false;
   if (is_elsewhere(box)) return true;
   if (!touches_robot_ || !memory.depth || !at.target.expected_depth) return false;
-  const double whole = memory.size / area_scale(memory, at.target);
-  const double more =
-      std::max(size_deviations * memory.size_noise, at.target.thresholds.partial_enter);
-  return static_cast<double>(now.inside) > (1 + more) * whole;
+  const double scale = area_scale(memory, at.target);
+  const double most =
+      1 + std::max(size_deviations * memory.size_noise, at.target.thresholds.partial_enter);
+  return static_cast<double>(seen_.inside()) * scale > most * memory.size ||
+         outgrows(box, box_of_spans(memory.extent), another_shape / std::sqrt(scale));
 }
 
 bool ExtentObserver::is_elsewhere(const SpanBox& box) const {
@@ -314,7 +321,8 @@ void ExtentObserver::remember(const TargetView& target, TargetMemory& memory) co
                       : !is_smaller || has_proportions(box, box_of_spans(memory.extent)));
   if (!is_whole) {
     const SpanBox last = box_of_spans(memory.extent);
-    if (may_be_hidden_ && !has_depths && has_last_size(memory, box))
+    const double same = 1 + linear_tolerance(memory, target.thresholds);
+    if (may_be_hidden_ && !has_depths && !outgrows(box, last, same) && !outgrows(last, box, same))
       memory.moved = Eigen::Vector2d(box.u0 - last.u0, box.v0 - last.v0);
     else
       memory.moved += target.motion.value_or(Eigen::Vector2d::Zero());
