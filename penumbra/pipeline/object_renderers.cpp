@@ -12,8 +12,8 @@
 namespace penumbra {
 namespace {
 
-/// By how much pinhole pixels are smaller than needed. With 1, small objects in a lens's image are
-/// up to 5 % too small or too large; with 3, up to 2 %.
+/// By how much pinhole pixels are smaller than needed. With 1, objects of 600 pixels in a lens's
+/// image are 1.5 % too small or too large on average; with 3, 0.7 %.
 constexpr double fineness = 3;
 
 void check_mesh(const TriangleMesh* mesh) {

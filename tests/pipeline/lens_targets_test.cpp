@@ -51,9 +51,10 @@ TEST(TargetsInTheRawImage, OfARenderedBoxAreThoseThatTheirRaysMeet) {
   EXPECT_EQ(plate.verdict, Verdict::partial);
 }
 
-/// A small mesh in a lens's image covers the pixels whose rays meet it, but for its outline.
+/// A small mesh in a lens's image covers the pixels whose rays meet it. Where an edge runs along
+/// the pixels' centres, a row of them may be missing or added: the mean counts.
 TEST(TargetsInTheRawImage, OfASmallMeshAreThoseThatItsRaysMeet) {
-  constexpr double side = 24.0, outline = 0.025;  // pixels; of the plate's pixels
+  constexpr double side = 24.0, outline = 0.01;  // pixels; of the plates' pixels
   constexpr double z = 1.0;
   Camera camera{Intrinsics(640, 480, 600, 600, 320, 240), {}, {}, {}};
   const double coefficients[] = {-0.25, 0.06, 0.001, -0.001, 0.0};
@@ -64,7 +65,8 @@ TEST(TargetsInTheRawImage, OfASmallMeshAreThoseThatItsRaysMeet) {
   auto plate = std::make_shared<TriangleMesh>();
   plate->vertices = {{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}};
   plate->triangles = {{0, 1, 2}, {0, 2, 3}};
-  for (double x = -0.4; x <= 0.4; x += 0.057) {
+  int all = 0, different = 0;
+  for (double x = -0.4; x <= 0.4; x += 0.0131) {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.translation() = Eigen::Vector3d(x, 0.6 * x + 0.03, z);
     const VirtualDepthView drawn = renderers.mesh(plate, pose);
@@ -77,9 +79,11 @@ TEST(TargetsInTheRawImage, OfASmallMeshAreThoseThatItsRaysMeet) {
         meets += ray && (z * *ray - pose.translation().head<2>()).cwiseAbs().maxCoeff() < limit;
       }
     }
-    EXPECT_GT(meets, 400);
-    EXPECT_NEAR(covered, meets, outline * meets) << x;
+    all += meets;
+    different += std::abs(covered - meets);
   }
+  EXPECT_GT(all, 20000);
+  EXPECT_LT(different, outline * all);
 }
 
 /// Pixels of a fisheye's image whose rays meet a sphere, by the formula of equidistant lenses: also
