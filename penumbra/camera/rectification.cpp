@@ -42,9 +42,10 @@ double largest_singular_value(const Eigen::Matrix2d& m) {
 
 /// Returns the pinhole image of that extent, with focal lengths so that no pixel is larger than a
 /// raw one, and with the principal point whole pixels from the raw one; nothing if it is too large.
-std::optional<Intrinsics> pinhole_of(const RayBounds& extent, const Intrinsics& raw) {
+std::optional<Intrinsics> pinhole_of(const RayBounds& extent, const Intrinsics& raw,
+                                     double fineness) {
   if (!(extent.stretch <= Rectification::max_stretch)) return std::nullopt;
-  const Eigen::Array2d focal = extent.stretch * Eigen::Array2d(raw.fx(), raw.fy());
+  const Eigen::Array2d focal = fineness * extent.stretch * Eigen::Array2d(raw.fx(), raw.fy());
   const Eigen::Array2d centre(raw.cx(), raw.cy());
   const Eigen::Array2d shift = (0.5 - (extent.low * focal + centre)).floor();
   const Eigen::Array2d size = (extent.high * focal + centre + shift + 0.5).floor() + 1;
@@ -60,7 +61,7 @@ std::optional<Intrinsics> pinhole_of(const RayBounds& extent, const Intrinsics& 
 /// Bounds of rays by their angle from the optical axis, to choose the widest cone that fits.
 class BoundsByAngle {
  public:
-  explicit BoundsByAngle(double max_angle) : max_angle_(max_angle) {}
+  BoundsByAngle(double max_angle, double fineness) : max_angle_(max_angle), fineness_(fineness) {}
 
   void add(const Eigen::Vector2d& ray, double stretch) {
     const double fraction = std::atan(ray.norm()) / max_angle_;
@@ -77,7 +78,7 @@ class BoundsByAngle {
     for (std::size_t i = 0; i < bins_.size(); ++i) {
       extent.add(bins_[i]);
       if (extent.empty()) continue;
-      const auto wider = pinhole_of(extent, raw);
+      const auto wider = pinhole_of(extent, raw, fineness_);
       if (!wider) break;
       best = wider;
       angle = max_angle_ * static_cast<double>(i + 1) / static_cast<double>(bins_.size());
@@ -93,7 +94,7 @@ class BoundsByAngle {
   }
 
  private:
-  double max_angle_;
+  double max_angle_, fineness_;
   std::array<RayBounds, 256> bins_;
 };
 
@@ -118,8 +119,8 @@ struct Rectification::Plan {
   Image<Point> rays;  // of raw pixels; NaN if not covered
 };
 
-Rectification::Rectification(const Camera& raw, double max_half_angle)
-    : Rectification(raw, plan(raw, max_half_angle)) {}
+Rectification::Rectification(const Camera& raw, double max_half_angle, double fineness)
+    : Rectification(raw, plan(raw, max_half_angle, fineness)) {}
 
 Rectification::Rectification(const Camera& raw, const Plan& plan)
     : pinhole_(plan.pinhole),
@@ -139,12 +140,12 @@ Rectification::Rectification(const Camera& raw, const Plan& plan)
   list_tiles();
 }
 
-Rectification::Plan Rectification::plan(const Camera& raw, double max_half_angle) {
+Rectification::Plan Rectification::plan(const Camera& raw, double max_half_angle, double fineness) {
   assert(max_half_angle > 0 && max_half_angle < std::numbers::pi / 2);
   const Intrinsics& k = raw.intrinsics;
   const Point nowhere = Point::Constant(std::numeric_limits<float>::quiet_NaN());
   Image<Point> rays(k.width(), k.height(), nowhere);
-  BoundsByAngle extents(max_half_angle);
+  BoundsByAngle extents(max_half_angle, fineness);
   const double reach = std::tan(max_half_angle);
   for (int v = 0; v < k.height(); ++v) {
     for (int u = 0; u < k.width(); ++u) {

@@ -37,9 +37,9 @@ class Rectification {
 
   /// Covers rays up to `max_half_angle` (radians, below 90 degrees) from the optical axis, or up to
   /// a smaller angle, see half_angle(), if the pinhole image would exceed max_pixels,
-  /// Intrinsics::max_size or max_stretch.
+  /// Intrinsics::max_size or max_stretch. Pinhole pixels are `fineness` times smaller than needed.
   /// Throws LensError if the lens model reaches no pixel of the image.
-  explicit Rectification(const Camera& raw, double max_half_angle = 1.3);
+  explicit Rectification(const Camera& raw, double max_half_angle = 1.3, double fineness = 1);
 
   [[nodiscard]] const Intrinsics& pinhole() const { return pinhole_; }
 
@@ -66,7 +66,7 @@ class Rectification {
   struct Plan;
 
   Rectification(const Camera& raw, const Plan& plan);
-  [[nodiscard]] static Plan plan(const Camera& raw, double max_half_angle);
+  [[nodiscard]] static Plan plan(const Camera& raw, double max_half_angle, double fineness);
   void map_pinhole(const Camera& raw);
   void list_tiles();
 

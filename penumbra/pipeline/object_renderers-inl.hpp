@@ -25,9 +25,10 @@ class ObjectRenderers {
   /// Cached renderers; more meshes in one frame are prepared again each time.
   static constexpr std::size_t max_kept = 32;
 
-  /// `rectification`: for raw images with lens distortion, else null. Must outlive this.
+  /// `rectification`: for raw images of `camera` with lens distortion, else null; then `intrinsics`
+  /// are of the images. The rectification must outlive this.
   ObjectRenderers(const Intrinsics& intrinsics, const PipelineConfig& config,
-                  const Rectification* rectification);
+                  const Rectification* rectification, const Camera& camera);
   ~ObjectRenderers();
 
   /// Returns the depth of a box or mesh; valid until the next call. Throws InputError for an
@@ -39,6 +40,7 @@ class ObjectRenderers {
  private:
   struct Kept;
   VirtualDepthView render(Kept& kept, const Eigen::Isometry3d& T_camera_object);
+  void prepare();
   VirtualDepthView in_image(const VirtualDepthView& rendered);
   void clear_box();
   Kept& place();
@@ -47,6 +49,8 @@ class ObjectRenderers {
   Backend backend_;
   RendererOptions options_;
   const Rectification* rectification_;
+  Camera camera_;
+  std::optional<Rectification> fine_;    // made with the first object
   std::optional<RawImages> raw_images_;  // made with the first object
   Image<float> box_depth_;               // made with the first box
   Image<std::uint16_t> box_links_;       // zeros

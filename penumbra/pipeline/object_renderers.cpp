@@ -12,6 +12,10 @@
 namespace penumbra {
 namespace {
 
+/// By how much pinhole pixels are smaller than needed. With 1, objects of 600 pixels in a lens's
+/// image are 1.5 % too small or too large on average; with 3, 0.7 %.
+constexpr double fineness = 3;
+
 void check_mesh(const TriangleMesh* mesh) {
   if (mesh == nullptr || mesh->triangles.empty()) throw InputError("mesh has no triangles");
   const bool is_finite =
@@ -63,15 +67,17 @@ struct ObjectRenderers::Kept {
 };
 
 ObjectRenderers::ObjectRenderers(const Intrinsics& intrinsics, const PipelineConfig& config,
-                                 const Rectification* rectification)
+                                 const Rectification* rectification, const Camera& camera)
     : intrinsics_(intrinsics),
       backend_(config.backend == Backend::reference ? Backend::reference : Backend::cpu),
       options_{.threads = 1, .isa = config.renderer.isa},
-      rectification_(rectification) {}
+      rectification_(rectification),
+      camera_(camera) {}
 ObjectRenderers::~ObjectRenderers() = default;
 
 VirtualDepthView ObjectRenderers::box(const Eigen::Vector3d& size,
                                       const Eigen::Isometry3d& T_camera_box) {
+  prepare();
   clear_box();
   const PixelRectangle pixels =
       pixels_of(Eigen::AlignedBox3d(-0.5 * size, 0.5 * size), T_camera_box, intrinsics_);
@@ -106,6 +112,7 @@ void ObjectRenderers::clear_box() {
 
 VirtualDepthView ObjectRenderers::mesh(const std::shared_ptr<const TriangleMesh>& mesh,
                                        const Eigen::Isometry3d& T_camera_mesh) {
+  prepare();
   for (const auto& kept : kept_)
     if (mesh && kept->mesh == mesh) return render(*kept, T_camera_mesh);
   check_mesh(mesh.get());
@@ -129,10 +136,19 @@ VirtualDepthView ObjectRenderers::render(Kept& kept, const Eigen::Isometry3d& T_
   return in_image(kept.renderer->render({&T_camera_object, 1}));
 }
 
+/// Draws for raw images in a finer pinhole image where that covers as much: the nearest of its
+/// pixels is off by less, which matters for outlines of small objects.
+void ObjectRenderers::prepare() {
+  if (rectification_ == nullptr || raw_images_) return;
+  fine_.emplace(camera_, rectification_->half_angle(), fineness);
+  if (fine_->half_angle() < rectification_->half_angle()) fine_.reset();
+  const Rectification& used = fine_ ? *fine_ : *rectification_;
+  intrinsics_ = used.pinhole();
+  raw_images_.emplace(used);
+}
+
 VirtualDepthView ObjectRenderers::in_image(const VirtualDepthView& rendered) {
-  if (rectification_ == nullptr) return rendered;
-  if (!raw_images_) raw_images_.emplace(*rectification_);
-  return raw_images_->virtual_depth(rendered);
+  return raw_images_ ? raw_images_->virtual_depth(rendered) : rendered;
 }
 
 }  // namespace penumbra

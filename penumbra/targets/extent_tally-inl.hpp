@@ -102,8 +102,8 @@ struct TalliedFrame {
   /// Returns whether the robot may lie in the pixels [u0, u1] x [v0, v1], clipped to the image. It
   /// may lie anywhere outside the lens model.
   [[nodiscard]] bool robot_may_lie_in(int u0, int u1, int v0, int v1) const;
-  /// The same for pixels [u0, u1] of a row in the image, exactly.
-  [[nodiscard]] bool robot_lies_in(int u0, int u1, int v) const;
+  /// The same for pixels [u0, u1] of a row in the image, exactly, and for robot up to `far` metres.
+  [[nodiscard]] bool robot_lies_in(int u0, int u1, int v, float far) const;
 
   LabelledImages images;
   const labelling::Rule* rule;

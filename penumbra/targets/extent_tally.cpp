@@ -269,12 +269,13 @@ bool TalliedFrame::robot_may_lie_in(int u0, int u1, int v0, int v1) const {
   return false;
 }
 
-bool TalliedFrame::robot_lies_in(int u0, int u1, int v) const {
+bool TalliedFrame::robot_lies_in(int u0, int u1, int v, float far) const {
   const std::uint8_t* const labels = images.labels.labels.row(v);
-  const float* const z = is_outside_undrawn ? images.virtual_depth.depth.row(v) : nullptr;
+  const float* const z = images.virtual_depth.depth.row(v);
   for (int u = u0; u <= u1; ++u) {
     u += first_set(labels + u, u1 + 1 - u);
-    if (u <= u1 && !is_fringe(labels[u]) && (z == nullptr || z[u] > 0.0f)) return true;
+    if (u <= u1 && !is_fringe(labels[u]) && z[u] <= far && (z[u] > 0.0f || !is_outside_undrawn))
+      return true;
   }
   return false;
 }

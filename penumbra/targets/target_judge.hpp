@@ -57,7 +57,9 @@ struct TargetMemory {
   Verdict level = Verdict::visible;  ///< visible, partial or hidden: the last of these
   std::vector<RowSpan> extent;       ///< modal: the last full extent; empty: none
   Eigen::Vector2d moved{0, 0};       ///< motion from then until the last verdict visible
-  double size = 0;                   ///< modal: pixels of the whole target
+  double size = 0;                   ///< modal: pixels of the whole target, average
+  int sizes = 0;                     ///< in that average
+  double size_noise = 0;             ///< of a single size: standard deviation / size
   std::optional<double> depth;       ///< expected depth of the size, metres
   bool is_cut = false;               ///< the extent reaches the image's border, so there is more
 };

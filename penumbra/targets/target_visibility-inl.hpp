@@ -84,7 +84,8 @@ class ExtentObserver {
   [[nodiscard]] const RegionSpans& seen() const { return seen_; }
 
   /// Observes the region of fill(). The result is valid until the next call.
-  [[nodiscard]] Visibility observe(const TargetInFrame& at, const TargetMemory& memory);
+  /// Forgets the remembered extent if it is another object's.
+  [[nodiscard]] Visibility observe(const TargetInFrame& at, TargetMemory& memory);
 
   /// Returns the counts of the last call, with depths if requested.
   [[nodiscard]] ExtentTally& tally() { return seen_tally_; }
@@ -95,14 +96,18 @@ class ExtentObserver {
  private:
   [[nodiscard]] static Visibility observe_extent(const TargetInFrame& at, const RegionSpans& extent,
                                                  RobotSurroundings* robot, ExtentTally& tally);
-  [[nodiscard]] Visibility observe_modal(const TargetInFrame& at, const TargetMemory& memory,
+  [[nodiscard]] Visibility observe_modal(const TargetInFrame& at, TargetMemory& memory,
                                          const Visibility& now);
+  [[nodiscard]] bool is_elsewhere(const SpanBox& box) const;
   [[nodiscard]] Visibility compare(const TargetInFrame& at, const TargetMemory& memory,
                                    const Visibility& now, const SpanBox& box);
   [[nodiscard]] bool reaches_border() const;
   [[nodiscard]] Visibility observe_last(const TargetInFrame& at, std::size_t missing);
-  [[nodiscard]] bool place_last(const TargetInFrame& at, const TargetMemory& memory,
-                                const SpanBox& box);
+  void move_last(const TargetInFrame& at, const TargetMemory& memory);
+  [[nodiscard]] bool is_other_object(const TargetInFrame& at, const TargetMemory& memory,
+                                     const SpanBox& box) const;
+  [[nodiscard]] bool can_be_part_of_last(const TargetInFrame& at, const TargetMemory& memory,
+                                         const SpanBox& box) const;
   [[nodiscard]] bool may_hide_missing(const TargetInFrame& at, const SpanBox& box,
                                       const SpanBox& whole) const;
 
@@ -111,6 +116,7 @@ class ExtentObserver {
   RegionSpans seen_, last_;
   ExtentTally seen_tally_, last_tally_;
   bool touches_robot_ = false;  // the modal extent of the last call
+  bool may_be_hidden_ = false;  // by the robot, in part: likewise
 };
 
 /// Returns the verdict and updates `memory.level`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <penumbra/targets/target_visibility-inl.hpp>
 
@@ -11,7 +12,20 @@ namespace {
 constexpr int mask_error = 4;
 
 /// Number of frames over which the size of a modal target is averaged.
-constexpr double averaged_frames = 100;
+constexpr int averaged_frames = 100;
+
+/// Standard deviations by which a size may differ from the average.
+constexpr double size_deviations = 2.0;
+
+/// Factor by which another object is wider or higher than one that turns.
+constexpr double another_shape = 1.2;
+
+/// Number of differences over which the noise of sizes is averaged, and the standard deviation by
+/// the mean absolute difference of two sizes: sqrt(pi) / 2 of a normal distribution.
+constexpr double averaged_noise = 20.0, change_to_sigma = 0.8862;
+
+/// The largest standard deviation / size. Larger differences are not noise.
+constexpr double most_size_noise = 0.04;
 
 double bad_share(const Visibility& visibility, bool others_hide) {
   return visibility.hidden(others_hide) + visibility.fraction(PixelState::unknown);
@@ -45,13 +59,17 @@ SpanBox grown(const SpanBox& box, int du, int dv) {
   return {box.u0 - du, box.u1 + du, box.v0 - dv, box.v1 + dv};
 }
 
-/// Returns whether the robot lies in a box, which is clipped to the image.
-bool holds_robot(const TalliedFrame& frame, const SpanBox& box) {
+/// Returns whether robot that may hide the target lies in a box, which is clipped to the image.
+bool holds_robot(const TargetInFrame& at, const SpanBox& box) {
+  const TalliedFrame& frame = at.frame;
+  const auto& depth = at.expected.constant;
+  const float far = depth ? LimitRule(*frame.rule, at.expected.margin).at(*depth).far
+                          : std::numeric_limits<float>::infinity();
   const int u0 = std::max(box.u0, 0), u1 = std::min(box.u1, frame.width - 1);
   const int v0 = std::max(box.v0, 0), v1 = std::min(box.v1, frame.height - 1);
   if (!frame.robot_may_lie_in(u0, u1, v0, v1)) return false;
   for (int v = v0; v <= v1; ++v)
-    if (frame.robot_lies_in(u0, u1, v)) return true;
+    if (frame.robot_lies_in(u0, u1, v, far)) return true;
   return false;
 }
 
@@ -65,6 +83,41 @@ bool lies_in(const SpanBox& inner, const SpanBox& outer) {
 double area_scale(const TargetMemory& memory, const TargetView& target) {
   if (!memory.depth || !target.expected_depth) return 1.0;
   return (*target.expected_depth * *target.expected_depth) / (*memory.depth * *memory.depth);
+}
+
+/// Returns whether the target has the proportions that are remembered, up to the masks' accuracy.
+bool has_proportions(const SpanBox& box, const SpanBox& whole) {
+  const double width = width_of(whole), height = height_of(whole);
+  return std::abs(width_of(box) / width - height_of(box) / height) <=
+         2 * mask_error / std::min(width, height);
+}
+
+bool outgrows(const SpanBox& a, const SpanBox& b, double factor) {
+  return width_of(a) > factor * width_of(b) || height_of(a) > factor * height_of(b);
+}
+
+/// Returns the relative difference of widths and heights that noise and tolerance of areas permit.
+double linear_tolerance(const TargetMemory& memory, const TargetThresholds& thresholds) {
+  return std::max(size_deviations * memory.size_noise / std::sqrt(2.0),
+                  0.5 * thresholds.partial_enter);
+}
+
+double pixels_of(std::span<const RowSpan> spans) {
+  double pixels = 0;
+  for (const RowSpan& span : spans) pixels += span.u1 - span.u0;
+  return pixels;
+}
+
+/// Adds a size to the average, which it replaces if the target `has_changed`. `scale`: from pixels
+/// now to those of the remembered extent.
+void add_size(double size, bool has_changed, double scale, TargetMemory& memory) {
+  memory.sizes = has_changed ? 1 : std::min(memory.sizes + 1, averaged_frames);
+  memory.size += (size - memory.size) / memory.sizes;
+  if (memory.extent.empty()) return;
+  // Of two successive sizes, because the average lags behind a size that changes.
+  const double change = std::abs(size * scale / pixels_of(memory.extent) - 1);
+  const double deviation = std::min(change * change_to_sigma, most_size_noise);
+  memory.size_noise += (deviation - memory.size_noise) / averaged_noise;
 }
 
 }  // namespace
@@ -104,7 +157,7 @@ Visibility ExtentObserver::observe_extent(const TargetInFrame& at, const RegionS
   return visibility;
 }
 
-Visibility ExtentObserver::observe(const TargetInFrame& at, const TargetMemory& memory) {
+Visibility ExtentObserver::observe(const TargetInFrame& at, TargetMemory& memory) {
   if (!at.frame.has_pose()) {
     seen_tally_.clear();
     Visibility none{.covered = seen_.covered(),
@@ -119,15 +172,23 @@ Visibility ExtentObserver::observe(const TargetInFrame& at, const TargetMemory& 
   return at.target.extent == Extent::modal ? observe_modal(at, memory, now) : now;
 }
 
-Visibility ExtentObserver::observe_modal(const TargetInFrame& at, const TargetMemory& memory,
+Visibility ExtentObserver::observe_modal(const TargetInFrame& at, TargetMemory& memory,
                                          const Visibility& now) {
-  touches_robot_ = false;
+  touches_robot_ = may_be_hidden_ = false;
   if (is_out_of_view(now, at.target.thresholds)) return now;
   const SpanBox box = box_of_spans(seen_.spans());
-  touches_robot_ = holds_robot(at.frame, grown(box, at.reach(), at.reach()));
+  touches_robot_ = may_be_hidden_ = holds_robot(at, grown(box, at.reach(), at.reach()));
+  move_last(at, memory);
+  if (is_other_object(at, memory, box)) {
+    const Verdict level = memory.level;
+    memory = {};
+    memory.level = level;
+  }
   if (memory.extent.empty()) {
     Visibility first = now;
-    if (touches_robot_) first.size_unknown = SizeUnknown::first_near_robot;
+    // Twice the reach: masks may keep away from what hides their targets.
+    may_be_hidden_ = holds_robot(at, grown(box, 2 * at.reach(), 2 * at.reach()));
+    if (may_be_hidden_) first.size_unknown = SizeUnknown::first_near_robot;
     return first;
   }
   Visibility visibility = compare(at, memory, now, box);
@@ -136,7 +197,7 @@ Visibility ExtentObserver::observe_modal(const TargetInFrame& at, const TargetMe
     const SpanBox last = box_of_spans(memory.extent);
     const int more =
         at.reach() + std::max({width_of(box), height_of(box), width_of(last), height_of(last)});
-    if (holds_robot(at.frame, grown(box, more, more))) visibility.size_unknown = SizeUnknown::cut;
+    if (holds_robot(at, grown(box, more, more))) visibility.size_unknown = SizeUnknown::cut;
   }
   return visibility;
 }
@@ -144,24 +205,27 @@ Visibility ExtentObserver::observe_modal(const TargetInFrame& at, const TargetMe
 Visibility ExtentObserver::compare(const TargetInFrame& at, const TargetMemory& memory,
                                    const Visibility& now, const SpanBox& box) {
   const TargetThresholds& thresholds = at.target.thresholds;
-  const bool is_placed = place_last(at, memory, box);
+  const SpanBox last = box_of_spans(memory.extent);
+  const bool is_placed = can_be_part_of_last(at, memory, box);
   const double whole = is_placed && reaches_border() ? static_cast<double>(last_.inside())
                                                      : memory.size / area_scale(memory, at.target);
+  const double noise = size_deviations * memory.size_noise * whole;
   const double lacking = std::max(whole - static_cast<double>(now.inside), 0.0);
-  const auto missing = may_hide_missing(at, box, box_of_spans(memory.extent))
-                           ? static_cast<std::size_t>(lacking)
-                           : std::size_t{0};
-  const double tolerance = thresholds.partial_enter * whole;
+  const bool may_be_missing = lacking > noise && may_hide_missing(at, box, last);
+  const auto missing = may_be_missing ? static_cast<std::size_t>(lacking) : std::size_t{0};
+  const double tolerance = std::max(thresholds.partial_enter * whole, noise);
+  may_be_hidden_ = touches_robot_ || may_be_missing;
   const bool has_depths = memory.depth && at.target.expected_depth;
   Visibility moved = now;
-  if (lacking <= tolerance && touches_robot_ && !has_depths &&
-      (!is_placed || static_cast<double>(now.inside) > whole + tolerance)) {
+  const double same = 1 + linear_tolerance(memory, thresholds);
+  const bool is_changed = outgrows(box, last, same) || (!is_placed && outgrows(last, box, same));
+  if (lacking <= tolerance && touches_robot_ && !has_depths && is_changed) {
     moved.size_unknown = SizeUnknown::moved;  // it may have come nearer and be partly hidden
   } else if (is_placed) {
-    const Visibility last = observe_last(at, missing);
+    const Visibility whole_extent = observe_last(at, missing);
     const bool is_worse =
-        bad_share(last, thresholds.others_hide) >= bad_share(now, thresholds.others_hide);
-    return is_worse ? last : now;
+        bad_share(whole_extent, thresholds.others_hide) >= bad_share(now, thresholds.others_hide);
+    return is_worse ? whole_extent : now;
   } else if (lacking > tolerance) {
     moved.covered += missing;
     moved.inside += missing;
@@ -171,13 +235,37 @@ Visibility ExtentObserver::compare(const TargetInFrame& at, const TargetMemory& 
   return moved;
 }
 
-/// Moves the last full extent to its expected place. Returns whether the mask can be part of it: it
-/// has the same expected depth and lies within it.
-bool ExtentObserver::place_last(const TargetInFrame& at, const TargetMemory& memory,
-                                const SpanBox& box) {
+/// Moves the last full extent to its expected place.
+void ExtentObserver::move_last(const TargetInFrame& at, const TargetMemory& memory) {
   last_.fill_moved(memory.extent,
                    memory.moved + at.target.motion.value_or(Eigen::Vector2d::Zero()));
   last_.keep(seen_pixels_);
+}
+
+/// Returns whether the mask is of another object than the memory, by its size at its depth or its
+/// place: a track id was used again.
+bool ExtentObserver::is_other_object(const TargetInFrame& at, const TargetMemory& memory,
+                                     const SpanBox& box) const {
+  if (memory.extent.empty() || memory.is_cut) return false;
+  if (is_elsewhere(box)) return true;
+  if (!touches_robot_ || !memory.depth || !at.target.expected_depth) return false;
+  const double scale = area_scale(memory, at.target);
+  const double most =
+      1 + std::max(size_deviations * memory.size_noise, at.target.thresholds.partial_enter);
+  return static_cast<double>(seen_.inside()) * scale > most * memory.size ||
+         outgrows(box, box_of_spans(memory.extent), another_shape / std::sqrt(scale));
+}
+
+bool ExtentObserver::is_elsewhere(const SpanBox& box) const {
+  if (last_.inside() == 0) return true;
+  const SpanBox last = grown(box_of_spans(last_.spans()), mask_error, mask_error);
+  return box.u0 > last.u1 || box.u1 < last.u0 || box.v0 > last.v1 || box.v1 < last.v0;
+}
+
+/// Returns whether the mask can be part of the last full extent: it has the same expected depth and
+/// lies within it.
+bool ExtentObserver::can_be_part_of_last(const TargetInFrame& at, const TargetMemory& memory,
+                                         const SpanBox& box) const {
   if (last_.inside() == 0) return false;
   const double change = std::abs(area_scale(memory, at.target) - 1.0);
   return change <= at.target.thresholds.partial_enter &&
@@ -190,9 +278,9 @@ bool ExtentObserver::may_hide_missing(const TargetInFrame& at, const SpanBox& bo
                                       const SpanBox& whole) const {
   const int du = std::max(width_of(whole) - width_of(box), 0);
   const int dv = std::max(height_of(whole) - height_of(box), 0);
-  if (holds_robot(at.frame, grown(box, at.reach() + du, at.reach() + dv))) return true;
+  if (holds_robot(at, grown(box, at.reach() + du, at.reach() + dv))) return true;
   return last_.inside() > 0 &&
-         holds_robot(at.frame, grown(box_of_spans(last_.spans()), at.reach(), at.reach()));
+         holds_robot(at, grown(box_of_spans(last_.spans()), at.reach(), at.reach()));
 }
 
 Visibility ExtentObserver::observe_last(const TargetInFrame& at, std::size_t missing) {
@@ -219,19 +307,29 @@ bool ExtentObserver::reaches_border() const {
 }
 
 void ExtentObserver::remember(const TargetView& target, TargetMemory& memory) const {
-  const double size = static_cast<double>(seen_.inside()) * area_scale(memory, target);
-  const double tolerance = target.thresholds.partial_enter * memory.size;
+  const SpanBox box = box_of_spans(seen_.spans());
   const bool has_depths = memory.depth && target.expected_depth;
+  const bool is_first = memory.extent.empty();
+  const double scale = area_scale(memory, target), whole = memory.size / scale;
+  const double size = static_cast<double>(seen_.inside());
+  const double noise = size_deviations * memory.size_noise;
+  const double tolerance = std::max(noise, target.thresholds.partial_enter);
+  const bool is_smaller = size<(1 - tolerance) * whole, is_larger = size>(1 + tolerance) * whole;
   const bool is_whole =
-      touches_robot_ ? has_depths && size >= memory.size : size >= memory.size - tolerance;
+      is_first ||
+      (may_be_hidden_ ? has_depths && size >= (1 - noise) * whole
+                      : !is_smaller || has_proportions(box, box_of_spans(memory.extent)));
   if (!is_whole) {
-    memory.moved += target.motion.value_or(Eigen::Vector2d::Zero());
+    const SpanBox last = box_of_spans(memory.extent);
+    const double same = 1 + linear_tolerance(memory, target.thresholds);
+    if (may_be_hidden_ && !has_depths && !outgrows(box, last, same) && !outgrows(last, box, same))
+      memory.moved = Eigen::Vector2d(box.u0 - last.u0, box.v0 - last.v0);
+    else
+      memory.moved += target.motion.value_or(Eigen::Vector2d::Zero());
     return;
   }
-  const bool is_larger = size > memory.size + tolerance;
-  const double change = (size - memory.size) / (is_larger ? 1.0 : averaged_frames);
-  const double average = memory.size + change;
-  memory.size = average / area_scale(memory, target);
+  memory.size = whole;
+  if (!may_be_hidden_) add_size(size, is_first || is_smaller || is_larger, scale, memory);
   memory.depth = target.expected_depth;
   memory.extent.assign(seen_.spans().begin(), seen_.spans().end());
   memory.is_cut = reaches_border();

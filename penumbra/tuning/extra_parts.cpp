@@ -28,7 +28,6 @@ constexpr std::size_t unexplained = ~std::size_t{0};
 /// A measured point that belongs neither to the robot nor to the background.
 struct Point {
   Eigen::Vector3d camera;  // metres, optical frame
-  int u = 0, v = 0;
   std::size_t frame = 0;
   bool is_certain = false;  // not fringe: far from the outline, or in front of the robot
   std::size_t group = 0;    // moves with the point
@@ -55,11 +54,8 @@ void add_points(const Scene& scene, const LabelRule& rule, const LabelView& labe
       const float near_z = frame.depth(near.u, near.v);
       const bool may_be_fringe = !is_front && distance <= rule.fringe_reach &&
                                  std::abs(z - near_z) < rule.tolerance.at(near_z);
-      points.push_back({.camera = point(u, v),
-                        .u = u,
-                        .v = v,
-                        .frame = frame_number,
-                        .is_certain = !may_be_fringe});
+      points.push_back(
+          {.camera = point(u, v), .frame = frame_number, .is_certain = !may_be_fringe});
     }
   }
 }
@@ -232,10 +228,8 @@ ExtraPart make_part(const Scene& scene, const std::vector<std::size_t>& group,
 
 }  // namespace
 
-ExtraSearch find_extras(const Scene& scene, const LabelRule& rule) {
-  ExtraSearch search;
-  search.pixels.assign(scene.frames.size(),
-                       Image<std::uint8_t>(scene.camera.width(), scene.camera.height()));
+std::vector<ExtraPart> find_extras(const Scene& scene, const LabelRule& rule) {
+  std::vector<ExtraPart> parts;
   LabelRule used = rule;  // with at least the default reach
   used.fringe_reach = std::max(rule.fringe_reach, LabelRule().fringe_reach);
   Labeller labeller(scene, used);
@@ -254,15 +248,9 @@ ExtraSearch find_extras(const Scene& scene, const LabelRule& rule) {
         return nearest_link(scene, groups[group], voxel.first).distance <= attached;
       });
     });
-    if (pieces.empty()) continue;
-    search.parts.push_back(make_part(scene, groups[group], pieces));
-    for (const Point& point : points)
-      if (point.group == group && std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
-            return piece.contains(point.voxel);
-          }))
-        search.pixels[point.frame](point.u, point.v) = 1;
+    if (!pieces.empty()) parts.push_back(make_part(scene, groups[group], pieces));
   }
-  return search;
+  return parts;
 }
 
 }  // namespace penumbra::tuning

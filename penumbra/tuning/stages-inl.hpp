@@ -26,6 +26,11 @@ struct Scene {
     const float far = background(u, v);
     return far > 0.0f && z > 0.0f && z < far - LabelRule::fringe_drift * tolerance.at(z);
   }
+  /// Returns whether the same depth, or a nearer one, was measured without the robot.
+  [[nodiscard]] bool is_background(int u, int v, float z) const {
+    const float far = background(u, v);
+    return far > 0.0f && z >= far - static_cast<float>(LabelRule().tolerance.at(far));
+  }
 };
 
 [[nodiscard]] Scene make_scene(std::span<const TuningFrame> frames, const Intrinsics& camera,
@@ -36,26 +41,30 @@ class Labeller {
  public:
   Labeller(const Scene& scene, const LabelRule& rule)
       : classifier_(scene.camera.width(), scene.camera.height(), rule) {}
-  LabelView label(const TuningFrame& frame) {
-    return classifier_.classify({frame.virtual_depth.view(), {}, nullptr}, frame.depth.view());
+  LabelView label(const TuningFrame& frame) { return label(frame, frame.virtual_depth); }
+  LabelView label(const TuningFrame& frame, const Image<float>& virtual_depth) {
+    return classifier_.classify({virtual_depth.view(), {}, nullptr}, frame.depth.view());
   }
 
  private:
   Classifier classifier_;
 };
 
+/// Returns for each link whether it moves relative to the camera.
+[[nodiscard]] std::vector<bool> moving_links(const Scene& scene);
+
+/// Returns the pixels of the robot.
+[[nodiscard]] NearestPixels robot_pixels(ImageView<const float> virtual_depth);
+
 /// Returns the pixels where the sensor sees the robot.
 [[nodiscard]] NearestPixels seen_robot(const LabelView& labels);
 
 [[nodiscard]] ToleranceFit fit_tolerance(const Scene& scene, const LabelRule& current);
 
-struct ExtraSearch {
-  std::vector<ExtraPart> parts;
-  std::vector<Image<std::uint8_t>> pixels;  // per frame: 1 where a part was seen
-};
-[[nodiscard]] ExtraSearch find_extras(const Scene& scene, const LabelRule& rule);
+[[nodiscard]] std::vector<ExtraPart> find_extras(const Scene& scene, const LabelRule& rule);
 
+/// Measures with the parts drawn.
 [[nodiscard]] FringeFit fit_fringe(const Scene& scene, const LabelRule& rule,
-                                   const ExtraSearch& extras);
+                                   const std::vector<ExtraPart>& parts);
 
 }  // namespace penumbra::tuning

@@ -12,14 +12,11 @@ Scene make_scene(std::span<const TuningFrame> frames, const Intrinsics& camera,
   const int width = camera.width(), height = camera.height();
   Scene scene{frames, camera, robot, Image<float>(width, height)};
   std::vector<std::vector<float>> depths(scene.background.size());
-  Image<std::uint8_t> covered(width, height);
   for (const TuningFrame& frame : frames) {
-    for (std::size_t i = 0; i < covered.size(); ++i)
-      covered.data()[i] = frame.virtual_depth.data()[i] > 0.0f ? 1 : 0;
-    const NearestPixels robot_pixels(covered);
+    const NearestPixels nearest = robot_pixels(frame.virtual_depth.view());
     for (int v = 0; v < height; ++v)
       for (int u = 0; u < width; ++u)
-        if (frame.depth(u, v) > 0.0f && robot_pixels.distance(u, v) > FringeFit::farthest)
+        if (frame.depth(u, v) > 0.0f && nearest.distance(u, v) > FringeFit::farthest)
           depths[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
                  static_cast<std::size_t>(u)]
               .push_back(frame.depth(u, v));
@@ -31,6 +28,24 @@ Scene make_scene(std::span<const TuningFrame> frames, const Intrinsics& camera,
     scene.background.data()[i] = *middle;
   }
   return scene;
+}
+
+std::vector<bool> moving_links(const Scene& scene) {
+  constexpr double still = 1e-3;
+  std::vector<bool> moves;
+  const std::vector<Eigen::Isometry3d>& first = scene.frames.front().T_camera_link;
+  for (std::size_t link = 0; link < first.size(); ++link)
+    moves.push_back(std::any_of(scene.frames.begin(), scene.frames.end(), [&](const auto& frame) {
+      return !frame.T_camera_link[link].isApprox(first[link], still);
+    }));
+  return moves;
+}
+
+NearestPixels robot_pixels(ImageView<const float> virtual_depth) {
+  Image<std::uint8_t> robot(virtual_depth.width, virtual_depth.height);
+  for (int v = 0; v < robot.height(); ++v)
+    for (int u = 0; u < robot.width(); ++u) robot(u, v) = virtual_depth(u, v) > 0.0f ? 1 : 0;
+  return NearestPixels(robot);
 }
 
 NearestPixels seen_robot(const LabelView& labels) {
@@ -51,10 +66,9 @@ Tuning tune(const TuningFrames& frames, const Intrinsics& camera, const Robot& r
   found.rule = current;
   found.tolerance = tuning::fit_tolerance(scene, current);
   found.rule.tolerance = found.tolerance.tolerance;
-  tuning::ExtraSearch extras = tuning::find_extras(scene, found.rule);
-  found.fringe = tuning::fit_fringe(scene, found.rule, extras);
+  found.extras = tuning::find_extras(scene, found.rule);
+  found.fringe = tuning::fit_fringe(scene, found.rule, found.extras);
   found.rule.fringe_reach = found.fringe.reach;
-  found.extras = std::move(extras.parts);
   return found;
 }
 

@@ -27,18 +27,20 @@ struct ToleranceFit {
 
 /// How far the sensor carries the robot's depth past the outline.
 struct FringeFit {
-  static constexpr int farthest = 80;  ///< pixels; no farther pixel is looked at
+  static constexpr int farthest = 80;  ///< pixels; the largest candidate
   static constexpr int step = 4;       ///< pixels between two candidates
 
   enum Shown : std::uint8_t { nothing, removed, left };
 
-  int reach = 0;                                            ///< recommended, pixels
+  int reach = 0;  ///< recommended, pixels: the smallest that leaves no more than the default's
   double median = 0.0, percent_90 = 0.0, percent_99 = 0.0;  ///< pixels
-  std::size_t checked = 0;        ///< pixels at the outline whose depth without the robot is known
-  std::size_t found = 0;          ///< of these: pixels that show the robot's depth
-  std::vector<double> left_over;  ///< by reach / step: share of the arm's points that stay
-  std::size_t shown_frame = 0;    ///< of TuningFrames::frames(), with the most fringe
-  Image<std::uint8_t> shown;      ///< its pixels: Shown, by the recommended rule
+  std::size_t checked = 0;  ///< measured pixels up to 40 px from the outline of moving links
+  std::size_t found = 0;    ///< of these: within 10 cm of the outline's virtual depth
+  /// By reach / step: `found` that are not fringe, as a share of the arm's measured points, with
+  /// the recommended tolerance and the extra parts drawn.
+  std::vector<double> left_over;
+  std::size_t shown_frame = 0;  ///< of TuningFrames::frames(), with the most fringe
+  Image<std::uint8_t> shown;    ///< its pixels: Shown, by the recommended rule
 };
 
 /// What a link carries and the URDF lacks, as far as the camera saw it.

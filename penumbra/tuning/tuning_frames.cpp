@@ -25,8 +25,9 @@ Image<float> measured(const DepthView& view, const DepthRange& range) {
       view);
 }
 
-Image<float> copy_of(ImageView<const float> view) {
-  Image<float> out(view.width, view.height);
+template <typename T>
+Image<T> copy_of(ImageView<const T> view) {
+  Image<T> out(view.width, view.height);
   for (int v = 0; v < view.height; ++v) std::copy_n(view.row(v), view.width, &out(0, v));
   return out;
 }
@@ -48,13 +49,15 @@ void TuningFrames::add(const FrameReport& report) {
     throw InputError("frame " + std::to_string(report.index) +
                      ": the camera moves relative to the robot's root; tune needs a camera that "
                      "does not move relative to it");
-  TuningFrame frame{.index = report.index, .depth = {}, .virtual_depth = {}, .T_camera_link = {}};
+  TuningFrame frame;
+  frame.index = report.index;
   const Eigen::Isometry3d T_camera_root = report.T_root_camera->inverse();
   for (const Eigen::Isometry3d& T_root_link : report.T_root_link)
     frame.T_camera_link.push_back(T_camera_root * T_root_link);
   if (!differs(frame, frames_)) return;
   frame.depth = measured(report.depth, range_);
   frame.virtual_depth = copy_of(report.virtual_depth.depth);
+  frame.links = copy_of(report.virtual_depth.links);
   frames_.push_back(std::move(frame));
   while (frames_.size() > most) thin();
 }

@@ -21,6 +21,7 @@ struct TuningFrame {
   std::size_t index = 0;
   Image<float> depth;          ///< measured, metres; 0: no measurement
   Image<float> virtual_depth;  ///< metres; 0: no robot on the ray
+  Image<std::uint16_t> links;  ///< of virtual_depth: link index + 1; 0: none
   std::vector<Eigen::Isometry3d> T_camera_link;
 };
 

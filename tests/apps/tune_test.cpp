@@ -1,26 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 // penumbra tune on a real recording, on a robot that lacks parts, and on what it must refuse.
+#include "../support/cloud_measure.hpp"
 #include "../support/data.hpp"
 #include "fixtures.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <regex>
 
 #include <Eigen/Geometry>
 
 #include <penumbra/labels/labels.hpp>
 
+#include <io/files/npy.hpp>
+
 namespace penumbra::test {
 namespace {
 
 constexpr int recorded_frames = 10;
+
+/// Percentage points by which the share that tune states may differ from the one measured in the
+/// results of `run`: tune counts all rows next to moving links, the measure the rows above the
+/// table.
+constexpr double same_percent = 0.03;
 
 /// The real recording with a URDF of its own, from which links lose their geometry.
 class TuneTest : public testing::Test {
  protected:
   void SetUp() override {
     PENUMBRA_REQUIRE_DATA();
-    fs::copy(data_folder() / "xarm7_realsense", path("recording"), fs::copy_options::recursive);
+    copy_recording("xarm7_realsense");
+  }
+
+  void copy_recording(const std::string& name) {
+    fs::remove_all(path("recording"));
+    fs::remove(path("xarm7.urdf"));
+    fs::copy(data_folder() / name, path("recording"), fs::copy_options::recursive);
     const fs::path robots = fs::absolute(data_folder() / "robots/xarm7");
     fs::copy(robots / "xarm7.urdf", path("xarm7.urdf"));
     edit_file(path("recording/recording.yaml"), "../robots/xarm7/xarm7.urdf", path("xarm7.urdf"));
@@ -55,9 +70,44 @@ class TuneTest : public testing::Test {
     return outcome;
   }
 
+  /// Returns the percentage of the arm's points that are left by `run` with these options.
+  [[nodiscard]] double percent_left(int frames, int air_rows, Words options) {
+    options.insert(options.end(), {"--save", "vdi,labels"});
+    run("left", options);
+    Leftover sum;
+    for (int i = 0; i < frames; ++i) {
+      const std::string name = "00000" + std::to_string(i);
+      Image<float> robot;
+      Image<std::uint8_t> labels;
+      Image<std::uint16_t> measured;
+      io::read_npy(path("left/vdi") / (name + ".npy"), robot).require();
+      io::read_png(path("left/labels") / (name + ".png"), labels).require();
+      io::read_png(path("recording/depth_" + std::to_string(i) + ".png"), measured).require();
+      sum.add(robot.view(), measured.view(), labels.view(), nearest_robot(robot.view()), air_rows);
+    }
+    return sum.percent();
+  }
+
   TemporaryFolder folder_;
   Outcome outcome_;
 };
+
+/// Returns the options that tune recommends, with or without its reach.
+Words recommended(const Json& tuned, const fs::path& folder, bool has_reach) {
+  const Json& abc = tuned["tolerance"]["abc"];
+  Words options = {"--tolerance", abc[0].dump() + ",0," + abc[2].dump()};
+  if (has_reach) options.insert(options.end(), {"--fringe-reach", tuned["fringe"]["reach"].dump()});
+  for (const Json& extra : tuned["extra"])
+    options.insert(options.end(), {"--extra", extra["link"].get<std::string>() + "=" +
+                                                  (folder / extra["mesh"]).string()});
+  return options;
+}
+
+double percent_said(const Json& tuned) {
+  for (const Json& tried : tuned["fringe"]["left_over"])
+    if (tried["reach"] == tuned["fringe"]["reach"]) return 100.0 * tried["share"].get<double>();
+  return NAN;
+}
 
 double tolerance_at(const Json& tuned, double z) {
   const Json& abc = tuned["tolerance"]["abc"];
@@ -74,6 +124,26 @@ TEST_F(TuneTest, FindsReachAndToleranceOfARealSense) {
   EXPECT_TRUE(fs::exists(path("tuned/tune.png")));
   EXPECT_NE(outcome_.out.find("fringe_reach: " + tuned["fringe"]["reach"].dump()),
             std::string::npos);
+}
+
+TEST_F(TuneTest, StatesWhatRunLeavesAndNoMoreThanWithTheDefault) {
+  struct Recorded {
+    const char* name;
+    int frames, air_rows;  // the table begins below
+    bool has_tool;         // link7, which the URDF then lacks
+  };
+  for (const Recorded& of :
+       {Recorded{"xarm7_realsense", 10, 420, false}, Recorded{"xarm7_realsense_2", 5, 320, false},
+        Recorded{"xarm7_realsense", 10, 420, true}}) {
+    copy_recording(of.name);
+    if (of.has_tool) strip("link7");
+    const Json tuned = tune();
+    const double left =
+        percent_left(of.frames, of.air_rows, recommended(tuned, path("tuned"), true));
+    EXPECT_NEAR(percent_said(tuned), left, same_percent) << of.name;
+    EXPECT_LE(left, percent_left(of.frames, of.air_rows, recommended(tuned, path("tuned"), false)))
+        << of.name;
+  }
 }
 
 TEST_F(TuneTest, TakesBagsAndDepthWithoutColour) {

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string_view>
+
+#include <penumbra/pipeline/object_renderers-inl.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -46,6 +49,41 @@ TEST(TargetsInTheRawImage, OfARenderedBoxAreThoseThatTheirRaysMeet) {
   EXPECT_NEAR(static_cast<double>(plate.judgement->inside), covered, outline * covered);
   EXPECT_NEAR(plate.judgement->occluded, hidden / (1.0 * covered), outline);
   EXPECT_EQ(plate.verdict, Verdict::partial);
+}
+
+/// A small mesh in a lens's image covers the pixels whose rays meet it. Where an edge runs along
+/// the pixels' centres, a row of them may be missing or added: the mean counts.
+TEST(TargetsInTheRawImage, OfASmallMeshAreThoseThatItsRaysMeet) {
+  constexpr double side = 24.0, outline = 0.01;  // pixels; of the plates' pixels
+  constexpr double z = 1.0;
+  Camera camera{Intrinsics(640, 480, 600, 600, 320, 240), {}, {}, {}};
+  const double coefficients[] = {-0.25, 0.06, 0.001, -0.001, 0.0};
+  camera.distortion = Distortion("plumb_bob", coefficients);
+  const Rectification rectification(camera);
+  ObjectRenderers renderers(rectification.pinhole(), {}, &rectification, camera);
+  const auto half = static_cast<float>(0.5 * side * z / camera.intrinsics.fx());
+  auto plate = std::make_shared<TriangleMesh>();
+  plate->vertices = {{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}};
+  plate->triangles = {{0, 1, 2}, {0, 2, 3}};
+  int all = 0, different = 0;
+  for (double x = -0.4; x <= 0.4; x += 0.0131) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    pose.translation() = Eigen::Vector3d(x, 0.6 * x + 0.03, z);
+    const VirtualDepthView drawn = renderers.mesh(plate, pose);
+    int meets = 0, covered = 0;
+    for (int v = 0; v < drawn.depth.height; ++v) {
+      for (int u = 0; u < drawn.depth.width; ++u) {
+        covered += drawn.depth(u, v) > 0.0f ? 1 : 0;
+        const auto ray = camera.distortion.undistort(camera.intrinsics.ray(u, v).head<2>());
+        const double limit = static_cast<double>(half);
+        meets += ray && (z * *ray - pose.translation().head<2>()).cwiseAbs().maxCoeff() < limit;
+      }
+    }
+    all += meets;
+    different += std::abs(covered - meets);
+  }
+  EXPECT_GT(all, 20000);
+  EXPECT_LT(different, outline * all);
 }
 
 /// Pixels of a fisheye's image whose rays meet a sphere, by the formula of equidistant lenses: also

@@ -3,8 +3,6 @@
 
 #include "pasted_objects.hpp"
 
-#include <cmath>
-
 namespace penumbra::test {
 
 double percent(std::size_t part, std::size_t whole) {
@@ -25,32 +23,34 @@ tuning::NearestPixels nearest_robot(ImageView<const float> robot) {
 
 double Leftover::percent() const { return test::percent(left, carried + on_robot); }
 
+void Leftover::add(ImageView<const float> robot, ImageView<const std::uint16_t> measured,
+                   ImageView<const std::uint8_t> labels, const tuning::NearestPixels& nearest,
+                   int air_rows) {
+  for (int v = 0; v < robot.height; ++v) {
+    for (int u = 0; u < robot.width; ++u) {
+      if (measured(u, v) == 0) continue;
+      const auto label = static_cast<Label>(labels(u, v));
+      clear += label == Label::clear;
+      if (v >= air_rows) continue;
+      if (robot(u, v) > 0.0F) {
+        ++on_robot;
+      } else if (tuning::is_carried(nearest, robot, u, v, 0.001 * measured(u, v))) {
+        ++carried;
+        left += label != Label::fringe;
+      }
+    }
+  }
+}
+
 Leftover measure_leftover(const std::vector<RealFrame>& frames,
                           const std::vector<tuning::NearestPixels>& nearest,
                           const LabelRule& rule) {
-  constexpr double most_pixels = 40.0, most_depth = 0.10;  // metres
   Leftover sum;
-  const int width = frames.front().robot.width();
-  Classifier classifier(width, frames.front().robot.height(), rule);
+  Classifier classifier(frames.front().robot.width(), frames.front().robot.height(), rule);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const RealFrame& frame = frames[i];
     const LabelView labels = classifier.classify(frame.view(), frame.measured.view());
-    for (int pixel = 0; pixel < static_cast<int>(frame.measured.size()); ++pixel) {
-      const int u = pixel % width, v = pixel / width;
-      const double z = 0.001 * static_cast<double>(frame.measured(u, v));
-      if (z == 0.0) continue;
-      sum.clear += label_at(labels, pixel) == Label::clear;
-      if (v >= Paster::air_rows) continue;
-      if (frame.robot(u, v) > 0.0F) {
-        ++sum.on_robot;
-        continue;
-      }
-      if (nearest[i].distance(u, v) > most_pixels) continue;
-      const auto at = nearest[i].at(u, v);
-      if (std::abs(z - static_cast<double>(frame.robot(at.u, at.v))) > most_depth) continue;
-      ++sum.carried;
-      sum.left += label_at(labels, pixel) != Label::fringe;
-    }
+    sum.add(frame.robot.view(), frame.measured.view(), labels.labels, nearest[i], Paster::air_rows);
   }
   return sum;
 }

@@ -7,23 +7,30 @@
 #include <vector>
 
 #include <penumbra/labels/labels.hpp>
-#include <penumbra/tuning/nearest_pixel-inl.hpp>
+#include <penumbra/tuning/carried_points-inl.hpp>
 
 namespace penumbra::test {
 
 /// Returns the pixel of the robot nearest to each pixel. `robot`: virtual depth.
 [[nodiscard]] tuning::NearestPixels nearest_robot(ImageView<const float> robot);
 
-/// Points of the arm that are left in a cloud without the robot. A measured point counts as the
-/// arm's, carried past the outline by the sensor, if it is within 40 pixels of it and 10 cm of its
-/// depth. Only rows above Paster::air_rows count, where nothing real is so near.
+/// Points of the arm that are left in a cloud without the robot. tuning::is_carried() says which
+/// points count as the arm's.
 struct Leftover {
   std::size_t carried = 0;   ///< past the outline, whatever their label
   std::size_t left = 0;      ///< of those, not labelled fringe
   std::size_t on_robot = 0;  ///< measured on the outline's inside
   std::size_t clear = 0;     ///< measured pixels of the whole image that are labelled clear
   [[nodiscard]] double percent() const;  ///< left, of carried and on_robot
+
+  /// Adds a frame. Only rows above `air_rows` count, where nothing real is near the robot.
+  /// `measured`: millimetres.
+  void add(ImageView<const float> robot, ImageView<const std::uint16_t> measured,
+           ImageView<const std::uint8_t> labels, const tuning::NearestPixels& nearest,
+           int air_rows);
 };
+
+/// Measures the shared recording above Paster::air_rows.
 
 [[nodiscard]] Leftover measure_leftover(const std::vector<RealFrame>& frames,
                                         const std::vector<tuning::NearestPixels>& nearest,
