@@ -178,7 +178,7 @@ class Calibrator {
     if (options_.initial)
       candidates = {*options_.initial, search.near(*options_.initial)};
     else
-      candidates = search.everywhere();
+      candidates = search.candidates();
     std::optional<Refined> best;
     double best_score = 0.0;
     for (const State& candidate : starts_of(candidates, search)) {

@@ -33,7 +33,7 @@ Image<float> made_small(const Image<float>& depth, const Intrinsics& small) {
   for (int v = 0; v < small.height(); ++v)
     for (int u = 0; u < small.width(); ++u)
       for (int i = 0; i < block * block && out(u, v) == 0.0f; ++i) {
-        const int at = (i + block * block / 2) % (block * block);
+        const int at = (i + block / 2 * (block + 1)) % (block * block);  // from the middle on
         out(u, v) = depth(u * block + at % block, v * block + at / block);
       }
   return out;
@@ -203,26 +203,37 @@ Eigen::Isometry3d PoseSearch::near(const Eigen::Isometry3d& start) {
 }
 
 /// A guess: any rotation, or every other time that of a camera upright in the root link, as most
-/// are; and the translation that brings what moved to where the robot moved. A camera on a moving
-/// link is near that link.
-Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random) const {
+/// are, or one near `around`; and the translation that brings what moved to where the robot moved.
+/// A camera on a moving link is near that link, or near `around`.
+Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random,
+                                    const std::optional<Eigen::Isometry3d>& around) const {
   std::normal_distribution<double> normal;
   const auto any = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d xyz = any();
-  T.linear() = Eigen::Quaterniond(normal(random), xyz.x(), xyz.y(), xyz.z()).normalized().matrix();
-  if (anchors_.empty()) {
-    T.translation() = 0.15 * any();
-    return T;
-  }
-  if (random() % 2 == 0) {
-    std::uniform_real_distribution<double> around(-std::numbers::pi, std::numbers::pi);
-    std::uniform_real_distribution<double> tilt(-1.4, 0.5);  // rad, upwards
+  const bool is_odd = random() % 2 != 0;
+  if (around) {
+    const Eigen::Vector3d turn = 0.15 * any();  // rad
+    T.linear() = around->linear() * Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
+    T.translation() = around->translation() + 0.15 * any();
+    if (anchors_.empty() || is_odd) return T;
+    T.translation().setZero();
+  } else {
+    const Eigen::Vector3d xyz = any();
     T.linear() =
-        (Eigen::AngleAxisd(around(random), Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(tilt(random) - 0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()) *
-         Eigen::AngleAxisd(0.2 * normal(random), Eigen::Vector3d::UnitZ()))
-            .toRotationMatrix();
+        Eigen::Quaterniond(normal(random), xyz.x(), xyz.y(), xyz.z()).normalized().matrix();
+    if (anchors_.empty()) {
+      T.translation() = 0.15 * any();
+      return T;
+    }
+    if (!is_odd) {
+      std::uniform_real_distribution<double> turn(-std::numbers::pi, std::numbers::pi);
+      std::uniform_real_distribution<double> tilt(-1.4, 0.5);  // rad, upwards
+      T.linear() =
+          (Eigen::AngleAxisd(turn(random), Eigen::Vector3d::UnitZ()) *
+           Eigen::AngleAxisd(tilt(random) - 0.5 * std::numbers::pi, Eigen::Vector3d::UnitX()) *
+           Eigen::AngleAxisd(0.2 * normal(random), Eigen::Vector3d::UnitZ()))
+              .toRotationMatrix();
+    }
   }
   for (const Anchor& anchor : anchors_)
     T.translation() += (anchor.in_root - T.linear() * anchor.in_camera) / anchors_.size();
@@ -230,8 +241,11 @@ Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random) const {
   return T;
 }
 
-std::vector<Eigen::Isometry3d> PoseSearch::everywhere() {
-  constexpr std::size_t guesses = 20000, few_frames = 3, tried = 32, kept = 4;
+std::vector<Eigen::Isometry3d> PoseSearch::candidates(
+    const std::optional<Eigen::Isometry3d>& around) {
+  constexpr std::size_t few_frames = 3;
+  const std::size_t guesses = around ? 1500 : 20000, tried = around ? 5 : 32,
+                    kept = around ? 1 : 4;
   struct Candidate {
     double score;
     Eigen::Isometry3d pose;
@@ -246,12 +260,13 @@ std::vector<Eigen::Isometry3d> PoseSearch::everywhere() {
   tolerance_ = 2.0 * wide;
   const std::size_t every_frame = std::max<std::size_t>(1, frames_.size() / few_frames);
   for (std::size_t i = 0; i < guesses; ++i) {
-    const Eigen::Isometry3d pose = guess(random);
+    const Eigen::Isometry3d pose = guess(random, around);
     candidates.push_back({score(pose, every_frame), pose});
   }
   keep_best(tried);
   Twist sigma;
   sigma << Eigen::Vector3d::Constant(0.2), Eigen::Vector3d::Constant(0.1);
+  if (around) sigma *= 0.5;
   tolerance_ = wide;
   for (Candidate& candidate : candidates) {
     candidate.pose = climb(candidate.pose, sigma, 6, {});

@@ -255,8 +255,10 @@ class PoseSearch {
   [[nodiscard]] double score(const Eigen::Isometry3d& T_parent_camera, std::size_t every_frame = 1);
   /// Returns the best pose near `start`: within 100 mm and 10 degrees.
   [[nodiscard]] Eigen::Isometry3d near(const Eigen::Isometry3d& start);
-  /// Returns candidates from everywhere, the best first.
-  [[nodiscard]] std::vector<Eigen::Isometry3d> everywhere();
+  /// Returns candidates from everywhere, the best first; or the best one within about 300 mm and
+  /// 20 degrees of `around`.
+  [[nodiscard]] std::vector<Eigen::Isometry3d> candidates(
+      const std::optional<Eigen::Isometry3d>& around = {});
 
  private:
   struct Small {
@@ -269,7 +271,8 @@ class PoseSearch {
   };
   void find_moved();
   void find_anchors();
-  [[nodiscard]] Eigen::Isometry3d guess(std::mt19937_64& random) const;
+  [[nodiscard]] Eigen::Isometry3d guess(std::mt19937_64& random,
+                                        const std::optional<Eigen::Isometry3d>& around) const;
   /// How far from a first guess a pose may be.
   struct Bounds {
     std::optional<Eigen::Isometry3d> around;

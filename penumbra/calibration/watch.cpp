@@ -11,6 +11,7 @@
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
 #include <penumbra/calibration/watch.hpp>
+#include <penumbra/calibration/watch_solution-inl.hpp>
 
 namespace penumbra {
 namespace watching {
@@ -30,16 +31,10 @@ constexpr double to_sigma = 1.4826;    // of a median absolute residual, for nor
 
 constexpr double view_motion = 0.03;  // metres that a link moves in the camera until a new view
 constexpr std::size_t view_frames = 8;
-constexpr double same_view = 0.01;    // metres
-constexpr double independent = 10.0;  // residuals of one view count as so many, at most
+constexpr double same_view = 0.01;  // metres
 constexpr std::size_t most_views = 256, least_views = 24;
-constexpr double least_places = 12.0;
 constexpr std::size_t solve_period = 5;  // frames
 
-// The camera's motion, depth offset and scale, time offset.
-constexpr int unknowns = 9, depth_offset = 6, depth_scale = 7, time_offset = 8;
-using Vector = Eigen::Matrix<double, unknowns, 1>;
-using Matrix = Eigen::Matrix<double, unknowns, unknowns>;
 constexpr double offset_prior = 0.01, scale_prior = 0.01, time_prior = 0.1;  // metres, 1, seconds
 
 // Velocities are from poses so far apart, seconds: joint positions have noise, motion changes.
@@ -48,7 +43,6 @@ constexpr double least_between = 0.025, most_between = 0.5;
 constexpr double time_step = 0.002, pose_step = 0.01;
 constexpr double clear_sigmas = 6.0;  // of the time offset, that chance does not reach
 constexpr double time_limit = 0.005;  // seconds: 5 mm of an arm at 1 m/s
-constexpr double enough = 0.9;        // of what pose and clocks explain together
 
 constexpr std::array<std::size_t, 6> recent{24, 32, 40, 48, 56, 64};  // views after a possible bump
 constexpr double by_chance =
@@ -82,100 +76,6 @@ Twist velocity_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, d
 // Squares by which views may tell against the frame of a bump, and frames within which it is known.
 constexpr double unclear = 20.0;
 constexpr std::size_t most_within = 30;
-
-/// A link in one place: what puts it out of place there is the same for all of its residuals.
-struct View {
-  std::size_t link = 0, place = 0, first_frame = 0, count = 0;
-  std::size_t index = 0, last_index = 0;  // of the first and last frame in their source
-  std::optional<std::int64_t> stamp;      // of the first frame
-  Eigen::Isometry3d T_camera_link;
-  Matrix information = Matrix::Zero();
-  Vector gradient = Vector::Zero();
-
-  [[nodiscard]] double weight() const {
-    const auto n = static_cast<double>(count);
-    return n > independent ? independent / n : 1.0;
-  }
-  /// The squares by which the residuals rise from those at zero.
-  [[nodiscard]] double rise(const Vector& unknown) const {
-    return weight() * unknown.dot(information * unknown + 2.0 * gradient);
-  }
-};
-
-struct Solution {
-  Vector value;
-  Matrix covariance;
-  Matrix information;
-  Vector gradient;
-
-  /// The parts that clocks alone and the pose alone explain of what both explain.
-  [[nodiscard]] double by_clocks() const { return share(depth_offset, 3); }
-  [[nodiscard]] double by_pose() const { return share(0, 8); }
-  /// Which of them is to blame: what explains more if that is enough, else both.
-  [[nodiscard]] bool blames_clocks() const { return is_both() || by_clocks() >= by_pose(); }
-  [[nodiscard]] bool blames_pose() const { return is_both() || by_pose() > by_clocks(); }
-  [[nodiscard]] bool is_both() const { return std::max(by_clocks(), by_pose()) < enough; }
-  /// Whether each of them explains enough alone.
-  [[nodiscard]] bool is_either() const { return std::min(by_clocks(), by_pose()) >= enough; }
-
- private:
-  [[nodiscard]] double share(int first, int count) const {
-    const double sensor = fall(depth_offset, 2);
-    return (fall(first, count) - sensor) / (fall(0, unknowns) - sensor);
-  }
-  /// By how much the squares fall if `count` unknowns from `first` on are free, the others zero.
-  [[nodiscard]] double fall(int first, int count) const {
-    const Eigen::VectorXd g = gradient.segment(first, count);
-    return g.dot(information.block(first, first, count, count).ldlt().solve(g));
-  }
-};
-
-/// What is expected before anything is measured.
-struct Prior {
-  Vector value = Vector::Zero();
-  Matrix information = Matrix::Zero();
-
-  /// The same if `count` unknowns from `first` on are zero.
-  [[nodiscard]] Prior with_zero(int first, int count) const {
-    constexpr double certain = 1e12;
-    Prior prior = *this;
-    prior.value.segment(first, count).setZero();
-    prior.information.diagonal().segment(first, count).array() += certain;
-    return prior;
-  }
-};
-
-/// Least squares over views. The covariance is that of sums over places (the sandwich estimator,
-/// Huber 1967), with a factor for few of them.
-std::optional<Solution> solve(std::vector<const View*> views, const Prior& prior) {
-  Matrix information = prior.information;
-  Vector gradient = -prior.information * prior.value;
-  for (const View* view : views) {
-    information += view->weight() * view->information;
-    gradient += view->weight() * view->gradient;
-  }
-  const Eigen::LDLT<Matrix> solver(information);
-  Solution solution{.value = -solver.solve(gradient),
-                    .covariance = {},
-                    .information = information,
-                    .gradient = gradient};
-  if (!solution.value.allFinite()) return std::nullopt;
-  std::ranges::sort(views, {}, &View::place);
-  Matrix meat = Matrix::Zero();
-  double count = 0.0;
-  for (auto view = views.begin(); view != views.end(); ++count) {
-    Vector sum = Vector::Zero();
-    for (const std::size_t place = (*view)->place; view != views.end() && (*view)->place == place;
-         ++view)
-      sum += (*view)->weight() * ((*view)->gradient + (*view)->information * solution.value);
-    meat += sum * sum.transpose();
-  }
-  if (count < least_places) return std::nullopt;
-  meat = prior.information + count / (count - 7.0) * meat;
-  const Matrix inverse = solver.solve(Matrix::Identity());
-  solution.covariance = inverse * meat * inverse.transpose();
-  return solution;
-}
 
 Estimate time_of(const Solution& solution) {
   return {solution.value[time_offset], std::sqrt(solution.covariance(time_offset, time_offset))};
@@ -551,57 +451,5 @@ void CalibrationWatch::add(const FrameReport& report) {
 }
 
 const Drift& CalibrationWatch::drift() const { return state_->drift; }
-
-double Drift::rotation() const {
-  return std::abs(Eigen::AngleAxisd(T_calibrated_camera.linear()).angle());
-}
-double Drift::position_error() const {
-  return calibration::longest_axis(covariance.bottomRightCorner<3, 3>());
-}
-double Drift::rotation_error() const {
-  return calibration::longest_axis(covariance.topLeftCorner<3, 3>());
-}
-
-std::string Drift::message() const {
-  constexpr double degrees = 180.0 / std::numbers::pi;
-  constexpr double much = 0.4;
-  std::array<char, 256> text{};
-  if (seen_through > much) {
-    std::snprintf(
-        text.data(), text.size(),
-        "the sensor sees past %.0f %% of the robot: the camera is elsewhere than calibrated, "
-        "or the joints are another robot's: run 'penumbra calibrate'",
-        100.0 * seen_through);
-    return text.data();
-  }
-  std::snprintf(text.data(), text.size(), "images and joint states are about %.0f +- %.0f ms apart",
-                1e3 * std::abs(time_offset.value), std::max(1.0, 2e3 * time_offset.sigma));
-  const std::string apart = text.data();
-  std::string line;
-  if (clocks_differ) {
-    std::snprintf(text.data(), text.size(), ": use --time-offset %.3f", time_offset.value);
-    line = apart + text.data();
-  }
-  if (has_moved || camera_or_clocks) {
-    std::string by;
-    const auto add = [&](const char* format, double value, double error) {
-      if (error > value) return;
-      std::snprintf(text.data(), text.size(), format, value, error);
-      by += (by.empty() ? "" : " and ") + std::string(text.data());
-    };
-    add("%.1f +- %.1f mm", 1e3 * position(), 1e3 * position_error());
-    add("%.2f +- %.2f degrees", degrees * rotation(), degrees * rotation_error());
-    line += by.empty() ? "the camera has moved since its calibration, how far is not known yet"
-                       : "the camera is " + by + " from its calibration";
-    if (has_moved && bumped_at)
-      line += ", bumped at frame " + std::to_string(*bumped_at) + " +- " +
-              std::to_string(bumped_within);
-    if (camera_or_clocks)
-      line += ", or " + apart + ", or both: move the robot at other speeds to tell them apart";
-    else
-      line += ": run 'penumbra calibrate'";
-  }
-  return line;
-}
 
 }  // namespace penumbra

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstdio>
+#include <numbers>
+
+#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/calibration/watch.hpp>
+
+namespace penumbra {
+
+double Drift::rotation() const {
+  return std::abs(Eigen::AngleAxisd(T_calibrated_camera.linear()).angle());
+}
+double Drift::position_error() const {
+  return calibration::longest_axis(covariance.bottomRightCorner<3, 3>());
+}
+double Drift::rotation_error() const {
+  return calibration::longest_axis(covariance.topLeftCorner<3, 3>());
+}
+
+std::string Drift::message() const {
+  constexpr double degrees = 180.0 / std::numbers::pi;
+  constexpr double much = 0.4;
+  std::array<char, 256> text{};
+  if (seen_through > much) {
+    std::snprintf(
+        text.data(), text.size(),
+        "the sensor sees past %.0f %% of the robot: the camera is elsewhere than calibrated, "
+        "or the joints are another robot's: run 'penumbra calibrate'",
+        100.0 * seen_through);
+    return text.data();
+  }
+  std::snprintf(text.data(), text.size(), "images and joint states are about %.0f +- %.0f ms apart",
+                1e3 * std::abs(time_offset.value), std::max(1.0, 2e3 * time_offset.sigma));
+  const std::string apart = text.data();
+  std::string line;
+  if (clocks_differ) {
+    std::snprintf(text.data(), text.size(), ": use --time-offset %.3f", time_offset.value);
+    line = apart + text.data();
+  }
+  if (has_moved || camera_or_clocks) {
+    std::string by;
+    const auto add = [&](const char* format, double value, double error) {
+      if (error > value) return;
+      std::snprintf(text.data(), text.size(), format, value, error);
+      by += (by.empty() ? "" : " and ") + std::string(text.data());
+    };
+    add("%.1f +- %.1f mm", 1e3 * position(), 1e3 * position_error());
+    add("%.2f +- %.2f degrees", degrees * rotation(), degrees * rotation_error());
+    line += by.empty() ? "the camera has moved since its calibration, how far is not known yet"
+                       : "the camera is " + by + " from its calibration";
+    if (has_moved && bumped_at)
+      line += ", bumped at frame " + std::to_string(*bumped_at) + " +- " +
+              std::to_string(bumped_within);
+    if (camera_or_clocks)
+      line += ", or " + apart + ", or both: move the robot at other speeds to tell them apart";
+    else
+      line += ": run 'penumbra calibrate'";
+  }
+  return line;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <penumbra/calibration/watch_solution-inl.hpp>
+
+namespace penumbra::watching {
+
+constexpr double least_places = 12.0;
+
+std::optional<Solution> solve(std::vector<const View*> views, const Prior& prior) {
+  Matrix information = prior.information;
+  Vector gradient = -prior.information * prior.value;
+  for (const View* view : views) {
+    information += view->weight() * view->information;
+    gradient += view->weight() * view->gradient;
+  }
+  const Eigen::LDLT<Matrix> solver(information);
+  Solution solution{.value = -solver.solve(gradient),
+                    .covariance = {},
+                    .information = information,
+                    .gradient = gradient};
+  if (!solution.value.allFinite()) return std::nullopt;
+  std::ranges::sort(views, {}, &View::place);
+  Matrix meat = Matrix::Zero();
+  double count = 0.0;
+  for (auto view = views.begin(); view != views.end(); ++count) {
+    Vector sum = Vector::Zero();
+    for (const std::size_t place = (*view)->place; view != views.end() && (*view)->place == place;
+         ++view)
+      sum += (*view)->weight() * ((*view)->gradient + (*view)->information * solution.value);
+    meat += sum * sum.transpose();
+  }
+  if (count < least_places) return std::nullopt;
+  meat = prior.information + count / (count - 7.0) * meat;
+  const Matrix inverse = solver.solve(Matrix::Identity());
+  solution.covariance = inverse * meat * inverse.transpose();
+  return solution;
+}
+
+}  // namespace penumbra::watching
