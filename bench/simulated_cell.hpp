@@ -36,7 +36,10 @@ struct Setup {
   bool wrong_joints = false;  ///< of one frame
   double speed = 0.0;         ///< of the arm's tip, m/s, root mean square; 0: it stands
   double late = 0.0;          ///< seconds from an image's stamp to when it was taken
-  double depth_scale = 0.0;   ///< of the sensor: by how much of itself its depth is too large
+  bool tool = false;          ///< the flange carries something that the URDF lacks
+  bool person = false;        ///< somebody stands near the arm
+  sim::DepthNoise sensor = sim::DepthNoise::d415();
+  double depth_scale = 0.0;  ///< of the sensor: by how much of itself its depth is too large
   std::vector<double> joint_errors = {};  ///< of the positions that are reported, rad
 };
 
@@ -131,7 +134,7 @@ class Cell {
 
   /// Measures the depth of the frame's joints.
   void draw(CalibrationFrame& frame) {
-    std::vector<Eigen::Isometry3d> parts(5, Eigen::Isometry3d::Identity());
+    std::vector<Eigen::Isometry3d> parts(7, Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d T_root_camera =
         setup_.on_hand ? arm_.link_pose(frame.joints, choice_.flange) * T_parent_camera_
                        : T_parent_camera_;
@@ -140,6 +143,12 @@ class Cell {
     if (setup_.object)
       parts[4].translation() = T_root_camera * Eigen::Vector3d(random_.uniform(-0.2, 0.2),
                                                                random_.uniform(-0.1, 0.1), 0.7);
+    const Eigen::Isometry3d away(Eigen::Translation3d(0.0, 9.0, 0.0));
+    parts[5] = setup_.tool ? arm_.link_pose(frame.joints, choice_.flange) : away;
+    parts[6] = away;
+    if (setup_.person)
+      parts[6].translation() =
+          Eigen::Vector3d(random_.uniform(-0.7, 0.2), random_.uniform(0.5, 0.9), 0.75);
     stage_.place(frame.joints, parts);
     const int width = intrinsics().width(), height = intrinsics().height();
     Image<float> depth(width, height);
@@ -172,7 +181,7 @@ class Cell {
   }
 
   static sim::DepthNoise noise(const Setup& setup) {
-    sim::DepthNoise noise = sim::DepthNoise::d415();
+    sim::DepthNoise noise = setup.sensor;
     noise.holes = std::max(noise.holes, setup.missing);
     return noise;
   }
@@ -185,6 +194,9 @@ class Cell {
     scene.parts.push_back(
         {-1, R"(<geom type="box" size="0.15 0.2 0.15" pos="-0.5 0.6 0.1" group="2"/>)"});
     scene.parts.push_back({-1, R"(<geom type="cylinder" size="0.04 0.12" group="2"/>)"});
+    scene.parts.push_back(
+        {-1, R"(<geom type="box" size="0.05 0.03 0.06" pos="0 0 0.06" group="2"/>)"});
+    scene.parts.push_back({-1, R"(<geom type="capsule" size="0.17 0.6" group="2"/>)"});
     return scene;
   }
 
@@ -293,7 +305,12 @@ inline std::vector<RobotChoice> robots() {
            data / "robots/xarm7/xarm7.urdf",
            visual({{"xarm_description", data / "robots/xarm7/xarm_description"}}),
            "link_eef",
-           {0.0, -0.3, 0.0, 1.2, 0.0, 1.2, 0.0}}};
+           {0.0, -0.3, 0.0, 1.2, 0.0, 1.2, 0.0}},
+          {"UR5e",
+           data / "robots/ur5e/ur5e.urdf",
+           visual({{"ur_description", data / "robots/ur5e/ur_description"}}),
+           "tool0",
+           {0.0, -1.4, 1.4, -1.5, -1.5, 0.0}}};
 }
 
 }  // namespace penumbra::study

@@ -13,9 +13,9 @@ namespace {
 using Names = std::set<std::string>;
 
 const std::map<std::string, Names>& allowed_rooms() {
-  static const Names core{"base",   "mesh",        "robot",   "time",     "camera",
-                          "render", "labels",      "targets", "tracking", "pipeline",
-                          "tuning", "calibration", "scene"};
+  static const Names core{"base",   "mesh",        "robot",     "time",     "camera",
+                          "render", "labels",      "targets",   "tracking", "pipeline",
+                          "tuning", "calibration", "diagnosis", "scene"};
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", {"base"}},
       {"penumbra/mesh", {"base", "mesh"}},
@@ -31,6 +31,7 @@ const std::map<std::string, Names>& allowed_rooms() {
         "pipeline"}},
       {"penumbra/tuning", core},
       {"penumbra/calibration", core},
+      {"penumbra/diagnosis", core},
       {"penumbra/scene", core},
       {"io", core},
       {"sim", core},

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <numbers>
+
+#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/diagnosis/hypothesis-inl.hpp>
+
+namespace penumbra {
+namespace diagnosis {
+namespace {
+
+constexpr double wide = 0.06;        // metres between measured and virtual depth that agree
+constexpr double least_gain = 0.03;  // of the score; right setups gain up to 0.012
+constexpr double explains = 0.85;    // of the best gain: as good as the best
+constexpr double great_gain = 0.3;   // of the score
+constexpr double good_fit = 0.8;     // Rating::fit of a right setup, about
+constexpr double least_fit = 0.6;    // of one that is named
+constexpr double may_explain = 0.6;  // of the best gain: cannot be ruled out
+
+struct Rated {
+  Hypothesis hypothesis;
+  Rating rating;
+};
+
+class Comparison {
+ public:
+  explicit Comparison(const Setup& setup)
+      : setup_(setup),
+        model_(setup.robot, setup.parent),
+        observer_(model_, setup.camera, {}),
+        agreement_(setup),
+        given_(agreement_.rate(as_given(setup), wide)) {
+    for (const DiagnosisFrame& frame : setup.frames) frames_.push_back(&frame);
+  }
+
+  Diagnosis run(bool is_suspicious) {
+    Diagnosis result;
+    result.score = given_.score;
+    result.frame = setup_.frames[agreement_.worst()].index;
+    if (is_suspicious) {
+      for (Hypothesis& hypothesis : mistakes(setup_)) add(std::move(hypothesis));
+      polish();
+    }
+    if (setup_.frames.size() < CalibrationFrames::least)
+      std::erase_if(rated_, [](const Rated& rated) { return !!rated.hypothesis.with_amount; });
+    else if (!is_explained())
+      add_pose();
+    std::erase_if(rated_, [](const Rated& rated) { return !(rated.rating.more > 0.0); });
+    std::ranges::stable_sort(rated_, std::ranges::greater{},
+                             [](const Rated& rated) { return rated.rating.score; });
+    choose(result);
+    if (result.cause == Cause::none) name_small_error(result);
+    return result;
+  }
+
+ private:
+  /// Whether a mistake without unknowns explains so much that the camera's pose is no matter.
+  [[nodiscard]] bool is_explained() const {
+    return std::ranges::any_of(rated_, [&](const Rated& rated) {
+      return !rated.hypothesis.with_amount && rated.rating.fit > good_fit &&
+             rated.rating.score > std::max(0.0, given_.score) + great_gain;
+    });
+  }
+
+  void add(Hypothesis hypothesis) {
+    const Rating rating = agreement_.rate(hypothesis, wide);
+    rated_.push_back({std::move(hypothesis), rating});
+  }
+
+  /// Finds better amounts near the best of each cause.
+  void polish() {
+    std::ranges::stable_sort(rated_, std::ranges::greater{},
+                             [](const Rated& rated) { return rated.rating.score; });
+    constexpr int most = 3;
+    constexpr double least_amount = 0.3;  // of a step; less is no mistake
+    std::map<Cause, int> done;
+    for (Rated& rated : rated_) {
+      const auto make = rated.hypothesis.with_amount;
+      if (!make || done[rated.hypothesis.cause]++ >= most) continue;
+      const double step = rated.hypothesis.step;
+      for (double by = 0.5 * step; by > 0.05 * step; by *= 0.5)
+        for (const double sign : {-1.0, 1.0}) {
+          const double amount = rated.hypothesis.amount + sign * by;
+          if (std::abs(amount) < least_amount * step) continue;
+          Hypothesis other = make(amount);
+          if (other.cause == Cause::none) continue;
+          other.amount = amount;
+          other.step = step;
+          other.with_amount = make;
+          const Rating rating = agreement_.rate(other, wide);
+          if (rating.score <= rated.rating.score) continue;
+          rated = {std::move(other), rating};
+          break;
+        }
+    }
+  }
+
+  /// Adds the camera's pose that fits best.
+  void add_pose() {
+    // A camera on a moving link sees less of the robot in each frame.
+    const std::size_t count =
+        setup_.parent == 0 ? std::min<std::size_t>(4, frames_.size()) : frames_.size();
+    std::vector<const CalibrationFrame*> some;
+    for (std::size_t i = 0; i < count; ++i) some.push_back(frames_[i * frames_.size() / count]);
+    std::vector<Eigen::Isometry3d> starts{setup_.T_parent_camera};
+    if (given_.fit < good_fit) {
+      calibration::PoseSearch search(model_, setup_.camera, some, setup_.parent == 0, 1);
+      starts.push_back(search.candidates(starts[0]).front());
+      if (setup_.parent != 0) starts.push_back(search.near(starts[0]));
+    }
+    Rated best{.hypothesis = as_given(setup_), .rating = {.score = -10.0}};
+    for (const Eigen::Isometry3d& start : starts) {
+      calibration::State state;
+      state.T_parent_camera = start;
+      calibration::Refined refined = calibration::refine(observer_, {}, frames_, state);
+      Hypothesis hypothesis = as_given(setup_);
+      hypothesis.cause = Cause::camera_pose;
+      hypothesis.T_parent_camera = refined.state.T_parent_camera;
+      const Rating rating = agreement_.rate(hypothesis, wide);
+      if (rating.score <= best.rating.score) continue;
+      best = {std::move(hypothesis), rating};
+      refined_ = std::move(refined);
+    }
+    // Farther off it is another mistake, which the search happens to undo.
+    constexpr double farthest = 1.0;  // metres
+    if (off().position > farthest) return;
+    best.hypothesis.message = pose_text();
+    rated_.push_back(std::move(best));
+  }
+
+  [[nodiscard]] Eigen::Isometry3d motion_to(const Eigen::Isometry3d& T_parent_camera) const {
+    return setup_.T_parent_camera.inverse() * T_parent_camera;
+  }
+
+  /// How far the camera is from where it is said to be, and half of the 95 % region's longest axes.
+  struct Off {
+    double position, rotation, position_error, rotation_error;
+  };
+  [[nodiscard]] Off off() const {
+    const Eigen::Isometry3d motion = motion_to(refined_->state.T_parent_camera);
+    const Eigen::MatrixXd& covariance = refined_->covariance;
+    return {motion.translation().norm(), Eigen::AngleAxisd(motion.linear()).angle(),
+            calibration::longest_axis(covariance.block<3, 3>(3, 3)),
+            calibration::longest_axis(covariance.block<3, 3>(0, 0))};
+  }
+
+  [[nodiscard]] std::string pose_text() const {
+    constexpr double far = 0.1, turned = 10.0;  // metres and degrees that calibrate starts from
+    constexpr double degrees = 180.0 / std::numbers::pi;
+    const Off found = off();
+    std::array<char, 256> text{};
+    std::snprintf(text.data(), text.size(),
+                  "the camera's pose is about %.0f +- %.0f mm and %.1f +- %.1f degrees off: run "
+                  "'penumbra calibrate%s' on this input",
+                  1e3 * found.position, 1e3 * found.position_error, degrees * found.rotation,
+                  degrees * found.rotation_error,
+                  found.position > far || degrees * found.rotation > turned ? " --search" : "");
+    return text.data();
+  }
+
+  /// Names an error of the pose that is small but certain, or what else explains it.
+  void name_small_error(Diagnosis& result) {
+    constexpr double certain = 1.5;  // error bars: one in a thousand right setups is this far off
+    constexpr double position = 0.008, rotation = 0.5 * std::numbers::pi / 180.0;  // metres, rad
+    if (!refined_ || !refined_->covariance.allFinite() || given_.fit < least_fit) return;
+    const Off found = off();
+    if (!(found.position > position && found.position > certain * found.position_error) &&
+        !(found.rotation > rotation && found.rotation > certain * found.rotation_error))
+      return;
+    result.cause = Cause::camera_pose;
+    result.message = pose_text();
+    const calibration::Explained explained =
+        calibration::explain(observer_, {}, frames_, *refined_);
+    if (explained.causes.empty()) return;
+    using Kind = calibration::Cause::Kind;
+    const Kind kind = explained.causes.front().cause.kind;
+    result.other = Cause::camera_pose;
+    result.cause = kind == Kind::focal   ? Cause::intrinsics
+                   : kind == Kind::joint ? Cause::joint_zero
+                                         : Cause::joint_time;
+    result.message =
+        calibration::text_of(explained.causes.front(), explained, setup_.robot, setup_.camera) +
+        "; or " + result.message;
+  }
+
+  /// Of those that explain as much as the best, the simplest; and what else cannot be ruled out.
+  void choose(Diagnosis& result) const {
+    if (rated_.empty() || rated_.front().rating.fit < least_fit) {
+      if (given_.fit >= least_fit) return;
+      result.cause = Cause::unexplained;
+      result.message =
+          "the depth images do not show the robot where the setup says, and no single known "
+          "mistake "
+          "explains it: compare the overlay of frame " +
+          std::to_string(result.frame) +
+          " with the URDF, the joint positions, camera_info and the camera's pose (of the optical "
+          "frame, in metres)";
+      return;
+    }
+    result.best = rated_.front().rating.score;
+    const double gain = result.best - given_.score;
+    // Few frames fit some wrong setup by chance.
+    if (gain < (setup_.frames.size() < CalibrationFrames::least ? great_gain : least_gain)) return;
+    const auto explained = [&](const Rated& rated) {
+      return (rated.rating.score - given_.score) / gain;
+    };
+    const auto unknowns = [](const Rated& rated) {
+      return rated.hypothesis.cause == Cause::camera_pose ? 6
+             : rated.hypothesis.with_amount               ? 1
+                                                          : 0;
+    };
+    const Rated* best = &rated_.front();
+    for (const Rated& rated : rated_)
+      if (explained(rated) >= explains && unknowns(rated) < unknowns(*best)) best = &rated;
+    result.cause = best->hypothesis.cause;
+    result.message = best->hypothesis.message;
+    for (const Rated& rated : rated_)
+      if (explained(rated) >= may_explain && rated.hypothesis.cause != result.cause) {
+        result.other = rated.hypothesis.cause;
+        result.message += "; or " + rated.hypothesis.message;
+        break;
+      }
+  }
+
+  const Setup& setup_;
+  std::vector<const CalibrationFrame*> frames_;
+  calibration::Model model_;
+  calibration::Observer observer_;
+  Agreement agreement_;
+  Rating given_;
+  std::optional<calibration::Refined> refined_;  // the camera's pose that fits best
+  std::vector<Rated> rated_;
+};
+
+}  // namespace
+}  // namespace diagnosis
+
+std::string_view to_string(Diagnosis::Cause cause) {
+  constexpr std::array<std::string_view, 14> names{
+      "none",        "depth_unit",  "camera_unit", "camera_inverted", "camera_transposed",
+      "camera_axes", "camera_pose", "intrinsics",  "joint_unit",      "joint_sign",
+      "joint_zero",  "joint_order", "joint_time",  "unexplained"};
+  return names.at(static_cast<std::size_t>(cause));
+}
+
+Diagnosis diagnose(std::span<const DiagnosisFrame> frames, const Intrinsics& camera,
+                   const Robot& robot, std::size_t camera_parent,
+                   const Eigen::Isometry3d& T_parent_camera, bool is_suspicious) {
+  if (frames.empty()) return {};
+  const diagnosis::Setup setup{frames, camera, robot, camera_parent, T_parent_camera};
+  return diagnosis::Comparison(setup).run(is_suspicious);
+}
+
+}  // namespace penumbra

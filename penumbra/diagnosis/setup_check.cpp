@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/diagnosis/diagnosis.hpp>
+
+namespace penumbra {
+namespace {
+
+constexpr int enough_columns = 640;       // finer images find no more mistakes
+constexpr double farthest_nearby = 0.25;  // seconds; poses between frames are interpolated
+
+/// The centres of blocks of pixels as a camera of its own.
+Intrinsics thinned(const Intrinsics& camera, int block) {
+  const int middle = block / 2;
+  return {camera.width() / block, camera.height() / block,        camera.fx() / block,
+          camera.fy() / block,    (camera.cx() - middle) / block, (camera.cy() - middle) / block};
+}
+
+double moved(std::span<const Eigen::Isometry3d> a, std::span<const Eigen::Isometry3d> b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, pose_difference(a[i], b[i]));
+  return most;
+}
+
+}  // namespace
+
+SetupCheck::SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent)
+    : robot_(robot),
+      parent_(camera_parent),
+      block_(std::max(1, camera.intrinsics.width() / enough_columns)),
+      camera_(camera.intrinsics) {
+  if (!camera.distortion.is_none()) lens_.emplace(camera);
+  if (lens_) camera_ = lens_->pinhole();
+  block_ = std::clamp(camera_.width() / enough_columns, 1, camera_.height());
+  camera_ = thinned(camera_, block_);
+}
+
+bool SetupCheck::wants(std::span<const Eigen::Isometry3d> T_root_link) const {
+  return std::ranges::all_of(frames_, [&](const DiagnosisFrame& frame) {
+    return moved(frame.T_root_link, T_root_link) >= motion_;
+  });
+}
+
+void SetupCheck::add(const FrameReport& report, std::span<const double> joints) {
+  const auto is_finite = [](const Eigen::Isometry3d& T) { return T.matrix().allFinite(); };
+  if (!has_depth(report.status) || !report.T_root_camera ||
+      std::visit([](const auto& depth) { return depth.empty(); }, report.depth) ||
+      !std::ranges::all_of(report.T_root_link, is_finite))
+    return;
+  const std::size_t robot = report.pixels.robot.value_or(0);
+  robot_pixels_ += robot;
+  measured_ += robot - report.pixels.unknown;
+  front_ += report.pixels.front;
+  beyond_ += report.pixels.beyond;
+  if (joints.size() != robot_.variables().size()) joints = {};
+  recent_.push_back({seen_++,
+                     report.stamp,
+                     {joints.begin(), joints.end()},
+                     {report.T_root_link.begin(), report.T_root_link.end()}});
+  if (recent_.size() > reach + 1) recent_.pop_front();
+  if (wants(report.T_root_link)) keep(report);
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    std::vector<NearbyFrame>& around = frames_[i].around;
+    const auto first = static_cast<int>(recent_.front().number) - static_cast<int>(kept_[i].number);
+    const int next = around.empty() ? std::max(first, -reach) : around.back().frames + 1;
+    for (int by = next; by <= std::min(reach, first + static_cast<int>(recent_.size()) - 1); ++by) {
+      const Seen& seen = recent_[static_cast<std::size_t>(by - first)];
+      NearbyFrame& near = around.emplace_back();
+      near.frames = by;
+      if (seen.stamp && kept_[i].stamp)
+        near.seconds = 1e-9 * static_cast<double>(*seen.stamp - *kept_[i].stamp);
+      near.joints = seen.joints;
+      near.T_root_link = seen.T_root_link;
+      if (near.seconds && std::abs(*near.seconds) <= farthest_nearby)
+        frames_[i].nearby.push_back({*near.seconds, near.T_root_link});
+    }
+  }
+}
+
+void SetupCheck::keep(const FrameReport& report) {
+  const Seen& seen = recent_.back();
+  if (!T_parent_camera_)
+    T_parent_camera_ = seen.T_root_link[parent_].inverse() * *report.T_root_camera;
+  DiagnosisFrame& frame = frames_.emplace_back();
+  frame.index = report.index;
+  frame.joints = seen.joints;
+  frame.T_root_link = seen.T_root_link;
+  frame.depth = Image<float>(camera_.width(), camera_.height());
+  std::visit(
+      [&](const auto& depth) {
+        for (int v = 0; v < camera_.height(); ++v)
+          for (int u = 0; u < camera_.width(); ++u) {
+            int x = u * block_ + block_ / 2, y = v * block_ + block_ / 2;
+            if (lens_) {
+              const std::int32_t raw = lens_->pinhole_to_raw()(x, y);
+              if (raw == Rectification::no_pixel) continue;
+              x = raw % depth.width, y = raw / depth.width;
+            }
+            frame.depth(u, v) = metres_of(depth(x, y));
+          }
+      },
+      report.depth);
+  kept_.push_back({seen.number, seen.stamp, {}, {}});
+  while (frames_.size() > most) thin_out();
+}
+
+/// Keeps only frames that are farther from one another.
+void SetupCheck::thin_out() {
+  motion_ *= 1.5;
+  std::vector<DiagnosisFrame> all;
+  std::vector<Seen> seen;
+  all.swap(frames_);
+  seen.swap(kept_);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (wants(all[i].T_root_link)) {
+      frames_.push_back(std::move(all[i]));
+      kept_.push_back(std::move(seen[i]));
+    }
+}
+
+Diagnosis SetupCheck::diagnose() const {
+  // Shares of the robot's measured pixels that are measured elsewhere.
+  constexpr double suspicious = 0.05;
+  if (frames_.empty()) return {};
+  const bool is_suspicious = robot_pixels_ == 0 || static_cast<double>(front_ + beyond_) >
+                                                       suspicious * static_cast<double>(measured_);
+  return penumbra::diagnose(frames_, camera_, robot_, parent_, *T_parent_camera_, is_suspicious);
+}
+
+}  // namespace penumbra
