@@ -82,7 +82,10 @@ void check_size(const char* argument, py::ssize_t width, py::ssize_t height, int
     return "(" + std::to_string(rows) + ", " + std::to_string(columns) + ")";
   };
   throw py::value_error(std::string(argument) + ": expected shape " +
-                        shape(expected_height, expected_width) + "; got " + shape(height, width));
+                        shape(expected_height, expected_width) + "; got " + shape(height, width) +
+                        (width == expected_height && height == expected_width
+                             ? ": it is transposed; rows come first"
+                             : ""));
 }
 
 ColorResult array_of(ImageView<io::Rgb8> view, std::shared_ptr<const void> owner) {

@@ -6,6 +6,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/calibration/calibration.hpp>
 #include <penumbra/calibration/watch.hpp>
+#include <penumbra/diagnosis/diagnosis.hpp>
 
 namespace penumbra::python {
 
@@ -176,6 +177,21 @@ void bind_calibration(py::module_& m) {
       Field{"rotation_error", &D::rotation_error, "The same of the rotation, rad."},
       Field{"message", &D::message, "One line if the camera has moved; else empty."});
   bind_repr(drift, {"is_known", "has_moved", "position", "position_error"});
+  using S = Diagnosis;
+  py::class_<S> diagnosis(m, "Diagnosis", "What is wrong with a setup.");
+  show_properties(
+      diagnosis,
+      Field{"cause", [](const S& d) { return std::string(to_string(d.cause)); },
+            "none, depth_unit, camera_unit, camera_inverted, camera_transposed, camera_axes, "
+            "camera_pose, intrinsics, joint_unit, joint_sign, joint_zero, joint_order, joint_time, "
+            "or unexplained."},
+      Field{"other", [](const S& d) { return std::string(to_string(d.other)); },
+            "A second cause that the frames cannot rule out, or none."},
+      Field{"message", &S::message, "One line with the amount and the remedy; empty: nothing."},
+      Field{"frame", &S::frame, "Index of the frame that shows it most."},
+      Field{"score", &S::score, "Agreement of measured and virtual depth, at most 1."},
+      Field{"best", &S::best, "The same after the mend."});
+  bind_repr(diagnosis, {"cause", "message"});
   m.def("calibrate", &calibrate_frames, py::arg("frames"), py::arg("camera"), py::arg("robot"),
         py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
         py::arg("masks") = std::vector<MaskArgument>(), py::arg("focal") = false,

@@ -28,6 +28,11 @@ Frame OwnedFrame::view(const Robot& robot, Parts& parts) const {
   frame.stamp = stamp;
   if (depth) frame.depth = depth->view;
   if (const auto* positions = std::get_if<Numbers>(&joints)) {
+    const std::size_t expected = robot.variables().size();
+    if (positions->values.size() != expected)
+      throw py::value_error("joints: expected " + std::to_string(expected) +
+                            " positions in the order of Robot.variables; got " +
+                            std::to_string(positions->values.size()));
     frame.joints = positions->values;
     frame.joints.age = joint_age;
   } else if (const auto* named = std::get_if<NamedPositions>(&joints)) {

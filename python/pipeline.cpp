@@ -46,8 +46,6 @@ Report process(const std::shared_ptr<State>& self, const OwnedFrame& frame) {
     const py::gil_scoped_release others;
     report = &self->pipeline.process(view);
     self->sequence->add(*report, view.joints.positions);
-    self->missing_parts->add(*report);
-    self->watch.add(*report);
   }
   return {self, *report, frame.depth ? py::object(frame.depth->array) : py::none()};
 }
@@ -106,7 +104,17 @@ void bind_pipeline(py::module_& m) {
           "What is doubtful of the robot and of the frames so far, a line each, as `penumbra run` "
           "prints it: for example, degrees for radians or millimetres for metres.");
   pipeline.def_property_readonly(
-      "drift", [](const State& s) { return s.watch.drift(); },
+      "diagnosis",
+      [](State& s) {
+        const OneThread::Use use(s.thread, "Pipeline.diagnosis");
+        return s.sequence->diagnosis();
+      },
+      "What is wrong with the setup, by the frames so far: the camera's pose, its intrinsics, the "
+      "depth's unit, the joint positions. Takes a tenth of a second, or about a second if "
+      "something "
+      "looks wrong.");
+  pipeline.def_property_readonly(
+      "drift", [](const State& s) { return s.sequence->drift(); },
       "How far the camera has moved from its calibration, by the frames so far.");
   const auto of = [](auto member) {
     return [member](const State& s) { return std::invoke(member, s.pipeline); };

@@ -19,27 +19,22 @@ Camera judged_camera(const Camera& camera, const Pipeline& pipeline) {
 
 }  // namespace
 
-PipelineState::PipelineState(const Robot& robot, const Camera& camera, const PipelineConfig& config)
-    : pipeline(robot, camera, config),
-      depth_size(camera.intrinsics),
-      image(config.image),
-      cloud_maker(judged_camera(camera, pipeline)),
-      watch(judged_camera(camera, pipeline)) {
+PipelineState::PipelineState(const Robot& robot, const Camera& given,
+                             const PipelineConfig& settings)
+    : pipeline(robot, given, settings),
+      depth_size(given.intrinsics),
+      cloud_maker(judged_camera(given, pipeline)),
+      config(settings),
+      camera(judged_camera(given, pipeline)) {
   begin_sequence();
 }
 
-void PipelineState::begin_sequence() {
-  sequence.emplace(pipeline.robot(), io::SequenceNotes::Source{.image = image});
-  missing_parts.emplace(pipeline.robot(), pipeline.rule().fringe_reach);
-}
+void PipelineState::begin_sequence() { sequence.emplace(pipeline, camera, config); }
 
 std::vector<std::string> PipelineState::notes() const {
   const auto of_robot = pipeline.robot().notes();
   std::vector<std::string> notes(of_robot.begin(), of_robot.end());
   for (auto& line : sequence->lines()) notes.push_back(line);
-  for (auto& line : missing_parts->lines()) notes.push_back(line);
-  if (std::string moved = watch.drift().message(); !moved.empty())
-    notes.push_back(std::move(moved));
   return notes;
 }
 

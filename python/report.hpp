@@ -10,10 +10,8 @@
 #include <python/arrays.hpp>
 #include <python/judgement.hpp>
 
-#include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
-#include <penumbra/tuning/missing_parts.hpp>
 
 #include <io/files/sequence_notes.hpp>
 
@@ -21,7 +19,7 @@ namespace penumbra::python {
 
 /// A pipeline with what is noted of its frames.
 struct PipelineState {
-  PipelineState(const Robot& robot, const Camera& camera, const PipelineConfig& config);
+  PipelineState(const Robot& robot, const Camera& given, const PipelineConfig& settings);
 
   /// Forgets the frames that were noted.
   void begin_sequence();
@@ -30,11 +28,10 @@ struct PipelineState {
 
   Pipeline pipeline;
   Intrinsics depth_size;  ///< of depth images as they come
-  ImageSpace image;
   CloudMaker cloud_maker;
+  PipelineConfig config;
+  Camera camera;  ///< of the reports' images
   std::optional<io::SequenceNotes> sequence;
-  std::optional<MissingParts> missing_parts;
-  CalibrationWatch watch;
   std::uint64_t calls = 0;
   OneThread thread;
 };

@@ -60,6 +60,7 @@ struct InspectArguments {
 struct TuneArguments {
   io::JudgingOptions judging;  ///< with the current rule
   std::filesystem::path output;
+  bool force = false;  ///< advise although the setup looks wrong
 };
 
 struct CalibrateArguments {

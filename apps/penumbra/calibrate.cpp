@@ -8,6 +8,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/calibration/calibration.hpp>
+#include <penumbra/diagnosis/diagnosis.hpp>
 
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/progress.hpp>
@@ -84,6 +85,20 @@ void print_pose(const Calibration& found, const std::string& parent, const std::
             << (frame.empty() ? "camera_optical_frame" : frame) << '\n';
 }
 
+/// Returns what is wrong with the input other than the camera's pose; empty: nothing known.
+std::string other_cause(const io::CalibrationInput& input, const CalibrationOptions& options) {
+  std::vector<DiagnosisFrame> frames;
+  for (const CalibrationFrame& frame : input.frames) frames.emplace_back(DiagnosisFrame{frame, {}});
+  if (!options.initial) return {};
+  const Robot& robot = input.input.robot;
+  const std::size_t parent =
+      options.camera_parent.empty() ? 0 : *robot.find_link(options.camera_parent);
+  const Diagnosis found = diagnose(frames, input.camera, robot, parent, *options.initial);
+  using Cause = Diagnosis::Cause;
+  const bool is_other = found.cause != Cause::camera_pose && found.cause != Cause::unexplained;
+  return is_other ? found.message : std::string();
+}
+
 }  // namespace
 
 int execute(const CalibrateArguments& arguments) {
@@ -119,6 +134,7 @@ int execute(const CalibrateArguments& arguments) {
   if (!found.is_good()) {
     std::string why;
     for (const std::string& fault : found.faults) why += (why.empty() ? "" : "; ") + fault;
+    if (const std::string wrong = other_cause(input, options); !wrong.empty()) why += "; " + wrong;
     throw InputError(arguments.input.input.path.string() + ": not calibrated: " + why);
   }
   print_fit(found, robot, input.input.camera.intrinsics);

@@ -177,7 +177,7 @@ int execute(const RenderArguments& arguments) {
   RenderedImages images(arguments, first);
   print_notes(pipeline.robot().notes());
   std::vector<std::string> of_pose = rest_notes(pipeline.robot(), arguments);
-  io::SequenceNotes doubts(pipeline.robot(), {.has_sensor = false});
+  io::SequenceNotes doubts(pipeline.robot());
   doubts.add(first, positions);
   append(of_pose, doubts.lines());
   print_notes(of_pose);

@@ -76,10 +76,12 @@ void catch_interrupts() {
 
 bool was_interrupted() { return interrupted_by != 0; }
 
-int status_of(const io::RunResult& result) {
+int status_of(const io::RunResult& result, bool force) {
   if (result.is_stopped) return 128 + interrupted_by;
   if (!result.device_fault.empty()) return device_failed;
-  return result.statistics.usable_frames() > 0 ? 0 : nothing_judged;
+  const bool is_good =
+      result.statistics.usable_frames() > 0 && (force || result.statistics.shows_robot());
+  return is_good ? 0 : nothing_judged;
 }
 
 int execute(const RunArguments& arguments) {
@@ -99,7 +101,7 @@ int execute(const RunArguments& arguments) {
   print_result(result, judging.pipeline().robot(),
                io::is_output_bag(path) ? "results: " + path.string()
                                        : "report: " + (path / "report.json").string());
-  return status_of(result);
+  return status_of(result, arguments.output.force);
 }
 
 }  // namespace penumbra::app

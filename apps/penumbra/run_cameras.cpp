@@ -134,7 +134,7 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
     std::cout << "camera " << task.name << ":\n";
     print_result(task.result, task.judging->pipeline().robot(),
                  "report: " + (task.arguments.output.path / "report.json").string());
-    status = std::max(status, status_of(task.result));
+    status = std::max(status, status_of(task.result, arguments.output.force));
     runs.push_back(std::move(*task.views));
   }
   const io::CameraViews views = io::fuse_views(arguments.judging.input.path.string(), runs);

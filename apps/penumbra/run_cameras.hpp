@@ -25,6 +25,6 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
 void catch_interrupts();
 [[nodiscard]] bool was_interrupted();
 
-[[nodiscard]] int status_of(const io::RunResult& result);
+[[nodiscard]] int status_of(const io::RunResult& result, bool force);
 
 }  // namespace penumbra::app

@@ -230,6 +230,7 @@ void add_tune(CLI::App& app, TuneArguments& tune) {
   add_input(app, tune.judging.input);
   add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", tune.output)
       ->required();
+  app.add_flag("--force", tune.force, "advise although the setup looks wrong");
   add_judging(app, tune.judging);
   add_frames(app, tune.judging.input.frames);
   add_bag(app, tune.judging.input.bag);
@@ -307,8 +308,10 @@ void add_run(CLI::App& app, RunArguments& run) {
              "LINK", [&](const std::string& text) { run.output.points_frame = text; });
   app.add_flag("--report", run.output.report_page,
                "write report.html, too: one file with the targets' timeline and key frames");
-  app.add_flag("--force", run.output.force,
-               "write into a folder that holds files and no report.json of penumbra");
+  app.add_flag(
+      "--force", run.output.force,
+      "write into a folder that holds files and no report.json of penumbra; and exit with 0 "
+      "although the images do not show the robot where the setup says");
   add_bag(app, run.judging.input.bag);
 }
 

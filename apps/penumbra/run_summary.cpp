@@ -68,8 +68,11 @@ void print_summary(const io::Statistics& statistics, const std::string& where) {
   const PixelCounts& pixels = statistics.pixels();
   const std::size_t robot = pixels.robot.value_or(0);
   const std::size_t unknown = robot - pixels.front - pixels.occluded - pixels.beyond;
-  std::cout << statistics.frames() << " frames, " << statistics.bad_frames() << " bad; of " << robot
-            << " robot pixels " << percent(pixels.front, robot) << " front, "
+  std::cout << statistics.frames() << " frames, "
+            << (statistics.shows_robot() || statistics.usable_frames() == 0
+                    ? std::to_string(statistics.bad_frames()) + " bad"
+                    : "none to be trusted")
+            << "; of " << robot << " robot pixels " << percent(pixels.front, robot) << " front, "
             << percent(pixels.occluded, robot) << " occluded, " << percent(unknown, robot)
             << " unknown, " << percent(pixels.beyond, robot) << " beyond; " << pixels.fringe
             << " fringe pixels around it";

@@ -109,7 +109,6 @@ void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& e
 int execute(const TuneArguments& arguments) {
   const fs::path& folder = arguments.output;
   io::Judging judging(arguments.judging, print_line);
-  make_output_folder(folder);
   const Pipeline& pipeline = judging.pipeline();
   KeptFrames kept(pipeline.rule().range);
   {
@@ -122,7 +121,14 @@ int execute(const TuneArguments& arguments) {
       print_notes(std::vector{result.device_fault});
       return device_failed;
     }
+    const Diagnosis& wrong = result.statistics.diagnosis();
+    if (!wrong.message.empty() && !arguments.force)
+      throw InputError(
+          arguments.judging.input.path.string() + ": not tuned: " + wrong.message +
+          "; tolerances and parts measured before that is mended would hide it (--force "
+          "measures them)");
   }
+  make_output_folder(folder);
   const Tuning tuning = tune(kept.frames, pipeline.intrinsics(), pipeline.robot(), pipeline.rule());
   std::vector<io::WrittenExtra> extras;
   for (const ExtraPart& part : tuning.extras) {

@@ -21,6 +21,17 @@ FileResult read_depth(const FramePattern& pattern, ImageSize size, FrameData& fr
                                        : read_png(file, depth_as<std::uint16_t>(frame), size);
 }
 
+/// Returns depth in metres from one in units of `scale` metres.
+template <typename T>
+Image<float> scaled(const Image<T>& depth, double scale) {
+  Image<float> metres(depth.width(), depth.height());
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const T value = depth.data()[i];
+    if (metres_of(value) > 0.0F) metres.data()[i] = static_cast<float>(scale * value);
+  }
+  return metres;
+}
+
 /// Adds a faulty row for every depth image without a row, before the first row of a later frame.
 std::vector<JointRow> with_gaps(std::vector<JointRow> rows, const RecordingFrames& files) {
   std::unordered_set<std::int64_t> known;
@@ -71,6 +82,7 @@ FrameReader::FrameReader(const Recording& recording, const Robot& robot)
     : size_{recording.camera.camera.intrinsics.width(),
             recording.camera.camera.intrinsics.height()},
       files_(recording.frames),
+      depth_scale_(recording.camera.depth_scale),
       rows_(with_gaps(read_joint_file(recording.frames.joints, robot), recording.frames)),
       bodies_(recording.attached),
       parts_(robot.parts().begin(), robot.parts().end()) {}
@@ -98,6 +110,9 @@ void FrameReader::read(std::size_t i, bool with_color, FrameData& frame) const {
       frame.status =
           depth.status == FileStatus::missing ? FrameStatus::missing_depth : FrameStatus::bad_depth;
     frame.message += (frame.message.empty() ? "" : "; ") + depth.message;
+  } else if (depth_scale_) {
+    frame.depth =
+        std::visit([&](const auto& image) { return scaled(image, *depth_scale_); }, frame.depth);
   }
 
   frame.color_message.clear();

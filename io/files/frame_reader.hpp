@@ -57,6 +57,7 @@ class FrameReader {
  private:
   ImageSize size_;
   RecordingFrames files_;
+  std::optional<double> depth_scale_;  // metres per unit; null: the format's
   std::vector<JointRow> rows_;
   std::vector<RecordedBody> bodies_;
   std::vector<RobotPart> parts_;

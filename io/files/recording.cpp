@@ -139,8 +139,8 @@ void read_label_rule(const YamlNode& node, RecordingCamera& camera) {
 }
 
 constexpr std::string_view camera_keys[] = {
-    "info",         "parent", "pose",      "sensor", "tolerance",  "front_min_width",
-    "fringe_reach", "range",  "rectified", "beyond", "depth_info", "depth_pose"};
+    "info",  "parent",    "pose",   "sensor",     "tolerance",  "front_min_width", "fringe_reach",
+    "range", "rectified", "beyond", "depth_info", "depth_pose", "depth_scale"};
 
 RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& folder) {
   refuse_depth_camera(node);
@@ -155,6 +155,11 @@ RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& fol
   const YamlNode* pose = node.find("pose");
   if (pose != nullptr || node.find("parent") != nullptr) camera.parent = node.at("parent").text();
   if (pose != nullptr) camera.T_parent_camera = read_pose_csv(file_of(*pose, folder));
+  if (const YamlNode* scale = node.find("depth_scale")) {
+    camera.depth_scale = scale->number();
+    if (!(*camera.depth_scale > 0.0))
+      scale->fail("is not above 0; metres per unit of the depth images are wanted, as in 0.0001");
+  }
   read_label_rule(node, camera);
   return camera;
 }

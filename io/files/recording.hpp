@@ -49,6 +49,7 @@ struct RecordingCamera {
   std::optional<int> fringe_reach = {};     ///< of LabelRule, pixels
   std::optional<std::string> sensor = {};   ///< of LabelRule::for_sensor
   std::optional<BeyondMeans> beyond = {};
+  std::optional<double> depth_scale = {};  ///< metres per unit of the depth images
 };
 
 /// The files of the frames.

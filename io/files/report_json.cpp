@@ -200,6 +200,17 @@ Json faults_json(const Statistics& statistics) {
   return faults;
 }
 
+Json diagnosis_json(const Diagnosis& diagnosis) {
+  if (diagnosis.cause == Diagnosis::Cause::none) return nullptr;
+  return {{"cause", to_string(diagnosis.cause)},
+          {"other", diagnosis.other == Diagnosis::Cause::none ? Json(nullptr)
+                                                              : Json(to_string(diagnosis.other))},
+          {"message", diagnosis.message},
+          {"frame", diagnosis.frame},
+          {"agreement", diagnosis.score},
+          {"agreement_after", diagnosis.best}};
+}
+
 Json summary_json(const Statistics& statistics, std::span<const std::string> missing_links,
                   std::span<const std::string> notes) {
   Json timing;
@@ -219,6 +230,7 @@ Json summary_json(const Statistics& statistics, std::span<const std::string> mis
           {"targets", std::move(targets)},
           {"missing_links", list(missing_links)},
           {"calibration", drift_json(statistics.drift())},
+          {"diagnosis", diagnosis_json(statistics.diagnosis())},
           {"notes", list(notes)}};
 }
 

@@ -38,18 +38,25 @@ bool exceeds(std::size_t part, double share, std::size_t whole) {
 
 }  // namespace
 
-SequenceNotes::SequenceNotes(const Robot& robot) : SequenceNotes(robot, Source{}) {}
-SequenceNotes::SequenceNotes(const Robot& robot, const Source& source)
-    : robot_(robot),
-      source_(source),
-      frames_beyond_(robot.joints().size()),
-      frames_near_(robot.links().size()) {}
+SequenceNotes::SequenceNotes(const Robot& robot)
+    : robot_(robot), frames_beyond_(robot.joints().size()), frames_near_(robot.links().size()) {}
+
+SequenceNotes::SequenceNotes(const Pipeline& pipeline, const Camera& camera,
+                             const PipelineConfig& config, const DriftLimits& limits)
+    : SequenceNotes(pipeline.robot()) {
+  const std::size_t parent =
+      config.camera_parent.empty() ? 0 : *robot_.find_link(config.camera_parent);
+  sensor_.emplace(Sensor{.missing = MissingParts(robot_, pipeline.rule().fringe_reach),
+                         .watch = CalibrationWatch(camera, limits),
+                         .setup = SetupCheck(robot_, camera, parent),
+                         .image = config.image});
+}
 
 void SequenceNotes::add(const FrameReport& report, std::span<const double> positions) {
   if (report.pixels.robot) {
     ++posed_frames_;
     robot_seen_ = robot_seen_ || *report.pixels.robot > 0;
-    if (source_.has_sensor && (has_depth(report.status) || report.nothing_measured)) {
+    if (sensor_ && (has_depth(report.status) || report.nothing_measured)) {
       robot_pixels_ += *report.pixels.robot;
       measured_ += *report.pixels.robot - report.pixels.unknown;
       front_ += report.pixels.front;
@@ -60,6 +67,12 @@ void SequenceNotes::add(const FrameReport& report, std::span<const double> posit
   uncovered_ = std::max(uncovered_, report.pixels.uncovered);
   add_targets(report);
   add_stamp(report);
+  if (sensor_) {
+    sensor_->missing.add(report);
+    sensor_->watch.add(report);
+    sensor_->setup.add(report, positions);
+    diagnosis_.reset();
+  }
   if (positions.size() != robot_.variables().size()) return;
   for (std::size_t i = 0; i < frames_beyond_.size(); ++i)
     if (is_beyond(robot_.joints()[i], positions)) ++frames_beyond_[i];
@@ -88,13 +101,20 @@ void SequenceNotes::add_targets(const FrameReport& report) {
 std::vector<std::string> SequenceNotes::lines() const {
   static_assert(DepthRenderer::near_plane == 0.01, "the 1 cm below");
   std::vector<std::string> lines;
-  if (posed_frames_ > 0 && !robot_seen_)
-    lines.push_back(std::string("the robot is ") +
-                    (posed_frames_ == 1 ? "not in the image" : "in no frame") +
-                    ": is the camera's pose that of the camera in its parent link's frame (not "
-                    "the inverse), in metres?");
-  if (std::string line = depth_line(); !line.empty()) lines.push_back(std::move(line));
-  if (source_.image == ImageSpace::raw && uncovered_ > 0)
+  const Diagnosis& found = diagnosis();
+  // Without a robot in view, or depth on it, no setup explains anything.
+  const bool shows_robot =
+      robot_seen_ && (robot_pixels_ == 0 || exceeds(measured_, nearly_none, robot_pixels_));
+  const bool is_named = found.cause != Diagnosis::Cause::none &&
+                        (shows_robot || found.cause != Diagnosis::Cause::unexplained);
+  if (is_named) lines.push_back(found.message);
+  if (!is_named && posed_frames_ > 0 && !robot_seen_)
+    lines.push_back(
+        std::string("the robot is ") + (posed_frames_ == 1 ? "not in the image" : "in no frame") +
+        ": is the camera's pose that of the optical frame (x right, y down, z forward) in "
+        "its parent link's frame (not the inverse), in metres?");
+  if (std::string line = depth_line(); !is_named && !line.empty()) lines.push_back(std::move(line));
+  if ((!sensor_ || sensor_->image == ImageSpace::raw) && uncovered_ > 0)
     lines.push_back("the lens model does not reach " + counted(uncovered_, "pixel") +
                     " of the image: unknown in labels, but 0 as without robot in virtual depth and "
                     "link images; are the distortion coefficients right?");
@@ -124,9 +144,20 @@ std::vector<std::string> SequenceNotes::lines() const {
     if (frames_beyond_[i] > 0)
       joints += (joints.empty() ? "joint '" : ", joint '") + robot_.joints()[i].name +
                 "' beyond its limits in " + counted(frames_beyond_[i], "frame");
-  if (!joints.empty()) lines.push_back(joints + ": are the positions in radians and metres?");
+  if (!is_named && !joints.empty())
+    lines.push_back(joints + ": are the positions in radians and metres?");
+  if (!sensor_ || found.cause != Diagnosis::Cause::none) return lines;
+  for (std::string& line : sensor_->missing.lines()) lines.push_back(std::move(line));
+  if (std::string moved = drift().message(); !moved.empty()) lines.push_back(std::move(moved));
   return lines;
 }
+
+const Diagnosis& SequenceNotes::diagnosis() const {
+  if (!diagnosis_) diagnosis_ = sensor_ ? sensor_->setup.diagnose() : Diagnosis{};
+  return *diagnosis_;
+}
+
+Drift SequenceNotes::drift() const { return sensor_ ? sensor_->watch.drift() : Drift{}; }
 
 std::string SequenceNotes::depth_line() const {
   constexpr const char* doubt = "is depth in millimetres (16-bit PNG) or metres (float32)";

@@ -8,9 +8,12 @@
 #include <string>
 #include <vector>
 
+#include <penumbra/calibration/watch.hpp>
+#include <penumbra/diagnosis/diagnosis.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/tuning/missing_parts.hpp>
 
 namespace penumbra::io {
 
@@ -30,21 +33,22 @@ class SequenceNotes {
   /// images a second.
   static constexpr std::uint64_t shortest_period = 1'000'000;
 
-  /// The source of the frames.
-  struct Source {
-    ImageSpace image = ImageSpace::raw;
-    bool has_sensor = true;  ///< false: no sensor measured the depth images
-  };
-
-  /// `robot` must outlive this.
+  /// For frames whose depth no sensor measured. `robot` must outlive this.
   explicit SequenceNotes(const Robot& robot);
-  SequenceNotes(const Robot& robot, const Source& source);
+  /// `pipeline`: which judges the frames, and must outlive this; `camera`: of the report's images;
+  /// `config`: the pipeline's.
+  SequenceNotes(const Pipeline& pipeline, const Camera& camera, const PipelineConfig& config,
+                const DriftLimits& limits = {});
 
   /// `positions`: those of the frame, in the order of Robot::variables(); empty if not known.
   void add(const FrameReport& report, std::span<const double> positions);
 
-  /// Returns a line for each likely mistake.
+  /// Returns a line for each likely mistake. What a wrong setup looks like is left out where the
+  /// diagnosis names the cause.
   [[nodiscard]] std::vector<std::string> lines() const;
+  /// Takes a tenth of a second, or about a second if something looks wrong.
+  [[nodiscard]] const Diagnosis& diagnosis() const;
+  [[nodiscard]] Drift drift() const;  ///< how far the camera has moved from its calibration
 
  private:
   /// A frame whose stamp is not after the one before.
@@ -57,8 +61,17 @@ class SequenceNotes {
   void add_targets(const FrameReport& report);
   [[nodiscard]] std::string depth_line() const;
 
+  /// What compares frames that a sensor measured.
+  struct Sensor {
+    MissingParts missing;
+    CalibrationWatch watch;
+    SetupCheck setup;
+    ImageSpace image;
+  };
+
   const Robot& robot_;
-  Source source_;
+  std::optional<Sensor> sensor_;
+  mutable std::optional<Diagnosis> diagnosis_;  // of the frames so far
   std::size_t posed_frames_ = 0;
   bool robot_seen_ = false;
   std::size_t robot_pixels_ = 0, measured_ = 0, front_ = 0, beyond_ = 0;  // of frames with depth

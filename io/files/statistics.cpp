@@ -98,6 +98,14 @@ std::size_t Statistics::bad_frames() const {
   return bad;
 }
 
+bool Statistics::shows_robot() const {
+  constexpr double most_beyond = 0.8;  // of the robot's measured pixels
+  const std::size_t robot = pixels_.robot.value_or(0);
+  const std::size_t measured = pixels_.front + pixels_.occluded + pixels_.beyond;
+  return robot > 0 &&
+         static_cast<double>(pixels_.beyond) <= most_beyond * static_cast<double>(measured);
+}
+
 std::optional<Quantiles> Statistics::timing(std::size_t stage) const {
   return quantiles(times_[stage]);
 }

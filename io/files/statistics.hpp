@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <penumbra/calibration/watch.hpp>
+#include <penumbra/diagnosis/diagnosis.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
 namespace penumbra::io {
@@ -69,6 +70,7 @@ class Statistics {
  public:
   void add(const FrameReport& report);
   void set_drift(const Drift& drift) { drift_ = drift; }
+  void set_diagnosis(const Diagnosis& diagnosis) { diagnosis_ = diagnosis; }
 
   [[nodiscard]] std::size_t frames() const { return frames_; }
   [[nodiscard]] std::size_t bad_frames() const;
@@ -87,6 +89,13 @@ class Statistics {
   /// Returns how far the camera has moved from its calibration.
   [[nodiscard]] const Drift& drift() const { return drift_; }
 
+  /// Returns what is wrong with the setup.
+  [[nodiscard]] const Diagnosis& diagnosis() const { return diagnosis_; }
+
+  /// Returns whether the robot is in some usable frame, and not measured as free space in most of
+  /// its pixels; if not, nothing that was judged can be trusted.
+  [[nodiscard]] bool shows_robot() const;
+
   /// Returns milliseconds of one of `stages`; nothing if it never ran.
   [[nodiscard]] std::optional<Quantiles> timing(std::size_t stage) const;
 
@@ -102,6 +111,7 @@ class Statistics {
   std::unordered_map<std::string, std::size_t> target_places_;
   std::array<std::vector<double>, stages.size()> times_;
   Drift drift_;
+  Diagnosis diagnosis_;
 };
 
 }  // namespace penumbra::io

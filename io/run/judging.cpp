@@ -2,8 +2,6 @@
 #include <iterator>
 #include <utility>
 
-#include <penumbra/tuning/missing_parts.hpp>
-
 #include <io/files/sequence_notes.hpp>
 #include <io/run/judging.hpp>
 
@@ -88,9 +86,9 @@ RunResult Judging::run(RunOutput& output, const std::function<bool()>& go_on) {
 std::vector<std::string> Judging::judge_frames(RunOutput& output,
                                                const std::function<bool()>& go_on,
                                                RunResult& result) {
-  SequenceNotes sequence(pipeline_.robot(), {.image = options_.image});
-  MissingParts missing(pipeline_.robot(), pipeline_.rule().fringe_reach);
-  CalibrationWatch watch(camera_, options_.drift);
+  PipelineConfig config = input_.config;
+  config.image = options_.image;
+  SequenceNotes sequence(pipeline_, camera_, config, options_.drift);
   FrameData data;
   Frame frame;
   try {
@@ -99,8 +97,6 @@ std::vector<std::string> Judging::judge_frames(RunOutput& output,
       const FrameReport& report = pipeline_.process(frame);
       result.statistics.add(report);
       sequence.add(report, frame.joints.positions);
-      missing.add(report);
-      watch.add(report);
       if (!data.color_message.empty() && result.frames_without_color++ == 0)
         result.first_without_color = data.color_message;
       output.save(report, data, {frame.targets, pipeline_.robot(), camera_});
@@ -111,12 +107,9 @@ std::vector<std::string> Judging::judge_frames(RunOutput& output,
     result.device_fault = "frame " + std::to_string(data.index) +
                           " and later ones are not judged: " + without_device(error);
   }
-  std::vector<std::string> notes = sequence.lines();
-  append(notes, missing.lines());
-  result.statistics.set_drift(watch.drift());
-  if (std::string moved = watch.drift().message(); !moved.empty())
-    notes.push_back(std::move(moved));
-  return notes;
+  result.statistics.set_drift(sequence.drift());
+  result.statistics.set_diagnosis(sequence.diagnosis());
+  return sequence.lines();
 }
 
 LabelRule RuleOptions::applied_to(const LabelRule& recorded) const {

@@ -6,7 +6,15 @@ import { FrameCache } from './model/frame_cache';
 import { Throttle } from './model/throttle';
 import { onsets, waitOf } from './model/timeline';
 import { bindCommands } from './view/commands';
-import { cover, coverReplaced, showNotes, showPlaying, showState, uncover } from './view/page';
+import {
+  cover,
+  coverReplaced,
+  showDiagnosis,
+  showNotes,
+  showPlaying,
+  showState,
+  uncover,
+} from './view/page';
 import { Viewer, type FrameSource } from './viewer';
 
 const cacheBytes = 192 * 2 ** 20;
@@ -167,6 +175,9 @@ export class StoredView implements FrameSource {
     this.viewer.setSession(session);
     if (report.frames.length > 0) timeline.setFrames(timeline.frames.concat(report.frames));
     this.viewer.setCalibration(report.summary?.calibration ?? null);
+    showDiagnosis(report.summary?.diagnosis ?? null, (index) =>
+      this.seek(timeline.frames.findIndex((frame) => frame.index === index)),
+    );
     const judged = timeline.frames.length;
     const isPart = (session.expected ?? judged) > judged;
     const text = `${judged}${isPart ? ` of ${session.expected}` : ''} frames`;

@@ -61,12 +61,21 @@ export interface Calibration {
   readonly has_moved: boolean;
 }
 
+/** What is wrong with the setup. */
+export interface Diagnosis {
+  readonly cause: string;
+  readonly message: string;
+  /** Index of the frame that shows it most. */
+  readonly frame: number;
+}
+
 /** Entries of `timing_ms` and `pixels` are null if no frame has them. */
 export interface Summary {
   readonly bad_frames: number;
   readonly timing_ms: Readonly<Record<string, { median: number; p99: number; max: number } | null>>;
   readonly pixels?: Readonly<Record<string, number | null>>;
   readonly calibration?: Calibration | null;
+  readonly diagnosis?: Diagnosis | null;
   readonly missing_links?: readonly unknown[];
   readonly notes?: readonly string[];
   readonly faults?: readonly unknown[];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bar at the top of the page, its dialog of notes, and the cover that replaces the page's content.
-import type { Session } from '../api/types';
+import type { Diagnosis, Session } from '../api/types';
 import { byId, element, setText } from './dom';
 
 export function showInput({ input }: Session): void {
@@ -56,6 +56,16 @@ export function showNotes(notes: Notes): void {
 
 const withCommands = (line: string): (Node | string)[] =>
   line.split('`').map((part, index) => (index % 2 ? element('code', '', part) : part));
+
+/** Shows what is wrong with the setup, with a button for the frame that shows it. */
+export function showDiagnosis(diagnosis: Diagnosis | null, seek: (index: number) => void): void {
+  byId('diagnosis').hidden = !diagnosis;
+  if (!diagnosis) return;
+  setText(byId('diagnosis-text'), `Setup: ${diagnosis.message}.`);
+  const button = byId('diagnosis-frame');
+  setText(button, `Show frame ${diagnosis.frame}`);
+  button.onclick = () => seek(diagnosis.frame);
+}
 
 export type Action = readonly [label: string, run: () => void];
 
