@@ -99,10 +99,11 @@ std::size_t Statistics::bad_frames() const {
 }
 
 bool Statistics::shows_robot() const {
-  constexpr double most_beyond = 0.8;  // of the robot's measured pixels
+  constexpr double most_beyond = 0.8;      // of the robot's measured pixels
+  constexpr std::size_t least_robot = 10;  // pixels per frame; less is a robot far away
   const std::size_t robot = pixels_.robot.value_or(0);
   const std::size_t measured = pixels_.front + pixels_.occluded + pixels_.beyond;
-  return robot > 0 &&
+  return robot >= least_robot * usable_frames_ &&
          static_cast<double>(pixels_.beyond) <= most_beyond * static_cast<double>(measured);
 }
 

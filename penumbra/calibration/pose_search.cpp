@@ -244,8 +244,7 @@ Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random,
 std::vector<Eigen::Isometry3d> PoseSearch::candidates(
     const std::optional<Eigen::Isometry3d>& around) {
   constexpr std::size_t few_frames = 3;
-  const std::size_t guesses = around ? 1500 : 20000, tried = around ? 5 : 32,
-                    kept = around ? 1 : 4;
+  const std::size_t guesses = around ? 1500 : 20000, tried = around ? 5 : 32, kept = around ? 1 : 4;
   struct Candidate {
     double score;
     Eigen::Isometry3d pose;

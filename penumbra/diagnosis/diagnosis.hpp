@@ -95,7 +95,7 @@ class SetupCheck {
   int block_;
   Intrinsics camera_;  // of the kept images
   std::optional<Eigen::Isometry3d> T_parent_camera_;
-  std::size_t robot_pixels_ = 0, measured_ = 0, front_ = 0, beyond_ = 0;
+  std::size_t pixels_ = 0, measured_ = 0, elsewhere_ = 0;  // all, and the robot's
   std::size_t seen_ = 0;
   double motion_ = CalibrationFrames::least_motion;
   std::deque<Seen> recent_;

@@ -50,11 +50,10 @@ void SetupCheck::add(const FrameReport& report, std::span<const double> joints) 
       std::visit([](const auto& depth) { return depth.empty(); }, report.depth) ||
       !std::ranges::all_of(report.T_root_link, is_finite))
     return;
-  const std::size_t robot = report.pixels.robot.value_or(0);
-  robot_pixels_ += robot;
-  measured_ += robot - report.pixels.unknown;
-  front_ += report.pixels.front;
-  beyond_ += report.pixels.beyond;
+  pixels_ += static_cast<std::size_t>(report.labels.width) *
+             static_cast<std::size_t>(report.labels.height);
+  measured_ += report.pixels.robot.value_or(0) - report.pixels.unknown;
+  elsewhere_ += report.pixels.front + report.pixels.beyond;
   if (joints.size() != robot_.variables().size()) joints = {};
   recent_.push_back({seen_++,
                      report.stamp,
@@ -122,11 +121,12 @@ void SetupCheck::thin_out() {
 }
 
 Diagnosis SetupCheck::diagnose() const {
-  // Shares of the robot's measured pixels that are measured elsewhere.
-  constexpr double suspicious = 0.05;
+  // Of the robot's measured pixels those that are measured elsewhere; its measured pixels of all.
+  constexpr double most_elsewhere = 0.05, least_measured = 0.002;
   if (frames_.empty()) return {};
-  const bool is_suspicious = robot_pixels_ == 0 || static_cast<double>(front_ + beyond_) >
-                                                       suspicious * static_cast<double>(measured_);
+  const auto measured = static_cast<double>(measured_);
+  const bool is_suspicious = static_cast<double>(elsewhere_) > most_elsewhere * measured ||
+                             measured < least_measured * static_cast<double>(pixels_);
   return penumbra::diagnose(frames_, camera_, robot_, parent_, *T_parent_camera_, is_suspicious);
 }
 
