@@ -210,12 +210,11 @@ Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random,
   std::normal_distribution<double> normal;
   const auto any = [&] { return Eigen::Vector3d(normal(random), normal(random), normal(random)); };
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  const bool is_odd = random() % 2 != 0;
   if (around) {
     const Eigen::Vector3d turn = 0.15 * any();  // rad
     T.linear() = around->linear() * Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
     T.translation() = around->translation() + 0.15 * any();
-    if (anchors_.empty() || is_odd) return T;
+    if (anchors_.empty() || random() % 2 != 0) return T;
     T.translation().setZero();
   } else {
     const Eigen::Vector3d xyz = any();
@@ -225,7 +224,7 @@ Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random,
       T.translation() = 0.15 * any();
       return T;
     }
-    if (!is_odd) {
+    if (random() % 2 == 0) {
       std::uniform_real_distribution<double> turn(-std::numbers::pi, std::numbers::pi);
       std::uniform_real_distribution<double> tilt(-1.4, 0.5);  // rad, upwards
       T.linear() =

@@ -186,8 +186,6 @@ Visibility ExtentObserver::observe_modal(const TargetInFrame& at, TargetMemory& 
   }
   if (memory.extent.empty()) {
     Visibility first = now;
-    // Twice the reach: masks may keep away from what hides their targets.
-    may_be_hidden_ = holds_robot(at, grown(box, 2 * at.reach(), 2 * at.reach()));
     if (may_be_hidden_) first.size_unknown = SizeUnknown::first_near_robot;
     return first;
   }
