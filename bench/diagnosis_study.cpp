@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spoils right setups by one mistake at a time, and counts what the diagnosis says.
-// usage: diagnosis_study [TIMES [PART OF A FAULT'S NAME [PART OF A CELL'S NAME]]]
+// Spoils right setups by one mistake at a time, and counts what the diagnosis says. Without
+// arguments it writes the table of docs/diagnosis.md. VERBOSE=1 prints each diagnosis.
+// usage: diagnosis_study [TIMES [PART OF A MISTAKE [PART OF A CELL [SEED [CELLS OF EACH KIND]]]]]
 #include "simulated_cell.hpp"
 #include "study_page.hpp"
 
@@ -287,6 +288,8 @@ int study_all(int argc, char** argv) {
           cells.push_back(simulated(robot, setups.emplace_back(setup), seed));
       }
   const bool is_verbose = std::getenv("VERBOSE") != nullptr;
+  std::vector<std::vector<std::string>> rows{{"mistake", "setups", "named first", "second",
+                                              "nothing said", "another alone", "CPU s, mean"}};
   for (const Fault& fault : faults()) {
     if (fault.name.find(wanted) == std::string::npos) continue;
     int right = 0, shared = 0, none = 0, wrong = 0, count = 0;
@@ -315,7 +318,14 @@ int study_all(int argc, char** argv) {
               << ", nothing " << none << ", wrong " << wrong << "; CPU s mean "
               << number(seconds / std::max(count, 1), 2) << ", most " << number(longest, 2)
               << std::endl;
+    rows.push_back({fault.name, std::to_string(count),
+                    fault.cause == Cause::none ? "" : std::to_string(right), std::to_string(shared),
+                    std::to_string(none), std::to_string(wrong),
+                    number(seconds / std::max(count, 1), 1)});
   }
+  if (wanted.empty() && only.empty())
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/diagnosis.md", "diagnosis_study",
+                table(rows));
   return 0;
 }
 

@@ -199,6 +199,8 @@ class Comparison {
           std::to_string(result.frame) +
           " with the URDF, the joint positions, camera_info and the camera's pose (of the optical "
           "frame, in metres)";
+      if (setup_.frames.size() < CalibrationFrames::least)
+        result.message += "; three different poses of the robot would tell more";
       return;
     }
     result.best = rated_.front().rating.score;
