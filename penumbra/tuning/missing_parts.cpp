@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
+#include <variant>
 
+#include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/tuning/missing_parts.hpp>
 #include <penumbra/tuning/nearest_pixel-inl.hpp>
 
@@ -10,6 +13,7 @@ namespace {
 constexpr double still = 1e-3;  // of a pose; links that do not move may touch their support
 constexpr auto occluded = static_cast<std::uint8_t>(Label::occluded);
 constexpr auto fringe = static_cast<std::uint8_t>(Label::fringe);
+constexpr auto clear = static_cast<std::uint8_t>(Label::clear);
 
 }  // namespace
 
@@ -34,6 +38,18 @@ void MissingParts::measure(const FrameReport& report) {
   for (int v = 0; v < seen.height(); ++v)
     for (int u = 0; u < seen.width(); ++u) seen(u, v) = label(u, v) == occluded;
   const tuning::NearestPixels robot(seen);
+  Measured& measured = measured_.emplace_back();
+  measured.depth = Image<float>(seen.width(), seen.height());
+  measured.T_root_camera = *report.T_root_camera;
+  measured.T_root_link.assign(report.T_root_link.begin(), report.T_root_link.end());
+  std::visit(
+      [&](const auto& depth) {
+        for (int v = 0; v < seen.height(); ++v)
+          for (int u = 0; u < seen.width(); ++u)
+            if (label(u, v) == fringe || label(u, v) == clear)
+              measured.depth(u, v) = metres_of(depth(step * u, step * v));
+      },
+      report.depth);
   for (int v = 0; v < seen.height(); ++v)
     for (int u = 0; u < seen.width(); ++u) {
       if (label(u, v) != fringe || std::isinf(robot.distance(u, v))) continue;
@@ -42,17 +58,33 @@ void MissingParts::measure(const FrameReport& report) {
       if (of > links_.size()) continue;  // an attached body
       Link& link = links_[of - 1];
       link.fringe += step * step;
-      if (step * robot.distance(u, v) > far_) link.far_fringe += step * step;
+      if (step * robot.distance(u, v) > far_)
+        far_fringe_.push_back({measured_.size() - 1, of - 1, u, v});
     }
 }
 
+bool MissingParts::stands_still(const Far& pixel) const {
+  constexpr float same = 0.03F;   // metres
+  constexpr double moved = 0.05;  // metres, as of pose_difference
+  const Measured& at = measured_[pixel.frame];
+  return std::ranges::any_of(measured_, [&](const Measured& other) {
+    return other.T_root_camera.isApprox(at.T_root_camera, still) &&
+           pose_difference(other.T_root_link[pixel.link], at.T_root_link[pixel.link]) > moved &&
+           std::abs(other.depth(pixel.u, pixel.v) - at.depth(pixel.u, pixel.v)) < same;
+  });
+}
+
 std::vector<std::string> MissingParts::lines() const {
+  constexpr std::size_t pixels = 16;  // for each that is measured
+  std::vector<std::size_t> moving(links_.size());
+  for (const Far& pixel : far_fringe_)
+    if (!stands_still(pixel)) moving[pixel.link] += pixels;
   const std::size_t measured = static_cast<std::size_t>(std::bit_width(frames_));
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < links_.size(); ++i) {
     const Link& link = links_[i];
     if (link.has_moved && link.fringe >= least_fringe * measured &&
-        static_cast<double>(link.far_fringe) > most * static_cast<double>(link.fringe))
+        static_cast<double>(moving[i]) > most * static_cast<double>(link.fringe))
       lines.push_back("something large moves with link '" + robot_.links()[i] +
                       "' that the URDF lacks, or touches it: run 'penumbra tune' on this input");
   }

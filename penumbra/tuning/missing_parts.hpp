@@ -8,13 +8,15 @@
 
 #include <Eigen/Geometry>
 
+#include <penumbra/base/image.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra {
 
 /// Finds moving links that carry something large that the URDF lacks. Stereo matching leaves most
-/// of the fringe near the robot's outline; an undescribed part extends to the fringe's reach.
+/// of the fringe near the robot's outline; an undescribed part extends to the fringe's reach, and
+/// moves with its link: what stands still next to a link is left out.
 class MissingParts {
  public:
   /// A link is named if more than `most` of the fringe pixels next to it are farther from the
@@ -38,15 +40,30 @@ class MissingParts {
   struct Link {
     Eigen::Isometry3d first_pose = Eigen::Isometry3d::Identity();  // in the root link's frame
     bool has_moved = false;
-    std::size_t fringe = 0, far_fringe = 0;  // pixels
+    std::size_t fringe = 0;  // pixels
+  };
+  /// A fringe pixel far from the outline.
+  struct Far {
+    std::size_t frame, link;  // index into measured_; index of the link
+    int u, v;                 // of the small image
+  };
+  /// A measured frame.
+  struct Measured {
+    Image<float> depth;  // every fourth pixel; 0: robot, or not measured
+    Eigen::Isometry3d T_root_camera;
+    std::vector<Eigen::Isometry3d> T_root_link;
   };
 
   void measure(const FrameReport& report);
+  /// Whether another frame shows the same there although the link was elsewhere.
+  [[nodiscard]] bool stands_still(const Far& pixel) const;
 
   const Robot& robot_;
   double far_;  // pixels
   std::size_t frames_ = 0;
   std::vector<Link> links_;
+  std::vector<Measured> measured_;
+  std::vector<Far> far_fringe_;
 };
 
 }  // namespace penumbra
