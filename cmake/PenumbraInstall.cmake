@@ -33,6 +33,7 @@ set(public_headers
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp
   pipeline/pose_lookup.hpp pipeline/target.hpp pipeline/without_robot.hpp
   calibration/calibration.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
+  tuning/missing_parts.hpp
   scene/target_fusion.hpp scene/view_planning.hpp)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)
