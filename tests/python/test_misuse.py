@@ -188,3 +188,29 @@ def test_errors_are_of_the_named_classes():
     assert issubclass(penumbra.DeviceError, RuntimeError)
     with pytest.raises(penumbra.InputError):
         Opened("/nowhere")
+
+
+def test_a_wrong_number_of_joints_is_refused(opened):
+    frame = opened.frames[0].frame
+    with pytest.raises(ValueError, match=f"expected {len(opened.robot.variables)} positions"):
+        opened.pipeline.process(frame.replace(joints=[0.0, 0.0]))
+
+
+def test_transposed_depth_is_said_to_be_so(opened):
+    frame = opened.frames[0].frame
+    turned = np.ascontiguousarray(np.zeros((opened.camera.intrinsics.width,
+                                            opened.camera.intrinsics.height), np.uint16))
+    with pytest.raises(ValueError, match="transposed"):
+        opened.pipeline.process(frame.replace(depth=turned))
+
+
+def test_an_inverted_camera_pose_is_diagnosed(opened):
+    poses = {cause: config for cause, config in [
+        ("none", opened.config),
+        ("camera_inverted",
+         opened.config.replace(T_parent_camera=np.linalg.inv(opened.config.T_parent_camera)))]}
+    for cause, config in poses.items():
+        pipeline = penumbra.Pipeline(opened.robot, opened.camera, config)
+        for frame in opened.frames:
+            pipeline.process(frame.frame)
+        assert pipeline.diagnosis.cause == cause, pipeline.diagnosis.message
