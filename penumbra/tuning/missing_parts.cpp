@@ -13,7 +13,7 @@ namespace {
 constexpr double still = 1e-3;  // of a pose; links that do not move may touch their support
 constexpr auto occluded = static_cast<std::uint8_t>(Label::occluded);
 constexpr auto fringe = static_cast<std::uint8_t>(Label::fringe);
-constexpr auto clear = static_cast<std::uint8_t>(Label::clear);
+constexpr auto clear_label = static_cast<std::uint8_t>(Label::clear);
 
 }  // namespace
 
@@ -46,7 +46,7 @@ void MissingParts::measure(const FrameReport& report) {
       [&](const auto& depth) {
         for (int v = 0; v < seen.height(); ++v)
           for (int u = 0; u < seen.width(); ++u)
-            if (label(u, v) == fringe || label(u, v) == clear)
+            if (label(u, v) == fringe || label(u, v) == clear_label)
               measured.depth(u, v) = metres_of(depth(step * u, step * v));
       },
       report.depth);
