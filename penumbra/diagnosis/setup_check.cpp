@@ -28,10 +28,7 @@ double moved(std::span<const Eigen::Isometry3d> a, std::span<const Eigen::Isomet
 }  // namespace
 
 SetupCheck::SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent)
-    : robot_(robot),
-      parent_(camera_parent),
-      block_(std::max(1, camera.intrinsics.width() / enough_columns)),
-      camera_(camera.intrinsics) {
+    : robot_(robot), parent_(camera_parent), block_(1), camera_(camera.intrinsics) {
   if (!camera.distortion.is_none()) lens_.emplace(camera);
   if (lens_) camera_ = lens_->pinhole();
   block_ = std::clamp(camera_.width() / enough_columns, 1, camera_.height());
