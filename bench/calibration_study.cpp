@@ -93,12 +93,12 @@ std::vector<std::string> run(const RobotChoice& robot, const Setup& setup, std::
           std::to_string(right),
           std::to_string(refused),
           std::to_string(wrong),
-          number(quantile(position, 0.5), 2),
-          number(quantile(rotation, 0.5), 3),
+          number(median(position), 2),
+          number(median(rotation), 3),
           number(quantile(position, 0.95), 2),
           number(quantile(rotation, 0.95), 3),
           number(100.0 * held / std::max<double>(1.0, static_cast<double>(position.size())), 0),
-          number(quantile(seconds, 0.5), 1)};
+          number(median(seconds), 1)};
 }
 
 const std::vector<std::string> time_heads{"robot, moving",    "right",       "refused",
@@ -125,10 +125,10 @@ std::vector<std::string> run_moving(const RobotChoice& robot, double speed, std:
   return {robot.name + ", " + number(speed, 1) + " m/s",
           std::to_string(errors.size()),
           std::to_string(refused),
-          number(quantile(errors, 0.5), 2),
+          number(median(errors), 2),
           number(quantile(errors, 1.0), 2),
           number(100.0 * held / count, 0),
-          number(quantile(seconds, 0.5), 1)};
+          number(median(seconds), 1)};
 }
 
 /// The largest and the root mean square distance of poses from their mean.
@@ -339,7 +339,7 @@ const std::vector<std::string> fault_heads{"wrong",           "runs",       "nam
                                            "region holds, %", "off by, mm", "mended: refused",
                                            "outside",         "off by, mm", "seconds"};
 
-std::vector<std::string> row_of(const std::string& name, const Said& said) {
+std::vector<std::string> row_of(const std::string& name, Said said) {
   return {name,
           std::to_string(said.runs),
           std::to_string(said.named),
@@ -347,11 +347,11 @@ std::vector<std::string> row_of(const std::string& name, const Said& said) {
           std::to_string(said.refused),
           std::to_string(said.wrong),
           number(100.0 * said.held / std::max(1, said.runs), 0),
-          number(quantile(said.position, 0.5), 1),
+          number(median(said.position), 1),
           std::to_string(said.mended_refused),
           std::to_string(said.mended_wrong),
-          number(quantile(said.mended_position, 0.5), 1),
-          number(quantile(said.seconds, 0.5), 1)};
+          number(median(said.mended_position), 1),
+          number(median(said.seconds), 1)};
 }
 
 /// The table of what is said of wrong inputs, by fault; robots take turns.

@@ -12,7 +12,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
-#include <penumbra/pipeline/pose_stage-inl.hpp>
+#include <penumbra/poses/pose_stage-inl.hpp>
 
 #include <io/run/run_input.hpp>
 
@@ -52,10 +52,10 @@ Outcome outcome_of(const Sequence& sequence) {
     depth = *instant.depth;
     for (std::size_t i = 0; i < depth.size(); ++i)
       depth.data()[i] *= static_cast<float>(sequence.depth_factor);
-    const FrameReport& report = pipeline.process({.stamp = instant.stamp,
+    const FrameReport& report = pipeline.process({.index = instant.index,
+                                                  .stamp = instant.stamp,
                                                   .depth = depth.view(),
-                                                  .joints = instant.joints,
-                                                  .index = instant.index});
+                                                  .pose = {.positions = instant.joints}});
     check.add(report, instant.joints);
   }
   const auto start = std::clock();
@@ -76,19 +76,17 @@ Sequence recorded(const std::filesystem::path& path) {
   sequence.parent = find_camera_parent(*sequence.robot, input.config.camera_parent);
   sequence.T_parent_camera = input.config.T_parent_camera;
   const auto source = input.frames(*sequence.robot);
-  io::FrameData data;
   Frame frame;
-  while (source->next(data, frame)) {
+  while (source->next(frame)) {
     auto depth = std::make_shared<Image<float>>(sequence.camera.width(), sequence.camera.height());
     std::visit(
         [&](const auto& view) {
           for (int v = 0; v < view.height; ++v)
             for (int u = 0; u < view.width; ++u) (*depth)(u, v) = metres_of(view(u, v));
         },
-        frame.depth);
-    const auto& p = frame.joints.positions;
+        frame.depth.view);
     sequence.instants.push_back(
-        {sequence.instants.size(), frame.stamp, {p.begin(), p.end()}, depth});
+        {sequence.instants.size(), frame.stamp, frame.pose.positions, depth});
   }
   return sequence;
 }
@@ -252,7 +250,7 @@ std::vector<Fault> faults() {
 }
 
 int study_all(int argc, char** argv) {
-  const int times = argc > 1 ? std::stoi(argv[1]) : 1;
+  const int times = argc > 1 ? std::stoi(argv[1]) : 5;
   const std::uint64_t first_seed = argc > 4 ? std::stoull(argv[4]) : 100;
   const std::string wanted = argc > 2 ? argv[2] : "", only = argc > 3 ? argv[3] : "";
   std::vector<Sequence> cells;
@@ -294,9 +292,10 @@ int study_all(int argc, char** argv) {
     if (fault.name.find(wanted) == std::string::npos) continue;
     int right = 0, shared = 0, none = 0, wrong = 0, count = 0;
     double longest = 0.0, seconds = 0.0;
+    std::uint64_t draw = first_seed;  // each setup and time has its own amount
     for (const Sequence& cell : cells)
       for (int i = 0; i < times; ++i) {
-        sim::Random random(static_cast<std::uint64_t>(i) + first_seed, 5);
+        sim::Random random(draw++, 5);
         Sequence spoiled = cell;
         const std::string done = fault.make(spoiled, random);
         if (done.empty() && fault.cause != Cause::none) continue;

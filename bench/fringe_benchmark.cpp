@@ -30,14 +30,14 @@ RealScene real_scene() {
   const io::FrameReader reader(recording, *robot);
   const Eigen::Isometry3d T_camera_root = recording.camera.T_parent_camera->inverse();
   RealScene real{{"xArm 7, recorded", recording.camera.camera.intrinsics, robot, {}}, {}};
-  io::FrameData data;
   for (std::size_t i = 0; i < reader.size(); ++i) {
-    reader.read(i, false, data);
+    const Frame frame = reader.read(i, false);
     LinkPoses poses(robot->links().size());
-    robot->forward_kinematics(data.positions, poses);
+    robot->forward_kinematics(frame.pose.positions, poses);
     for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
     real.scene.path.push_back(poses);
-    real.measured.push_back(std::get<Image<std::uint16_t>>(data.depth));
+    real.measured.push_back(
+        io::copy_of(std::get<ImageView<const std::uint16_t>>(frame.depth.view)));
   }
   return real;
 }

@@ -107,9 +107,8 @@ void process(benchmark::State& state, const BenchScene& scene,
     const auto frame = static_cast<std::size_t>(i) % frames;
     const Frame given{.stamp = i * frame_time,
                       .depth = depth[frame].view(),
-                      .joints = scene.joints[frame],
-                      .targets = targets.all,
-                      .attached = attached};
+                      .pose = {.positions = scene.joints[frame], .attached = attached},
+                      .targets = targets.all};
     const FrameReport* report = nullptr;
     const double ms = time_ms([&] { report = &pipeline.process(given); });
     if (report->status != FrameStatus::ok) return state.SkipWithError("bad frame");

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/calibration/calibration.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
@@ -279,11 +280,8 @@ class Cell {
   double pace_ = 1.0;
 };
 
-inline double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
-}
+using detail::median;
+using detail::quantile;
 
 /// The folder of the data, and the robots.
 inline std::filesystem::path data_folder() {

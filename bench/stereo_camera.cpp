@@ -63,7 +63,7 @@ StereoCamera::StereoCamera(const Intrinsics& intrinsics, std::uint64_t seed)
 StereoCamera::~StereoCamera() = default;
 
 /// `from_left`: metres between this camera and the left one, where the projector is.
-void StereoCamera::light(const Image<io::Rgb8>& color, const Image<float>& depth, double from_left,
+void StereoCamera::light(const Image<Rgb8>& color, const Image<float>& depth, double from_left,
                          Image<std::uint8_t>& grey) {
   grey.fit(intrinsics_.width(), intrinsics_.height());
   const int last = intrinsics_.width() - 1;
@@ -72,7 +72,7 @@ void StereoCamera::light(const Image<io::Rgb8>& color, const Image<float>& depth
   for (int v = 0; v < color.height(); ++v) {
     const float* const pattern = pattern_.view().row(v);
     for (int u = 0; u <= last; ++u) {
-      const io::Rgb8 rgb = color(u, v);
+      const Rgb8 rgb = color(u, v);
       const float albedo = static_cast<float>(rgb.r + rgb.g + rgb.b) / (3.0F * 255.0F);
       const float z = depth(u, v) > 0.0F ? depth(u, v) : 1e3F;
       const float x = std::min(static_cast<float>(u) + shift / z, static_cast<float>(last));

@@ -40,14 +40,14 @@ class StereoCamera {
 
  private:
   struct Matcher;
-  void light(const Image<io::Rgb8>& color, const Image<float>& depth, double from_left,
+  void light(const Image<Rgb8>& color, const Image<float>& depth, double from_left,
              Image<std::uint8_t>& grey);
 
   Intrinsics intrinsics_;
   sim::Random random_;
   Image<float> pattern_;  // 0 to 1, as the left camera sees it
   Image<float> noise_;    // of spread 1; read from a random place on
-  Image<io::Rgb8> color_;
+  Image<Rgb8> color_;
   Image<float> right_depth_;
   std::unique_ptr<Matcher> matcher_;
 };

@@ -5,15 +5,12 @@
 #include <fstream>
 
 #include <penumbra/base/simd_target.hpp>
+#include <penumbra/base/statistics-inl.hpp>
 
 namespace penumbra::bench {
 namespace {
 
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double median_of(std::vector<double> values) { return detail::median(values); }
 
 }  // namespace
 

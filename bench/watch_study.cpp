@@ -72,11 +72,11 @@ class WatchStudy {
             std::to_string(false_alarms_),
             std::to_string(false_clocks_),
             std::to_string(told_.size()) + " of " + std::to_string(bumps_),
-            number(quantile(told_, 0.5), 0) + ", " + number(quantile(told_, 1.0), 0),
+            number(median(told_), 0) + ", " + number(quantile(told_, 1.0), 0),
             std::to_string(within_) + " of " + std::to_string(off_.size()),
             number(quantile(off_, 1.0), 0),
             std::to_string(drifts_told_.size()) + " of " + std::to_string(drifts_),
-            number(quantile(drifts_told_, 0.5), 1) + ", " + number(quantile(drifts_told_, 1.0), 1),
+            number(median(drifts_told_), 1) + ", " + number(quantile(drifts_told_, 1.0), 1),
             number(1e6 * watch_seconds_ / static_cast<double>(processed_), 0),
             number(1e6 * pipeline_seconds_ / static_cast<double>(processed_), 0)};
   }
@@ -91,11 +91,11 @@ class WatchStudy {
   void follow(Watched& watched, const Eigen::Isometry3d& motion) {
     const auto start = std::chrono::steady_clock::now();
     const FrameReport& report =
-        pipeline_.process({.stamp = period * static_cast<std::int64_t>(watched.frames),
+        pipeline_.process({.index = watched.frames,
+                           .stamp = period * static_cast<std::int64_t>(watched.frames),
                            .depth = frame_.depth.view(),
-                           .joints = frame_.joints,
-                           .T_parent_camera = cell_.truth() * motion.inverse(),
-                           .index = watched.frames});
+                           .pose = {.positions = frame_.joints,
+                                    .T_parent_camera = cell_.truth() * motion.inverse()}});
     const auto judged = std::chrono::steady_clock::now();
     watched.watch.add(report);
     const std::chrono::duration<double> watching = std::chrono::steady_clock::now() - judged,
@@ -165,8 +165,8 @@ class ClockStudy {
             std::to_string(moved_),
             share(told_.size(), sequences_),
             std::to_string(either_),
-            number(quantile(told_, 0.5), 0) + ", " + number(quantile(told_, 1.0), 0),
-            number(quantile(off_, 0.5), 1) + ", " + number(quantile(off_, 1.0), 1)};
+            number(median(told_), 0) + ", " + number(quantile(told_, 1.0), 0),
+            number(median(off_), 1) + ", " + number(quantile(off_, 1.0), 1)};
   }
 
  private:
@@ -206,11 +206,11 @@ class ClockStudy {
       if (i % looked_at == 0) cell.draw(frame);
       for (Late& late : all) {
         const std::vector<double> joints = joints_at(seconds - late.seconds);
-        late.watch.add(pipeline.process({.stamp = period * static_cast<std::int64_t>(i),
-                                         .depth = frame.depth.view(),
-                                         .joints = joints,
-                                         .T_parent_camera = cell.truth(),
-                                         .index = i}));
+        late.watch.add(
+            pipeline.process({.index = i,
+                              .stamp = period * static_cast<std::int64_t>(i),
+                              .depth = frame.depth.view(),
+                              .pose = {.positions = joints, .T_parent_camera = cell.truth()}}));
         const Drift& drift = late.watch.drift();
         late.is_moved |= drift.has_moved || drift.bumped_at;
         late.is_either |= drift.camera_or_clocks;

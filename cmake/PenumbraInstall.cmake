@@ -21,19 +21,18 @@ install(TARGETS ${libraries} EXPORT PenumbraTargets
 # The public headers: the classes that docs/cpp.md names, and what these include. All other headers
 # are free to change.
 set(public_headers
-  base/error.hpp base/image.hpp base/stamps.hpp
+  base/error.hpp base/image.hpp base/setting.hpp base/stamps.hpp
   mesh/prepared_mesh.hpp mesh/triangle_mesh.hpp robot/robot.hpp
   time/attachments.hpp time/joint_buffer.hpp time/pose_history.hpp time/source_tracks.hpp
   time/stamped_track.hpp time/transform_buffer.hpp
   camera/camera.hpp camera/distortion.hpp camera/intrinsics.hpp camera/rectification.hpp
   camera/registration.hpp
   render/depth_renderer.hpp
-  labels/labels.hpp targets/target.hpp targets/target_judge.hpp
-  tracking/trackers.hpp
-  pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp
-  pipeline/pose_lookup.hpp pipeline/target.hpp pipeline/without_robot.hpp
+  labels/labels.hpp poses/pose_lookup.hpp poses/robot_pose.hpp tracking/trackers.hpp
+  targets/region.hpp targets/target.hpp targets/target_judge.hpp
+  pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
   calibration/calibration.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
-  tuning/missing_parts.hpp
+  session/session.hpp session/warnings.hpp tuning/missing_parts.hpp
   scene/target_fusion.hpp scene/view_planning.hpp)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)

@@ -22,10 +22,8 @@ void run(const std::filesystem::path& folder, std::size_t number) {
   const io::FrameReader frames(recording, robot);
   Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
 
-  io::FrameData frame;
-  frames.read(number, /*with_color=*/false, frame);
-  const FrameReport& report = pipeline.process(
-      {.stamp = frame.stamp, .depth = frame.depth_view(), .joints = frame.positions});
+  const Frame frame = frames.read(number, /*with_color=*/false);
+  const FrameReport& report = pipeline.process(frame);
   if (report.status != FrameStatus::ok) throw InputError(report.message);
 
   std::cout << "robot " << report.pixels.robot.value() << " pixels: front " << report.pixels.front

@@ -21,9 +21,9 @@ constexpr PixelBox detected{460, 172, 38, 98};  // a detector's answer: a cylind
 /// Stands in for a perception system that believes its depth image: the point at the box's middle,
 /// in the optical frame. While the robot hides the object, that is a point of the robot. Nothing
 /// where the image has a hole: depth 0 is no depth.
-std::optional<Eigen::Vector3d> perceive(const io::FrameData& frame, const Intrinsics& camera) {
+std::optional<Eigen::Vector3d> perceive(const Frame& frame, const Intrinsics& camera) {
   const int u = 479, v = 221;
-  const double z = 1e-3 * std::get<Image<std::uint16_t>>(frame.depth)(u, v);
+  const double z = 1e-3 * std::get<ImageView<const std::uint16_t>>(frame.depth.view)(u, v);
   if (z == 0.0) return std::nullopt;
   return Eigen::Vector3d{(u - camera.cx()) / camera.fx() * z, (v - camera.cy()) / camera.fy() * z,
                          z};
@@ -45,8 +45,7 @@ void tell(const FrameReport& report, const std::optional<Eigen::Vector3d>& raw) 
   std::cout << "frame " << report.index << ": " << to_string(target.verdict);
   if (target.judgement && !target.judgement->blame.empty()) {
     const Blame& blame = target.judgement->blame.front();
-    std::cout << ", " << std::lround(100 * blame.fraction) << " % behind "
-              << report.links[blame.link];
+    std::cout << ", " << std::lround(100 * blame.fraction) << " % behind " << blame.name;
   }
   if (target.estimate)
     std::cout << "; estimate " << to_string(*target.estimate) << " (" << raw->z() << " m away)";
@@ -64,17 +63,12 @@ void run(const std::filesystem::path& folder) {
   const io::FrameReader frames(recording, robot);
   Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
 
-  io::FrameData frame;
   int refused = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames.read(i, /*with_color=*/false, frame);
+    Frame frame = frames.read(i, /*with_color=*/false);
     const std::optional<Eigen::Vector3d> raw = perceive(frame, recording.camera.camera.intrinsics);
-    const Target target = target_of(raw);
-    const FrameReport& report = pipeline.process({.stamp = frame.stamp,
-                                                  .depth = frame.depth_view(),
-                                                  .joints = frame.positions,
-                                                  .targets = {&target, 1},
-                                                  .index = i});
+    frame.targets = {target_of(raw)};
+    const FrameReport& report = pipeline.process(frame);
     tell(report, raw);
     if (report.targets[0].estimate == Outcome::refused_verdict) ++refused;
   }

@@ -112,11 +112,11 @@ void run(const std::filesystem::path& folder, bool attaches) {
     const Target part{.name = "part",
                       .shape = BoxTarget{T_base_part, part_size, ReferenceFrame::root()},
                       .handling = PoseTrackerConfig{.motion = Motion::still}};
-    const FrameReport& report = pipeline.process({.stamp = i * frame_period,
-                                                  .depth = sensor.measure(all),
-                                                  .joints = joints,
-                                                  .targets = {&part, 1},
-                                                  .attached = attached});
+    const FrameReport& report =
+        pipeline.process({.stamp = i * frame_period,
+                          .depth = sensor.measure(all),
+                          .pose = {.positions = joints, .attached = attached},
+                          .targets = {part}});
     const TargetReport& target = report.targets[0];
     if (i > closes && i <= opens) left += sensor.left_over(report.labels, all.size());
     if (target.verdict == Verdict::held)

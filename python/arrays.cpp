@@ -50,6 +50,13 @@ py::object keeper_of(std::shared_ptr<const void> owner) {
   return py::capsule(kept, [](void* of) { delete static_cast<std::shared_ptr<const void>*>(of); });
 }
 
+std::shared_ptr<const void> owner_of(py::array array) {
+  return std::shared_ptr<const py::array>(new py::array(std::move(array)), [](const py::array* of) {
+    const py::gil_scoped_acquire gil;
+    delete of;
+  });
+}
+
 std::size_t check_image(py::handle source, const char* argument, std::span<const PixelType> types) {
   const auto complain = [&](const std::string& fault) {
     return std::string(argument) + ": expected numpy.ndarray of " + joined(types) +
@@ -88,13 +95,13 @@ void check_size(const char* argument, py::ssize_t width, py::ssize_t height, int
                              : ""));
 }
 
-ColorResult array_of(ImageView<io::Rgb8> view, std::shared_ptr<const void> owner) {
-  static_assert(sizeof(io::Rgb8) == 3);
-  return {py::array(
+ColorResult array_of(ImageView<const Rgb8> view, std::shared_ptr<const void> owner) {
+  static_assert(sizeof(Rgb8) == 3);
+  return {read_only(py::array(
       py::dtype::of<std::uint8_t>(),
       {static_cast<py::ssize_t>(view.height), static_cast<py::ssize_t>(view.width), py::ssize_t{3}},
       {3 * view.stride, py::ssize_t{3}, py::ssize_t{1}}, &view.data->r,
-      keeper_of(std::move(owner)))};
+      keeper_of(std::move(owner))))};
 }
 
 OneThread::Use::Use(OneThread& object, const char* what) : lock_(object.mutex_, std::try_to_lock) {

@@ -36,6 +36,9 @@ namespace py = pybind11;
 /// without base is a copy.
 [[nodiscard]] py::object keeper_of(std::shared_ptr<const void> owner);
 
+/// Returns what keeps an array; it may be dropped on any thread.
+[[nodiscard]] std::shared_ptr<const void> owner_of(py::array array);
+
 /// A pixel's type in NumPy.
 struct PixelType {
   const char* name;
@@ -85,7 +88,7 @@ template <typename T>
   if constexpr (std::is_const_v<T>) array = read_only(std::move(array));
   return {std::move(array)};
 }
-[[nodiscard]] ColorResult array_of(ImageView<io::Rgb8> view, std::shared_ptr<const void> owner);
+[[nodiscard]] ColorResult array_of(ImageView<const Rgb8> view, std::shared_ptr<const void> owner);
 
 /// An image that the next call of its maker overwrites: copied when it is first read, then kept.
 template <typename T>

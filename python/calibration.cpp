@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 #include <python/frame.hpp>
@@ -14,25 +16,22 @@ namespace {
 
 using MaskArgument = ImageArgument<"masks", std::uint8_t>;
 
-template <typename T, typename To, typename From>
-Image<T> copied_image(const ImageView<const From>& view, To to) {
-  Image<T> image(view.width, view.height);
-  for (int v = 0; v < view.height; ++v)
-    for (int u = 0; u < view.width; ++u) image(u, v) = to(view(u, v));
+Image<std::uint8_t> copied(const ImageView<const std::uint8_t>& view) {
+  Image<std::uint8_t> image(view.width, view.height);
+  for (int v = 0; v < view.height; ++v) std::copy_n(view.row(v), view.width, &image(0, v));
   return image;
 }
 
 /// A frame's joints and poses. `name`: as errors call it.
 CalibrationFrame posed_frame(const OwnedFrame& owned, const std::string& name, const Robot& robot) {
-  OwnedFrame::Parts parts;
-  const Frame frame = owned.view(robot, parts);
+  RobotPose pose = owned.view(robot).pose;
   CalibrationFrame result;
-  result.T_root_link.assign(frame.T_root_link.begin(), frame.T_root_link.end());
+  result.T_root_link = std::move(pose.T_root_link);
   if (!result.T_root_link.empty()) return result;
-  if (frame.joints.positions.size() != robot.variables().size())
+  if (pose.positions.size() != robot.variables().size())
     throw py::value_error(name + ": needs " + std::to_string(robot.variables().size()) +
                           " joint positions");
-  result.joints.assign(frame.joints.positions.begin(), frame.joints.positions.end());
+  result.joints = std::move(pose.positions);
   result.T_root_link.resize(robot.links().size());
   robot.forward_kinematics(result.joints, result.T_root_link);
   return result;
@@ -44,11 +43,7 @@ CalibrationFrame calibration_frame(const OwnedFrame& owned, std::size_t number,
   if (!owned.depth) throw py::value_error(name + ": has no depth image");
   CalibrationFrame result = posed_frame(owned, name, robot);
   result.index = owned.index.value_or(number);
-  result.depth = std::visit(
-      [](const auto& view) {
-        return copied_image<float>(view, [](auto pixel) { return metres_of(pixel); });
-      },
-      owned.depth->view);
+  result.depth = metres_of(owned.depth->view);
   return result;
 }
 
@@ -83,9 +78,7 @@ Calibration calibrate_frames(const std::vector<OwnedFrame>& frames, const Intrin
     if (!motion.empty())
       all.back().nearby =
           nearby_poses(trajectory, stamp_of(frames[i], "frames[" + std::to_string(i) + "]"));
-    if (!masks.empty())
-      all.back().mask = copied_image<std::uint8_t>(std::get<0>(masks[i].view),
-                                                   [](std::uint8_t pixel) { return pixel; });
+    if (!masks.empty()) all.back().mask = copied(std::get<0>(masks[i].view));
   }
   const py::gil_scoped_release others;
   return calibrate(all, camera, robot,

@@ -100,14 +100,9 @@ void bind_frame_enums(py::module_& m) {
 void bind_track_enums(py::module_& m) {
   bind_named_enum<Source>(m, "Source", "Where a handled target's position comes from.", 4);
   bind_named_enum<Outcome>(m, "Outcome", "What a tracker did with an estimate.", 5);
-  bind_enum<Motion>(m, "Motion", "How a target's pose moves while nobody sees it.",
-                    {{"constant_twist", Motion::constant_twist},
-                     {"constant_velocity", Motion::constant_velocity},
-                     {"along_direction", Motion::along_direction},
-                     {"still", Motion::still}});
-  bind_enum<PointMotion>(
-      m, "PointMotion", "How a target's point moves while nobody sees it.",
-      {{"hold", PointMotion::hold}, {"constant_velocity", PointMotion::constant_velocity}});
+  bind_named_enum<Motion>(m, "Motion", "How a target's pose moves while nobody sees it.", 4);
+  bind_named_enum<PointMotion>(m, "PointMotion", "How a target's point moves while nobody sees it.",
+                               2);
 }
 
 }  // namespace

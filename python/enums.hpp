@@ -11,10 +11,9 @@
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/pose_lookup.hpp>
+#include <penumbra/poses/pose_lookup.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/targets/target.hpp>
 #include <penumbra/time/joint_buffer.hpp>
 #include <penumbra/tracking/trackers.hpp>
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -15,6 +16,8 @@
 
 #include <python/bindings.hpp>
 
+#include <penumbra/base/setting.hpp>
+
 namespace penumbra::python {
 
 /// A property: a data member, or a function of the object.
@@ -22,7 +25,7 @@ template <typename Get>
 struct Field {
   const char* name;
   Get get;
-  const char* doc;
+  std::string doc;
 };
 template <typename Get>
 Field(const char*, Get, const char*) -> Field<Get>;
@@ -95,7 +98,7 @@ template <typename T, typename... Options, typename... Get>
 void show_properties(py::class_<T, Options...>& of, Field<Get>... fields) {
   (of.def_property_readonly(
        fields.name, [get = fields.get](const T& self) { return shown(std::invoke(get, self)); },
-       fields.doc),
+       fields.doc.c_str()),
    ...);
 }
 
@@ -156,6 +159,23 @@ template <std::size_t positional = 0, typename T, typename... M>
 void bind_fields(py::class_<T>& of, Field<M T::*>... fields) {
   bind_members<positional>(of, fields...);
   bind_repr(of, {fields.name...});
+}
+
+/// A setting, with a sentence for its docstring.
+template <typename T, typename M>
+Field<M T::*> field_of(const Setting<T, M>& setting) {
+  std::string doc = setting.meaning;
+  doc[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(doc[0])));
+  if (*setting.unit != 0) doc += std::string(" (") + setting.unit + ")";
+  return {setting.name, setting.member, doc + "."};
+}
+
+/// bind_fields() of the settings of T and of `more` members, and check().
+template <typename T, typename... M>
+void bind_settings(py::class_<T>& of, Field<M T::*>... more) {
+  std::apply([&](const auto&... setting) { bind_fields(of, field_of(setting)..., more...); },
+             T::settings());
+  of.def("check", &T::check, "Raises InputError, with the values, for settings out of bounds.");
 }
 
 }  // namespace penumbra::python

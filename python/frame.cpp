@@ -23,39 +23,34 @@ std::vector<double> in_order(const NamedPositions& named, const Robot& robot) {
 
 }  // namespace
 
-Frame OwnedFrame::view(const Robot& robot, Parts& parts) const {
+Frame OwnedFrame::view(const Robot& robot) const {
   Frame frame;
   frame.stamp = stamp;
   if (depth) frame.depth = depth->view;
+  RobotPose& pose = frame.pose;
   if (const auto* positions = std::get_if<Numbers>(&joints)) {
     const std::size_t expected = robot.variables().size();
     if (positions->values.size() != expected)
       throw py::value_error("joints: expected " + std::to_string(expected) +
                             " positions in the order of Robot.variables; got " +
                             std::to_string(positions->values.size()));
-    frame.joints = positions->values;
-    frame.joints.age = joint_age;
+    pose.positions = positions->values;
+    pose.age = joint_age;
   } else if (const auto* named = std::get_if<NamedPositions>(&joints)) {
-    parts.positions = in_order(*named, robot);
-    frame.joints = parts.positions;
-    frame.joints.age = joint_age;
+    pose.positions = in_order(*named, robot);
+    pose.age = joint_age;
   } else if (const auto* answer = std::get_if<JointAnswer>(&joints)) {
-    frame.joints = *answer;
+    pose = pose_of(robot, *answer);
   }
-  if (T_root_link) frame.T_root_link = *T_root_link;
-  frame.T_parent_camera = T_parent_camera;
-  if (const auto* own = std::get_if<0>(&targets)) {
-    for (const auto& target : *own) parts.targets.push_back(target_of(target));
-    frame.targets = parts.targets;
-  } else {
-    frame.targets = std::get<1>(targets).targets();
-  }
+  if (T_root_link) pose.T_root_link = *T_root_link;
+  pose.T_parent_camera = T_parent_camera;
+  pose.uncertain_links = uncertain_links;
+  pose.uncertain_reason = uncertain_reason;
+  pose.attached = attached;
+  frame.targets = targets;
   frame.source_status = source_status;
   frame.source_message = source_message;
   frame.index = index;
-  frame.uncertain_links = uncertain_links;
-  frame.uncertain_reason = uncertain_reason;
-  frame.attached = attached;
   return frame;
 }
 
@@ -67,10 +62,7 @@ void bind_attached_body(py::module_& m) {
                      "keeps what was prepared for rendering.");
   body.def(py::init([](std::string name, std::string link, const Mesh& mesh,
                        const Eigen::Isometry3d& pose) {
-             return B{std::move(name), std::move(link),
-                      mesh.prepared ? mesh.prepared
-                                    : std::make_shared<const PreparedMesh>(*mesh.triangles),
-                      pose};
+             return B{std::move(name), std::move(link), mesh.prepared, pose};
            }),
            py::arg("name"), py::arg("link"), py::arg("mesh"), py::arg("T_link_body"),
            "mesh: in the body's frame, metres.");
@@ -106,11 +98,11 @@ void bind_frame(py::module_& m) {
       Field{"source_message", &F::source_message, "One line that describes it."},
       Field{"index", &F::index, "In its source."},
       Field{"joint_age", &F::joint_age, "Of positions, nanoseconds."},
-      Field{"doubted_links", &F::uncertain_links,
+      Field{"uncertain_links", &F::uncertain_links,
             "Indices of links whose pose is not known: what they could hide is unknown, and "
             "targets in "
             "them are not judged."},
-      Field{"doubt", &F::uncertain_reason, "The reason, one line."},
+      Field{"uncertain_reason", &F::uncertain_reason, "The reason, one line."},
       Field{"attached", &F::attached, "What the robot's links carry."});
   bind_repr(frame, {"index", "stamp", "source_status"});
 }

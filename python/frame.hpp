@@ -17,14 +17,13 @@ using NamedPositions = std::map<std::string, double>;
 
 /// Joint positions, by name or in order, an answer of a JointBuffer, or nothing: not known.
 using OwnedJoints = std::variant<std::monostate, JointAnswer, NamedPositions, Numbers>;
-using OwnedTargets = std::variant<std::vector<OwnedTarget>, SourceTargets>;
 
 /// A frame of Python's: it keeps what C++'s refers to.
 struct OwnedFrame {
   std::optional<DepthArgument<"depth">> depth;
   OwnedJoints joints;
   std::optional<std::int64_t> stamp;
-  OwnedTargets targets;
+  std::vector<Target> targets;
   std::optional<Poses> T_root_link;
   std::optional<Eigen::Isometry3d> T_parent_camera;
   FrameStatus source_status = FrameStatus::ok;
@@ -35,14 +34,9 @@ struct OwnedFrame {
   std::string uncertain_reason;
   std::vector<AttachedBody> attached;
 
-  /// Values that a view refers to in addition to the frame.
-  struct Parts {
-    std::vector<Target> targets;
-    std::vector<double> positions;
-  };
-  /// Refers to this and to `parts`, which it fills. Raises KeyError for named positions that are
-  /// not those of the robot's variables.
-  [[nodiscard]] Frame view(const Robot& robot, Parts& parts) const;
+  /// Refers to this. Raises KeyError for named positions that are not those of the robot's
+  /// variables, and ValueError for another number of them.
+  [[nodiscard]] Frame view(const Robot& robot) const;
 };
 
 }  // namespace penumbra::python

@@ -19,27 +19,24 @@ struct Input {
 };
 
 /// The frames of an input, one after the other.
-struct Frames : TargetSource {
+struct Frames {
   explicit Frames(std::shared_ptr<Input> of)
       : input(std::move(of)), source(input->input.frames(input->input.robot)) {}
   std::shared_ptr<Input> input;
   std::unique_ptr<io::FrameSource> source;
+  OneThread thread;
 };
 
 RecordedFrame next(const std::shared_ptr<Frames>& self) {
   const OneThread::Use use(self->thread, "the iterator of an Input");
-  auto data = std::make_shared<io::FrameData>();
   Frame frame;
-  ++self->given;
   bool found = false;
   {
     const py::gil_scoped_release others;
-    found = self->source->next(*data, frame);
+    found = self->source->next(frame);
   }
   if (!found) throw py::stop_iteration();
-  OwnedTargets targets;
-  if (!frame.targets.empty()) targets = SourceTargets(self, frame.targets);
-  return recorded(std::move(data), frame, std::move(targets));
+  return recorded(std::move(frame));
 }
 
 std::size_t size_of(const std::shared_ptr<Input>& self) {

@@ -1,34 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
-#include <python/judgement.hpp>
+
+#include <penumbra/targets/target.hpp>
 
 namespace penumbra::python {
-
-OwnedJudgement::OwnedJudgement(const Judgement& of, std::span<const std::string> links)
-    : Judgement(of) {
-  for (const Blame& link : of.blame) blamed.push_back({links[link.link], link.fraction});
-  blame = {};
-}
-
-OwnedTargetReport::OwnedTargetReport(const TargetReport& of, std::span<const std::string> links)
-    : name(of.name),
-      stamp(of.stamp),
-      verdict(of.verdict),
-      reason(of.reason),
-      point(of.point),
-      handled(of.handled),
-      estimate(of.estimate) {
-  if (of.judgement) judgement.emplace(*of.judgement, links);
-}
 
 namespace {
 
 void bind_judgements(py::module_& m) {
-  py::class_<OwnedBlame> blame(m, "Blame", "A link that hides a target.");
-  show_fields(blame, Field{"link", &OwnedBlame::link, "Its name."},
-              Field{"fraction", &OwnedBlame::fraction, "Of the pixels inside the image."});
-  using J = OwnedJudgement;
+  py::class_<Blame> blame(m, "Blame", "A link that hides a target.");
+  show_fields(blame, Field{"link", &Blame::name, "Its name."},
+              Field{"fraction", &Blame::fraction, "Of the pixels inside the image."});
+  using J = Judgement;
   py::class_<J> judgement(m, "Judgement",
                           "The judgement of a target's pixels. Fractions are of those inside the "
                           "image and add up to 1, together with hidden_by_other.");
@@ -45,7 +29,7 @@ void bind_judgements(py::module_& m) {
       Field{"measured", &J::measured, "Fraction that is seen and measured; None: not known."},
       Field{"seen_past", &J::seen_past,
             "Fraction measured past the expected depth; None: not known."},
-      Field{"blame", &J::blamed, "Links that hide it, largest first."},
+      Field{"blame", &J::blame, "Links that hide it, largest first."},
       Field{"point_pixels", &J::point_pixels, "Trusted pixels, as far as they were asked."},
       Field{"point_spread", &J::point_spread, "Metres: 1.4826 * median absolute deviation."});
 }
@@ -61,9 +45,9 @@ void bind_reports(py::module_& m) {
               Field{"orientation", &H::orientation,
                     "Quaternion x, y, z, w; None if lost, or handled as a point."},
               Field{"sigma", &H::sigma, "Metres: along the most uncertain direction."});
-  py::class_<OwnedTargetReport> report(m, "TargetReport",
-                                       "The verdict on a target, and what it is based on.");
-  using R = OwnedTargetReport;
+  py::class_<TargetReport> report(m, "TargetReport",
+                                  "The verdict on a target, and what it is based on.");
+  using R = TargetReport;
   show_fields(
       report, Field{"name", &R::name, "Its name."},
       Field{"stamp", &R::stamp, "Of the frame that it was judged on, nanoseconds."},

@@ -23,22 +23,14 @@ void bind_rule(py::module_& m) {
 
   py::class_<LabelRule> rule(m, "LabelRule", "The rule of labelling: docs/tuning.md.");
   using R = LabelRule;
-  bind_fields(rule, Field{"tolerance", &R::tolerance, "How far off the robot may be measured."},
-              Field{"beyond_factor", &R::beyond_factor, "k: beyond is past dV + k e(dV)."},
-              Field{"front_min_width", &R::front_min_width, "Pixels of the clean-up; 0: none."},
-              Field{"edge_margin", &R::edge_margin,
-                    "Pixels by which an edge of the robot may look out of place."},
-              Field{"fringe_reach", &R::fringe_reach,
-                    "Pixels past the outline that the sensor carries depth; 0: no fringe."},
-              Field{"fold_beyond", &R::fold_beyond, "Call beyond occluded."},
-              Field{"range", &R::range, "Measured depths outside of it are no measurements."});
+  bind_settings(rule, Field{"fold_beyond", &R::fold_beyond, "Call beyond occluded."},
+                Field{"range", &R::range, "Measured depths outside of it are no measurements."});
   rule.def_static(
       "paper", &R::paper,
       "The paper as written: 0.01 m everywhere, no clean-up, no fringe, beyond folded.");
   rule.def_static(
       "for_sensor", &R::for_sensor, py::arg("name"),
       "The rule of a kind of sensor: realsense_d4xx, zed, tof, structured_light, none.");
-  rule.def("check", &R::check, "Raises InputError, with the values, for an invalid rule.");
 }
 
 struct Labeller {

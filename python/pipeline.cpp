@@ -4,8 +4,6 @@
 #include <python/frame.hpp>
 #include <python/report.hpp>
 
-#include <penumbra/pipeline/pipeline.hpp>
-
 namespace penumbra::python {
 namespace {
 
@@ -36,34 +34,29 @@ Report process(const std::shared_ptr<State>& self, const OwnedFrame& frame) {
   const OneThread::Use use(self->thread, "Pipeline.process");
   if (frame.depth)
     check_size(frame.depth->array, "depth", self->depth_size.width(), self->depth_size.height());
-  std::optional<OneThread::Use> held;
-  if (const auto* given = std::get_if<SourceTargets>(&frame.targets)) held.emplace(given->hold());
-  OwnedFrame::Parts parts;
-  const Frame view = frame.view(self->pipeline.robot(), parts);
+  const Frame view = frame.view(self->session.pipeline().robot());
   ++self->calls;
   const FrameReport* report = nullptr;
   {
     const py::gil_scoped_release others;
-    report = &self->pipeline.process(view);
-    self->sequence->add(*report, view.joints.positions);
+    report = &self->session.process(view);
   }
   return {self, *report, frame.depth ? py::object(frame.depth->array) : py::none()};
 }
 
-AttachedBody attach_target(State& self, const OwnedTarget& target, const std::string& link) {
+AttachedBody attach_target(State& self, const Target& target, const std::string& link) {
   const OneThread::Use use(self.thread, "Pipeline.attach_target");
-  return self.pipeline.attach_target(target_of(target), link);
+  return self.session.pipeline().attach_target(target, link);
 }
 
 void forget(State& self, const std::string& name) {
   const OneThread::Use use(self.thread, "Pipeline.forget_target");
-  self.pipeline.forget_target(name);
+  self.session.pipeline().forget_target(name);
 }
 
 void forget_all(State& self) {
   const OneThread::Use use(self.thread, "Pipeline.forget_targets");
-  self.pipeline.forget_targets();
-  self.begin_sequence();
+  self.session.begin_sequence();
 }
 
 std::vector<std::string> notes(State& self) {
@@ -107,17 +100,17 @@ void bind_pipeline(py::module_& m) {
       "diagnosis",
       [](State& s) {
         const OneThread::Use use(s.thread, "Pipeline.diagnosis");
-        return s.sequence->diagnosis();
+        return s.session.diagnosis();
       },
       "What is wrong with the setup, by the frames so far: the camera's pose, its intrinsics, the "
       "depth's unit, the joint positions. Takes a tenth of a second, or about a second if "
       "something "
       "looks wrong.");
   pipeline.def_property_readonly(
-      "drift", [](const State& s) { return s.sequence->drift(); },
+      "drift", [](const State& s) { return s.session.drift(); },
       "How far the camera has moved from its calibration, by the frames so far.");
   const auto of = [](auto member) {
-    return [member](const State& s) { return std::invoke(member, s.pipeline); };
+    return [member](const State& s) { return std::invoke(member, s.session.pipeline()); };
   };
   using P = Pipeline;
   show_fields(

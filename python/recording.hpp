@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-#include <optional>
+#include <string>
 
 #include <python/frame.hpp>
 
-#include <io/files/frame_reader.hpp>
-
 namespace penumbra::python {
 
-/// A recorded frame that keeps its images.
+/// A frame of a recording or bag, with its colour image.
 struct RecordedFrame {
-  std::shared_ptr<io::FrameData> data;
-  OwnedFrame frame;  ///< its depth lies in `data`
+  OwnedFrame frame;
+  SharedColor color;
+  std::string color_message;
 };
 
-/// Of the frame that a source made of `data`; where its depth image lies elsewhere `data` gets a
-/// copy. `targets`: what the source gave.
-[[nodiscard]] RecordedFrame recorded(std::shared_ptr<io::FrameData> data, const Frame& frame,
-                                     OwnedTargets targets);
+/// Images without an owner are copied.
+[[nodiscard]] RecordedFrame recorded(Frame frame);
 
 /// Python's own iterator over objects with __getitem__.
 using FrameIterator = Shown<"Iterator[penumbra.RecordedFrame]">;

@@ -5,24 +5,10 @@
 
 namespace penumbra::python {
 
-Region region_of(const OwnedRegion& region) {
-  struct Viewed {
-    Region operator()(const PixelBox& box) const { return box; }
-    Region operator()(const Polygon& polygon) const { return PixelPolygon{polygon.corners}; }
-    Region operator()(const Mask& mask) const { return PixelMask{mask.view}; }
-    Region operator()(const RunLengths& runs) const {
-      return RunLengthMask{runs.width, runs.height, runs.counts};
-    }
-    Region operator()(const PixelEllipse& ellipse) const { return ellipse; }
-    Region operator()(const Rendered& rendered) const { return RenderedRegion{rendered.view}; }
-  };
-  return std::visit(Viewed{}, region);
-}
-
 namespace {
 
 /// NumPy's masks are mostly of bool, whose bytes are 0 and 1.
-Mask mask_of(const py::object& source) {
+PixelMask mask_of(const py::object& source) {
   py::object array = source;
   if (py::isinstance<py::array>(source) &&
       py::array(source).dtype().num() == py::dtype::of<bool>().num())
@@ -31,37 +17,39 @@ Mask mask_of(const py::object& source) {
   (void)check_image(array, "mask (bool or uint8)", types);
   auto kept = py::reinterpret_borrow<py::array>(array);
   const auto view = view_of<std::uint8_t>(kept);
-  return {std::move(kept), view};
+  return {{view, owner_of(std::move(kept))}};
 }
 
 void bind_masks(py::module_& m) {
-  py::class_<Mask> mask(m, "PixelMask",
-                        "The pixels that are not 0 in an image of the report's size.");
+  py::class_<PixelMask> mask(m, "PixelMask",
+                             "The pixels that are not 0 in an image of the report's size.");
   mask.def(py::init([](const MaskSource& of) { return mask_of(of); }), py::arg("mask"),
            "The mask is looked at where it lies, whenever a frame is judged: do not change it "
            "meanwhile.");
-  show_properties(mask,
-                  Field{"mask", [](const Mask& of) { return ImageResult<std::uint8_t>{of.array}; },
-                        "The array itself, as uint8."});
-  py::class_<RunLengths> runs(
+  show_properties(
+      mask, Field{"mask", [](const PixelMask& of) { return array_of(of.mask.view, of.mask.owner); },
+                  "The array, as uint8."});
+  py::class_<RunLengthMask> runs(
       m, "RunLengthMask",
       "COCO's run-length mask: columns from top to bottom, from left to right; runs of pixels "
       "outside and inside by turns, the first of them outside.");
-  using R = RunLengths;
+  using R = RunLengthMask;
   bind_fields<3>(runs, Field{"width", &R::width, "Pixels, of the report's images."},
                  Field{"height", &R::height, "Pixels, of the report's images."},
                  Field{"counts", &R::counts, "Pixels of each run."});
-  py::class_<Rendered> rendered(
+  py::class_<RenderedRegion> rendered(
       m, "RenderedRegion",
       "An object that was rendered alone: where its depth is > 0, which is also its "
       "expected depth, metres.");
   rendered.def(py::init([](const ImageArgument<"depth", float>& depth) {
-                 return Rendered{depth.array, std::get<0>(depth.view)};
+                 return RenderedRegion{{std::get<0>(depth.view), owner_of(depth.array)}};
                }),
                py::arg("depth"), "Of the report's size; looked at where it lies.");
-  show_properties(rendered,
-                  Field{"depth", [](const Rendered& of) { return ImageResult<float>{of.array}; },
-                        "The array itself."});
+  show_properties(rendered, Field{"depth",
+                                  [](const RenderedRegion& of) {
+                                    return array_of(of.depth.view, of.depth.owner);
+                                  },
+                                  "The array."});
 }
 
 std::vector<Eigen::Vector2d> corners_of(const py::object& source) {
@@ -79,11 +67,11 @@ void bind_outlines(py::module_& m) {
   using B = PixelBox;
   bind_fields<4>(box, Field{"u", &B::u, "Pixels."}, Field{"v", &B::v, "Pixels."},
                  Field{"width", &B::width, "Pixels."}, Field{"height", &B::height, "Pixels."});
-  py::class_<Polygon>(
+  py::class_<PixelPolygon>(
       m, "PixelPolygon",
       "The pixels whose centres the outline winds around, in either direction. It may cross "
       "itself.")
-      .def(py::init([](const CornerSource& corners) { return Polygon{corners_of(corners)}; }),
+      .def(py::init([](const CornerSource& corners) { return PixelPolygon{corners_of(corners)}; }),
            py::arg("corners"), "(u, v) each, pixels, in either order.");
   py::class_<PixelEllipse> ellipse(m, "PixelEllipse",
                                    "The pixels whose centres lie inside an ellipse or on it.");
@@ -98,13 +86,8 @@ void bind_outlines(py::module_& m) {
 void bind_regions(py::module_& m) {
   bind_outlines(m);
   bind_masks(m);
-  m.def(
-      "check_region",
-      [](const OwnedRegion& region, int width, int height) {
-        check_region(region_of(region), width, height);
-      },
-      py::arg("region"), py::arg("width"), py::arg("height"),
-      "Raises InputError for a region that is invalid in an image of that size.");
+  m.def("check_region", &check_region, py::arg("region"), py::arg("width"), py::arg("height"),
+        "Raises InputError for a region that is invalid in an image of that size.");
 }
 
 }  // namespace penumbra::python

@@ -15,8 +15,7 @@ std::unique_ptr<DepthRenderer> make_bodies_renderer(Backend backend, const Intri
   std::vector<std::vector<PreparedMesh>> meshes;
   for (const OwnedBody& body : owned) {
     auto& of_body = meshes.emplace_back();
-    for (const Mesh& mesh : body.meshes)
-      of_body.push_back(mesh.prepared ? *mesh.prepared : PreparedMesh(*mesh.triangles));
+    for (const Mesh& mesh : body.meshes) of_body.push_back(*mesh.prepared);
   }
   std::vector<Body> bodies;
   for (std::size_t i = 0; i < owned.size(); ++i) bodies.push_back({owned[i].name, meshes[i]});

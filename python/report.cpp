@@ -6,35 +6,17 @@
 
 namespace penumbra::python {
 
-namespace {
-
-/// The camera whose images the reports are of.
-Camera judged_camera(const Camera& camera, const Pipeline& pipeline) {
-  if (pipeline.rectification() == nullptr) return camera;
-  return {.intrinsics = pipeline.intrinsics(),
-          .distortion = {},
-          .range = camera.range,
-          .frame_id = camera.frame_id};
-}
-
-}  // namespace
-
 PipelineState::PipelineState(const Robot& robot, const Camera& given,
                              const PipelineConfig& settings)
-    : pipeline(robot, given, settings),
+    : session(robot, given, settings),
       depth_size(given.intrinsics),
-      cloud_maker(judged_camera(given, pipeline)),
-      config(settings),
-      camera(judged_camera(given, pipeline)) {
-  begin_sequence();
-}
-
-void PipelineState::begin_sequence() { sequence.emplace(pipeline, camera, config); }
+      cloud_maker(session.pipeline().report_camera()),
+      camera(session.pipeline().report_camera()) {}
 
 std::vector<std::string> PipelineState::notes() const {
-  const auto of_robot = pipeline.robot().notes();
+  const auto of_robot = session.pipeline().robot().notes();
   std::vector<std::string> notes(of_robot.begin(), of_robot.end());
-  for (auto& line : sequence->lines()) notes.push_back(line);
+  for (auto& line : session.warnings()) notes.push_back(line);
   return notes;
 }
 
@@ -43,11 +25,10 @@ Report::Report(std::shared_ptr<PipelineState> state, const FrameReport& report, 
       call_(state_->calls),
       report_(report),
       depth_(std::move(depth)),
+      targets_(report.targets.begin(), report.targets.end()),
       T_root_link_(report.T_root_link.begin(), report.T_root_link.end()),
       links_(report.links.begin(), report.links.end()),
       missing_links_(report.missing_links.begin(), report.missing_links.end()) {
-  targets_.reserve(report.targets.size());
-  for (const TargetReport& target : report.targets) targets_.emplace_back(target, report.links);
   for (const std::size_t link : report.near_links) near_links_.push_back(report.links[link]);
   for (const std::size_t body : report.attached) attached_.push_back(report.links[body]);
   report_.T_root_link = {};

@@ -8,30 +8,23 @@
 #include <vector>
 
 #include <python/arrays.hpp>
-#include <python/judgement.hpp>
 
-#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
-
-#include <io/files/sequence_notes.hpp>
+#include <penumbra/session/session.hpp>
 
 namespace penumbra::python {
 
-/// A pipeline with what is noted of its frames.
+/// A session, and what Python needs next to it.
 struct PipelineState {
   PipelineState(const Robot& robot, const Camera& given, const PipelineConfig& settings);
 
-  /// Forgets the frames that were noted.
-  void begin_sequence();
-  /// What is doubtful of the robot and of the frames, a line each.
+  /// Returns warnings about the robot and the frames, a line each.
   [[nodiscard]] std::vector<std::string> notes() const;
 
-  Pipeline pipeline;
+  Session session;
   Intrinsics depth_size;  ///< of depth images as they come
   CloudMaker cloud_maker;
-  PipelineConfig config;
   Camera camera;  ///< of the reports' images
-  std::optional<io::SequenceNotes> sequence;
   std::uint64_t calls = 0;
   OneThread thread;
 };
@@ -43,7 +36,7 @@ class Report {
   Report(std::shared_ptr<PipelineState> state, const FrameReport& report, py::object depth);
 
   [[nodiscard]] const FrameReport& numbers() const { return report_; }
-  [[nodiscard]] const std::vector<OwnedTargetReport>& targets() const { return targets_; }
+  [[nodiscard]] const std::vector<TargetReport>& targets() const { return targets_; }
   [[nodiscard]] const Poses& T_root_link() const { return T_root_link_; }
   [[nodiscard]] const std::vector<std::string>& near_links() const { return near_links_; }
   [[nodiscard]] const std::vector<std::string>& links() const { return links_; }
@@ -75,7 +68,7 @@ class Report {
   std::uint64_t call_;
   FrameReport report_;  // without spans of poses, names and targets
   py::object depth_;
-  std::vector<OwnedTargetReport> targets_;
+  std::vector<TargetReport> targets_;
   Poses T_root_link_;
   std::vector<std::string> links_, missing_links_, attached_, near_links_;
   ReadImage<std::uint8_t> labels_;

@@ -31,35 +31,35 @@ py::array rows_of_three(const py::object& source, const char* argument) {
 Mesh mesh_of(const VertexArray& given_vertices, const TriangleArray& given_triangles) {
   const py::array vertices = rows_of_three<float>(given_vertices, "vertices");
   const py::array triangles = rows_of_three<std::uint32_t>(given_triangles, "triangles");
-  auto mesh = std::make_shared<TriangleMesh>();
+  TriangleMesh mesh;
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-  mesh->vertices.resize(static_cast<std::size_t>(vertices.shape(0)));
-  mesh->triangles.resize(static_cast<std::size_t>(triangles.shape(0)));
+  mesh.vertices.resize(static_cast<std::size_t>(vertices.shape(0)));
+  mesh.triangles.resize(static_cast<std::size_t>(triangles.shape(0)));
   if (vertices.nbytes() > 0)
-    std::memcpy(mesh->vertices[0].data(), vertices.data(),
+    std::memcpy(mesh.vertices[0].data(), vertices.data(),
                 static_cast<std::size_t>(vertices.nbytes()));
   if (triangles.nbytes() > 0)
-    std::memcpy(mesh->triangles[0].data(), triangles.data(),
+    std::memcpy(mesh.triangles[0].data(), triangles.data(),
                 static_cast<std::size_t>(triangles.nbytes()));
-  for (const auto& vertex : mesh->vertices)
+  for (const auto& vertex : mesh.vertices)
     if (!vertex.allFinite()) throw py::value_error("vertices: expected finite numbers");
-  for (const auto& triangle : mesh->triangles)
+  for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle)
-      if (corner >= mesh->vertices.size())
+      if (corner >= mesh.vertices.size())
         throw py::value_error("triangles: expected indices below the number of vertices, " +
-                              std::to_string(mesh->vertices.size()) + "; got " +
+                              std::to_string(mesh.vertices.size()) + "; got " +
                               std::to_string(corner));
-  return {std::move(mesh)};
+  return {std::make_shared<const PreparedMesh>(mesh)};
 }
 
 /// A read-only view of rows of three numbers in a mesh.
 template <typename Result, auto Rows>
 Result rows_array(const Mesh& mesh) {
-  const auto& rows = (*mesh.triangles).*Rows;
+  const auto& rows = (*mesh.prepared).*Rows;
   using T = std::remove_cvref_t<decltype(rows[0][0])>;
   return read_only(py::array(py::dtype::of<T>(),
                              {static_cast<py::ssize_t>(rows.size()), py::ssize_t{3}}, {},
-                             rows.data(), keeper_of(mesh.triangles)));
+                             rows.data(), keeper_of(mesh.prepared)));
 }
 
 void bind_mesh(py::module_& m) {
@@ -68,14 +68,14 @@ void bind_mesh(py::module_& m) {
                         "counter-clockwise.");
   mesh.def(py::init(&mesh_of), py::arg("vertices"), py::arg("triangles"),
            "vertices: float32 (N, 3), metres; triangles: uint32 (M, 3), indices of vertices. The "
-           "mesh keeps a copy.");
+           "mesh keeps a copy, in which equal vertices are one.");
   show_properties(mesh,
                   Field{"vertices", &rows_array<VertexArray, &TriangleMesh::vertices>,
                         "float32 (N, 3), metres. Read-only view."},
                   Field{"triangles", &rows_array<TriangleArray, &TriangleMesh::triangles>,
                         "uint32 (M, 3), indices of vertices. Read-only view."});
   mesh.def("__repr__", [](const Mesh& of) {
-    return "<penumbra.TriangleMesh: " + std::to_string(of.triangles->triangles.size()) +
+    return "<penumbra.TriangleMesh: " + std::to_string(of.prepared->triangles.size()) +
            " triangles>";
   });
   py::class_<OwnedBody> body(m, "Body", "A rigid thing to draw.");
@@ -143,8 +143,7 @@ std::vector<Mesh> meshes_of(const Robot& robot, std::size_t link) {
   const auto keeper = std::make_shared<const Robot>(robot);
   std::vector<Mesh> meshes;
   for (const PreparedMesh& mesh : robot.meshes(link)) {
-    const std::shared_ptr<const PreparedMesh> kept(keeper, &mesh);
-    meshes.push_back({kept, kept});
+    meshes.push_back({std::shared_ptr<const PreparedMesh>(keeper, &mesh)});
   }
   return meshes;
 }

@@ -17,8 +17,7 @@ using TriangleArray = Shown<"Annotated[NDArray[uint32], '(M, 3)']">;
 
 /// A mesh of Python's, and what keeps it.
 struct Mesh {
-  std::shared_ptr<const TriangleMesh> triangles;
-  std::shared_ptr<const PreparedMesh> prepared{};  // the same one; null if Python made the mesh
+  std::shared_ptr<const PreparedMesh> prepared;
 };
 
 /// A rigid thing to draw, with its meshes.

@@ -10,18 +10,8 @@ namespace penumbra::python {
 namespace {
 
 void add_report(TargetFusion& self, std::size_t camera, const Report& of) {
-  std::vector<TargetReport> targets;
-  for (const OwnedTargetReport& owned : of.targets()) {
-    TargetReport& target = targets.emplace_back();
-    target.name = owned.name;
-    target.stamp = owned.stamp;
-    target.verdict = owned.verdict;
-    target.reason = owned.reason;
-    if (owned.judgement) target.judgement = *owned.judgement;
-    target.point = owned.point;
-  }
   FrameReport report = of.numbers();
-  report.targets = targets;
+  report.targets = of.targets();
   self.add(camera, report);
 }
 

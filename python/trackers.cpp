@@ -7,58 +7,12 @@
 namespace penumbra::python {
 namespace {
 
-constexpr const char* settings_doc =
-    "How a target is followed; docs/tracking.md says how to choose.";
-constexpr const char* worst_doc =
-    "The worst verdict with which estimates are accepted, of visible, partial, hidden.";
-
-void bind_pose_settings(py::module_& m) {
-  py::class_<PoseTrackerConfig> config(m, "PoseTrackerConfig", settings_doc);
-  using C = PoseTrackerConfig;
-  bind_fields(
-      config, Field{"motion", &C::motion, "How it moves while nobody sees it."},
-      Field{"direction", &C::direction, "Of along_direction, fixed frame."},
-      Field{"speed", &C::speed, "m/s along it; None: estimated."},
-      Field{"position_sigma", &C::position_sigma, "Metres per axis, without a covariance."},
-      Field{"orientation_sigma", &C::orientation_sigma, "Radians, likewise."},
-      Field{"acceleration", &C::acceleration, "m/s^2/sqrt(Hz)."},
-      Field{"angular_acceleration", &C::angular_acceleration, "rad/s^2/sqrt(Hz)."},
-      Field{"drift", &C::drift, "m/sqrt(s)."},
-      Field{"angular_drift", &C::angular_drift, "rad/sqrt(s)."},
-      Field{"speed_sigma", &C::speed_sigma, "m/s per axis, of a new track."},
-      Field{"angular_speed_sigma", &C::angular_speed_sigma, "rad/s, likewise."},
-      Field{"timeout", &C::timeout, "Seconds since the last accepted estimate; then lost."},
-      Field{"gate", &C::gate,
-            "Squared Mahalanobis distance above which an estimate is an outlier."},
-      Field{"gate_patience", &C::gate_patience,
-            "Consistent outliers in a row that make a new track."},
-      Field{"memory", &C::memory, "Seconds back to which late estimates are taken in order."},
-      Field{"max_estimates", &C::max_estimates, "That are remembered."},
-      Field{
-          "worst", &C::worst,
-          "The worst verdict with which estimates are accepted, of visible, partial, hidden; None: "
-          "visible, and partial where at least 0.4 was seen."});
-  config.def("check", &C::check, "Raises InputError, with the values, for settings out of bounds.");
-}
-
-void bind_point_settings(py::module_& m) {
-  py::class_<PointTrackerConfig> config(m, "PointTrackerConfig", settings_doc);
-  using C = PointTrackerConfig;
-  bind_fields(
-      config, Field{"motion", &C::motion, "How it moves while nobody sees it."},
-      Field{"sigma", &C::sigma, "Metres per axis, without a covariance."},
-      Field{"acceleration", &C::acceleration, "m/s^2/sqrt(Hz), of constant_velocity."},
-      Field{"speed_sigma", &C::speed_sigma, "m/s per axis, of a new track."},
-      Field{"held_speed", &C::held_speed, "m/s per axis by which a held point's sigma grows."},
-      Field{"timeout", &C::timeout, "Seconds since the last accepted estimate; then lost."},
-      Field{"gate", &C::gate,
-            "Squared Mahalanobis distance above which an estimate is an outlier."},
-      Field{"gate_patience", &C::gate_patience,
-            "Consistent outliers in a row that make a new track."},
-      Field{"memory", &C::memory, "Seconds back to which late estimates are taken in order."},
-      Field{"max_estimates", &C::max_estimates, "That are remembered."},
-      Field{"worst", &C::worst, worst_doc});
-  config.def("check", &C::check, "Raises InputError, with the values, for settings out of bounds.");
+void bind_tracker_settings(py::module_& m) {
+  constexpr const char* doc = "How a target is followed; docs/tracking.md says how to choose.";
+  py::class_<PoseTrackerConfig> pose(m, "PoseTrackerConfig", doc);
+  bind_settings(pose);
+  py::class_<PointTrackerConfig> point(m, "PointTrackerConfig", doc);
+  bind_settings(point);
 }
 
 void bind_tracks(py::module_& m) {
@@ -123,8 +77,7 @@ void bind_point_tracker(py::module_& m) {
 }  // namespace
 
 void bind_trackers(py::module_& m) {
-  bind_pose_settings(m);
-  bind_point_settings(m);
+  bind_tracker_settings(m);
   bind_tracks(m);
   bind_pose_tracker(m);
   bind_point_tracker(m);

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/targets/target.hpp>
+#include <penumbra/targets/region.hpp>
 
 #include <research/cell.hpp>
 #include <sim/simulation.hpp>

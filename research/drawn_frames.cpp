@@ -13,12 +13,12 @@ namespace penumbra::research {
 namespace {
 
 // Okabe and Ito's vermilion and bluish green: distinct with any common color blindness.
-constexpr io::Rgb8 red{213, 94, 0}, green{0, 158, 115}, black{0, 0, 0};
+constexpr Rgb8 red{213, 94, 0}, green{0, 158, 115}, black{0, 0, 0};
 constexpr int text_scale = 2, letter_width = text_scale * io::BitmapFont::advance;
 constexpr double wrist_box = 0.12;  // metres: edge of the box around a wrist
 
 void draw_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const LineStyle& style,
-               Image<io::Rgb8>& image) {
+               Image<Rgb8>& image) {
   constexpr int width = 3, dash = 8;  // pixels
   const double length = (to - from).norm();
   if (!(length < 4.0 * image.width())) return;  // a pose far outside of the image
@@ -31,7 +31,7 @@ void draw_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Lin
 }
 
 /// Writes black text on a plate of the color.
-void write_on(std::string_view text, int u, int v, io::Rgb8 color, Image<io::Rgb8>& image) {
+void write_on(std::string_view text, int u, int v, Rgb8 color, Image<Rgb8>& image) {
   constexpr int margin = 4, height = text_scale * io::BitmapFont::height + margin;
   const int width = letter_width * static_cast<int>(text.size()) + margin;
   for (int y = 0; y < height; ++y)
@@ -67,8 +67,8 @@ void DrawnFrames::write(const std::filesystem::path& folder, const SeedRun& run)
   }
 }
 
-Image<io::Rgb8> DrawnFrames::draw(const LaneRun& lane, std::size_t i) const {
-  Image<io::Rgb8> image = images_[i];
+Image<Rgb8> DrawnFrames::draw(const LaneRun& lane, std::size_t i) const {
+  Image<Rgb8> image = images_[i];
   draw_target(lane.methods.back().samples[i], handled_style, image);
   draw_target(lane.methods.front().samples[i], raw_style, image);
   for (const auto& [style, v] : {std::pair(raw_style, 18), {handled_style, 40}}) {
@@ -79,7 +79,7 @@ Image<io::Rgb8> DrawnFrames::draw(const LaneRun& lane, std::size_t i) const {
 }
 
 void DrawnFrames::draw_target(const Sample& sample, const LineStyle& style,
-                              Image<io::Rgb8>& image) const {
+                              Image<Rgb8>& image) const {
   const Eigen::Isometry3d pose = T_base_camera_.inverse() * sample.pose;
   if (!sample.known || pose.translation().z() <= 0) return;
   Eigen::AlignedBox2d extent;

@@ -16,7 +16,7 @@ namespace penumbra::research {
 /// How an estimate is drawn.
 struct LineStyle {
   const char* name;
-  io::Rgb8 color;
+  Rgb8 color;
   bool dashed;
   bool is_below;  ///< its error is written below the box, else above
 };
@@ -34,14 +34,14 @@ class DrawnFrames {
 
  private:
   using Edge = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
-  [[nodiscard]] Image<io::Rgb8> draw(const LaneRun& lane, std::size_t i) const;
-  void draw_target(const Sample& sample, const LineStyle& style, Image<io::Rgb8>& image) const;
+  [[nodiscard]] Image<Rgb8> draw(const LaneRun& lane, std::size_t i) const;
+  void draw_target(const Sample& sample, const LineStyle& style, Image<Rgb8>& image) const;
   [[nodiscard]] std::vector<Edge> edges_of(const Eigen::Isometry3d& T_camera_target) const;
 
   Camera camera_;
   Eigen::Isometry3d T_base_camera_;
   Eigen::Vector3d object_size_;  // 0: a wrist
-  std::vector<Image<io::Rgb8>> images_;
+  std::vector<Image<Rgb8>> images_;
 };
 
 }  // namespace penumbra::research

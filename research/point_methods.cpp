@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include <penumbra/base/statistics-inl.hpp>
+
 #include <research/method.hpp>
 #include <research/robot_filters.hpp>
 
@@ -17,12 +19,6 @@ constexpr double keypoint_radius = 5.0;  // pixels around the key point
 constexpr std::size_t least_depths = 5;  // that a point needs
 constexpr double hand_step = 0.10;       // metres that a hand moves in depth between two estimates
 constexpr double hand_speed = 0.25;      // m/s by which this grows while nothing is measured
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Returns the median depth around the key point, metres, of the pixels that `kept(u, v, depth)`
 /// keeps.
@@ -40,7 +36,7 @@ std::optional<double> depth_around(const View& view, Kept kept) {
       if (inside && depth > 0 && kept(u, v, depth)) depths.push_back(depth);
     }
   if (depths.size() < least_depths) return std::nullopt;
-  return median_of(depths);
+  return detail::median(depths);
 }
 
 /// Returns the point at a depth on the key point's ray, in the base frame.
@@ -107,7 +103,7 @@ Answer look_by_second_camera(const Cell& cell, const View& view, const Follower&
   std::erase_if(behind,
                 [&](double z) { return std::abs(z - wrist_radius - expected) > most_apart; });
   if (behind.size() < least_depths) return {};
-  const double far_side = median_of(behind);
+  const double far_side = detail::median(behind);
   Answer answer = wrist_at(cell, view, far_side - 2 * wrist_radius);
   answer.surface = point_at(cell, view, far_side);
   return answer;

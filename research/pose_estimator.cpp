@@ -22,9 +22,9 @@ constexpr double ransac_confidence = 0.999;
 constexpr double least_pixel_sigma = 0.5;  // features are not found more exactly
 
 /// Returns a matrix that must not be written to: OpenCV has none of constant pixels.
-cv::Mat matrix_of(ImageView<const io::Rgb8> image) {
-  return {image.height, image.width, CV_8UC3, const_cast<io::Rgb8*>(image.data),
-          static_cast<std::size_t>(image.stride) * sizeof(io::Rgb8)};
+cv::Mat matrix_of(ImageView<const Rgb8> image) {
+  return {image.height, image.width, CV_8UC3, const_cast<Rgb8*>(image.data),
+          static_cast<std::size_t>(image.stride) * sizeof(Rgb8)};
 }
 
 cv::Mat grey_of(const cv::Mat& color) {
@@ -123,7 +123,7 @@ struct PoseEstimator::State {
   cv::Mat model_descriptors;
 };
 
-PoseEstimator::PoseEstimator(const Camera& camera, ImageView<const io::Rgb8> front,
+PoseEstimator::PoseEstimator(const Camera& camera, ImageView<const Rgb8> front,
                              const Eigen::Vector3d& size)
     : state_(new State{camera.intrinsics,
                        (cv::Mat_<double>(3, 3) << camera.intrinsics.fx(), 0, camera.intrinsics.cx(),
@@ -146,7 +146,7 @@ PoseEstimator::PoseEstimator(const Camera& camera, ImageView<const io::Rgb8> fro
 
 PoseEstimator::~PoseEstimator() = default;
 
-std::vector<FeatureMatch> PoseEstimator::match(ImageView<const io::Rgb8> color,
+std::vector<FeatureMatch> PoseEstimator::match(ImageView<const Rgb8> color,
                                                const PixelBox& part) const {
   const auto cut = [](double value, int most) {
     return static_cast<int>(std::clamp(value, 0.0, static_cast<double>(most)));

@@ -12,7 +12,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/targets/target.hpp>
+#include <penumbra/labels/labels.hpp>
 #include <penumbra/tracking/trackers.hpp>
 
 #include <io/files/png.hpp>
@@ -46,11 +46,11 @@ class PoseEstimator {
 
   /// `front`: the image on the +z face of a box of `size` metres about the object's origin, its u
   /// along +x and its v along -y. Throws InputError for a camera with lens distortion.
-  PoseEstimator(const Camera& camera, ImageView<const io::Rgb8> front, const Eigen::Vector3d& size);
+  PoseEstimator(const Camera& camera, ImageView<const Rgb8> front, const Eigen::Vector3d& size);
   ~PoseEstimator();
 
   /// Returns the object's features in a part of the image.
-  [[nodiscard]] std::vector<FeatureMatch> match(ImageView<const io::Rgb8> color,
+  [[nodiscard]] std::vector<FeatureMatch> match(ImageView<const Rgb8> color,
                                                 const PixelBox& part) const;
 
   /// Returns the pose from the matches whose pixel is not 0 in the mask; nothing if they do not

@@ -81,7 +81,7 @@ SeedRun Run::go(const std::function<void(const sim::SimFrame&)>& done) {
 /// Returns what may be known of the frame; valid until the next call, and while the frame lives.
 Observation Run::observe(const sim::SimFrame& frame) {
   const FrameReport& report = pipeline_.process(
-      {.stamp = frame.stamp, .depth = frame.depth.view(), .joints = frame.joints});
+      {.stamp = frame.stamp, .depth = frame.depth.view(), .pose = {.positions = frame.joints}});
   Observation observed;
   observed.stamp = frame.stamp;
   observed.depth = frame.depth.view();

@@ -92,8 +92,8 @@ Conveyor::Conveyor(Arm& arm, const SceneOptions& options) : jitter_(options.belt
 void Conveyor::dress(Random& random) {
   const int rows = static_cast<int>(std::lround(print_width * size_.y() / size_.x()));
   description_.model_image = busy_print(print_width, rows, random);
-  const Image<io::Rgb8> card = grain(print_width, rows, {176, 140, 98}, 14, random);
-  Image<io::Rgb8> both(print_width, 2 * rows);
+  const Image<Rgb8> card = grain(print_width, rows, {176, 140, 98}, 14, random);
+  Image<Rgb8> both(print_width, 2 * rows);
   std::copy_n(description_.model_image.data(), card.size(), both.data());
   std::copy_n(card.data(), card.size(), both.data() + card.size());
   description_.textures.push_back({"print", std::move(both)});

@@ -29,7 +29,7 @@ struct ScenePart {
 /// An image that replaces a texture of the scene's MJCF.
 struct SceneTexture {
   std::string name;
-  Image<io::Rgb8> image;  ///< row 0 is at texture coordinate 0
+  Image<Rgb8> image;  ///< row 0 is at texture coordinate 0
 };
 
 /// The parts of a scene and its camera.
@@ -44,7 +44,7 @@ struct SceneDescription {
   double duration = 0.0;                                  ///< seconds; the scene's own duration
   bool moves = true;                                      ///< false: the frames are unrelated
   std::optional<double> grasp;                            ///< seconds; conveyor
-  Image<io::Rgb8> model_image;                            ///< conveyor
+  Image<Rgb8> model_image;                                ///< conveyor
   Eigen::Vector3d object_size = Eigen::Vector3d::Zero();  ///< conveyor, metres
   Eigen::Vector3d conveyor_direction = Eigen::Vector3d::UnitX();  ///< conveyor, base frame
 };

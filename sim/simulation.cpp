@@ -269,7 +269,7 @@ const Eigen::Isometry3d& Simulation::T_base_camera() const { return state_->view
 const Eigen::Isometry3d& Simulation::T_base_second_camera() const {
   return state_->second_view.T_base_camera;
 }
-const Image<io::Rgb8>& Simulation::model_image() const {
+const Image<Rgb8>& Simulation::model_image() const {
   return state_->scene->description().model_image;
 }
 Eigen::Vector3d Simulation::object_size() const { return state_->scene->description().object_size; }

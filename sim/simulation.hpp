@@ -84,7 +84,7 @@ struct ObjectTruth {
 /// A simulated frame with its truth. Depth is along the optical axis.
 struct SimFrame {
   std::int64_t stamp = 0;  ///< nanoseconds
-  Image<io::Rgb8> color;
+  Image<Rgb8> color;
   Image<std::uint16_t> depth;  ///< measured millimetres, 0 = no measurement
   Image<float> true_depth;     ///< metres
   Image<std::int32_t> ids;     ///< visible ids: 0 nothing, 1 + link index of robot links (order of
@@ -136,7 +136,7 @@ class Simulation {
   [[nodiscard]] const Eigen::Isometry3d& T_base_second_camera() const;
 
   /// Returns the image on the front (+z face, u along +x) of the textured object.
-  [[nodiscard]] const Image<io::Rgb8>& model_image() const;
+  [[nodiscard]] const Image<Rgb8>& model_image() const;
   /// Returns the size in metres of a box around the object's origin.
   [[nodiscard]] Eigen::Vector3d object_size() const;
   [[nodiscard]] Eigen::Vector3d conveyor_direction() const;  ///< unit, base frame

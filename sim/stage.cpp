@@ -71,10 +71,10 @@ ModelPtr load_scene(const std::filesystem::path& file) {
 
 void set_texture(mjModel& model, const SceneTexture& texture) {
   const int id = mj_name2id(&model, mjOBJ_TEXTURE, texture.name.c_str());
-  const Image<io::Rgb8>& image = texture.image;
+  const Image<Rgb8>& image = texture.image;
   if (id < 0 || model.tex_width[id] != image.width() || model.tex_height[id] != image.height())
     throw std::logic_error("texture " + texture.name + " is not as large as the scene says");
-  std::memcpy(model.tex_rgb + model.tex_adr[id], image.data(), image.size() * sizeof(io::Rgb8));
+  std::memcpy(model.tex_rgb + model.tex_adr[id], image.data(), image.size() * sizeof(Rgb8));
 }
 
 void to_floats(const Eigen::Vector3d& from, float* to) {
@@ -221,7 +221,7 @@ void Stage::place(std::span<const double> joints, std::span<const Eigen::Isometr
   mj_camlight(drawing_->model.get(), &data);
 }
 
-void Stage::draw_color(const Viewpoint& view, Image<io::Rgb8>& color) {
+void Stage::draw_color(const Viewpoint& view, Image<Rgb8>& color) {
   Drawing& d = *drawing_;
   const gl::EglContext::Current current(*d.egl);
   d.update_scene();

@@ -46,7 +46,7 @@ class Stage {
   void place(std::span<const double> joints, std::span<const Eigen::Isometry3d> parts);
 
   /// Draws the colour image.
-  void draw_color(const Viewpoint& view, Image<io::Rgb8>& color);
+  void draw_color(const Viewpoint& view, Image<Rgb8>& color);
 
   /// Draws the nearest id among those that `shown` accepts, and its depth along the optical axis in
   /// metres; 0 if there is nothing. Ids are those of SimFrame::ids, 0 for the background. Null

@@ -38,7 +38,7 @@ const Robot& Simulation::robot() const { refuse_simulation(); }
 const Camera& Simulation::camera() const { refuse_simulation(); }
 const Eigen::Isometry3d& Simulation::T_base_camera() const { refuse_simulation(); }
 const Eigen::Isometry3d& Simulation::T_base_second_camera() const { refuse_simulation(); }
-const Image<io::Rgb8>& Simulation::model_image() const { refuse_simulation(); }
+const Image<Rgb8>& Simulation::model_image() const { refuse_simulation(); }
 Eigen::Vector3d Simulation::object_size() const { refuse_simulation(); }
 Eigen::Vector3d Simulation::conveyor_direction() const { refuse_simulation(); }
 double Simulation::duration() const { refuse_simulation(); }

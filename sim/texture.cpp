@@ -12,19 +12,19 @@ std::uint8_t to_byte(double value) {
   return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
 }
 
-io::Rgb8 any_color(Random& random) {
+Rgb8 any_color(Random& random) {
   return {to_byte(random.uniform(10, 250)), to_byte(random.uniform(10, 250)),
           to_byte(random.uniform(10, 250))};
 }
 
 /// Paints a rotated rectangle or ellipse at a random position.
-void paint(Image<io::Rgb8>& image, Random& random, double size) {
+void paint(Image<Rgb8>& image, Random& random, double size) {
   const double u0 = random.uniform(0, image.width()), v0 = random.uniform(0, image.height());
   const double a = size * random.uniform(0.4, 1.0), b = size * random.uniform(0.4, 1.0);
   const double angle = random.uniform(0.0, 3.141592653589793);
   const double c = std::cos(angle), s = std::sin(angle);
   const bool round = random.uniform() < 0.4;
-  const io::Rgb8 color = any_color(random);
+  const Rgb8 color = any_color(random);
   const double reach = a + b;
   const int first_u = std::max(0, static_cast<int>(u0 - reach)),
             last_u = std::min(image.width() - 1, static_cast<int>(u0 + reach)),
@@ -40,8 +40,8 @@ void paint(Image<io::Rgb8>& image, Random& random, double size) {
 
 }  // namespace
 
-Image<io::Rgb8> busy_print(int width, int height, Random& random) {
-  Image<io::Rgb8> image(width, height, any_color(random));
+Image<Rgb8> busy_print(int width, int height, Random& random) {
+  Image<Rgb8> image(width, height, any_color(random));
   // Coarse shapes come first; each finer kind covers about the same area.
   for (const double share : {0.24, 0.14, 0.08, 0.05}) {
     const double size = share * width;
@@ -51,8 +51,8 @@ Image<io::Rgb8> busy_print(int width, int height, Random& random) {
   return image;
 }
 
-Image<io::Rgb8> grain(int width, int height, io::Rgb8 color, int amplitude, Random& random) {
-  Image<io::Rgb8> image(width, height);
+Image<Rgb8> grain(int width, int height, Rgb8 color, int amplitude, Random& random) {
+  Image<Rgb8> image(width, height);
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u) {
       const double d = random.uniform(-amplitude, amplitude);

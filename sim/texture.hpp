@@ -10,10 +10,9 @@ namespace penumbra::sim {
 
 /// Returns a print with corners and blobs of many sizes, so that features are found at any
 /// distance.
-[[nodiscard]] Image<io::Rgb8> busy_print(int width, int height, Random& random);
+[[nodiscard]] Image<Rgb8> busy_print(int width, int height, Random& random);
 
 /// Returns one colour with a fine grain.
-[[nodiscard]] Image<io::Rgb8> grain(int width, int height, io::Rgb8 color, int amplitude,
-                                    Random& random);
+[[nodiscard]] Image<Rgb8> grain(int width, int height, Rgb8 color, int amplitude, Random& random);
 
 }  // namespace penumbra::sim

@@ -16,7 +16,7 @@
 
 #include <io/dds/participant.hpp>
 #include <io/run/calibration_input.hpp>
-#include <io/run/judging.hpp>
+#include <io/run/input_session.hpp>
 #include <io/run/output_folder.hpp>
 #include <io/run/planning_input.hpp>
 #include <io/web/web_server.hpp>
@@ -30,7 +30,7 @@ struct NamedCamera {
 };
 
 struct RunArguments {
-  io::JudgingOptions judging;
+  io::SessionOptions judging;
   io::OutputOptions output;
   std::vector<NamedCamera> cameras = {};  ///< several of a bag
 };
@@ -58,7 +58,7 @@ struct InspectArguments {
 };
 
 struct TuneArguments {
-  io::JudgingOptions judging;  ///< with the current rule
+  io::SessionOptions judging;  ///< with the current rule
   std::filesystem::path output;
   bool force = false;  ///< advise although the setup looks wrong
 };
@@ -118,7 +118,7 @@ struct ServerArguments {
 [[nodiscard]] io::WebOptions web_options(const ServerArguments& server);
 
 struct LiveArguments {
-  io::JudgingOptions judging;  ///< renderer, what is drawn, the rule of labels, topics
+  io::SessionOptions judging;  ///< renderer, what is drawn, the rule of labels, topics
   io::ParticipantOptions graph;
   std::vector<NamedCamera> cameras;  ///< empty: one, found by type and name
   std::string name_space;
@@ -132,7 +132,7 @@ struct LiveArguments {
 };
 
 struct ViewArguments {
-  io::JudgingOptions judging;
+  io::SessionOptions judging;
   std::string judging_option;  ///< name of an option that was given; empty: none
   ServerArguments server;
 };

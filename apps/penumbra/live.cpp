@@ -79,10 +79,10 @@ class Diagnostics {
 
   [[nodiscard]] const io::DiagnosticSource& source() const { return source_; }
 
-  void tell(const io::DiagnosticArrayMessage& message) {
+  void publish(const io::DiagnosticArrayMessage& message) {
     io::encode(message, payload_);
     static_cast<void>(publication_->write(payload_));
-    pages_.tell(message);
+    pages_.publish(message);
     for (const std::string& line : changes_.update(message)) std::cerr << line << '\n';
   }
 
@@ -93,7 +93,7 @@ class Diagnostics {
                               .message = why,
                               .hardware_id = source_.hardware_id,
                               .values = {}});
-    tell(message);
+    publish(message);
   }
 
  private:
@@ -125,7 +125,7 @@ std::optional<io::CameraInputOptions> find_camera(const LiveArguments& arguments
 
 /// Draws a small box with the chosen renderer: a device that cannot draw would fail every image.
 /// Throws InputError if it cannot.
-void check_draws(const io::JudgingOptions& judging) {
+void check_draws(const io::SessionOptions& judging) {
   const PreparedMesh mesh(make_box({0.1, 0.1, 0.1}));
   const Body box{"box", {&mesh, 1}};
   const Intrinsics small(32, 24, 30.0, 30.0, 15.5, 11.5);
@@ -140,7 +140,7 @@ void check_draws(const io::JudgingOptions& judging) {
 
 PipelineConfig config_of(const LiveArguments& arguments) {
   PipelineConfig config;
-  const io::JudgingOptions& judging = arguments.judging;
+  const io::SessionOptions& judging = arguments.judging;
   config.backend = judging.backend;
   config.renderer = judging.renderer;
   config.rule = judging.rule.applied_to(config.rule);
@@ -233,7 +233,7 @@ class Live {
       });
       add_losses(message);
       if (fusion_) add_contradictions(message);
-      diagnostics.tell(message);
+      diagnostics.publish(message);
       next += report_period;
       auto until = next;
       if (arguments_.duration)
@@ -350,7 +350,7 @@ int execute(const LiveArguments& arguments) {
   print_topics(options, graph->domain());
   Live live(arguments, names, *graph, options, pages);
   const bool stopped = live.run(*graph, diagnostics, stop);
-  print_notes(graph->take_complaints());
+  print_notes(graph->take_warnings());
   try {
     if (summary) write_summary(*summary, live.summary());
   } catch (const InputError& error) {

@@ -37,7 +37,7 @@ class LivePages::Page final : public io::FrameWatcher {
   }
 
   /// `statuses`: the robot's, if there is one, and the camera's.
-  void tell(const std::vector<const Status*>& statuses) {
+  void publish(const std::vector<const Status*>& statuses) {
     std::vector<io::LiveView::Diagnostic> diagnostics;
     diagnostics.reserve(statuses.size());
     for (const Status* status : statuses)
@@ -82,13 +82,13 @@ void LivePages::watch(io::LiveRunner& runner, const std::vector<io::CameraInputO
   }
 }
 
-void LivePages::tell(const io::DiagnosticArrayMessage& message) {
+void LivePages::publish(const io::DiagnosticArrayMessage& message) {
   const std::size_t first_camera = message.status.size() - std::max<std::size_t>(pages_.size(), 1);
   for (std::size_t i = 0; i < pages_.size(); ++i) {
     std::vector<const Status*> statuses;
     for (std::size_t s = 0; s < first_camera; ++s) statuses.push_back(&message.status[s]);
     statuses.push_back(&message.status[first_camera + i]);
-    pages_[i]->tell(statuses);
+    pages_[i]->publish(statuses);
   }
 }
 

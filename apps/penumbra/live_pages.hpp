@@ -26,7 +26,7 @@ class LivePages {
   void watch(io::LiveRunner& runner, const std::vector<io::CameraInputOptions>& cameras);
 
   /// Shows statuses as LiveDiagnostics reports them: the cameras' are the last ones.
-  void tell(const io::DiagnosticArrayMessage& message);
+  void publish(const io::DiagnosticArrayMessage& message);
 
   /// Returns whether a page needs colour images.
   [[nodiscard]] bool need_color() const;

@@ -274,7 +274,7 @@ int execute(const PlayArguments& arguments) {
   if (player.most_late() > reported_lateness)
     print_notes(std::vector{"up to " + fixed(player.most_late(), 1) +
                             " s behind the recording's pace; lower --rate, or choose --topics"});
-  print_notes(graph->take_complaints());
+  print_notes(graph->take_warnings());
   return 0;
 }
 

@@ -23,8 +23,7 @@
 #include <io/files/png.hpp>
 #include <io/files/pose_file.hpp>
 #include <io/files/report_json.hpp>
-#include <io/files/sequence_notes.hpp>
-#include <io/run/judging.hpp>
+#include <io/run/input_session.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -57,13 +56,13 @@ std::vector<std::string> rest_notes(const Robot& robot, const RenderArguments& a
   return {"no --joint for " + names + ": drawn at rest (0, or no rotation)"};
 }
 
-Pipeline make_pipeline(const RenderArguments& arguments, Robot robot, const Camera& camera) {
+Session make_session(const RenderArguments& arguments, Robot robot, const Camera& camera) {
   PipelineConfig config;
   config.backend = arguments.backend;
   config.renderer = arguments.renderer;
   config.camera_parent = arguments.parent;
   config.T_parent_camera = io::read_pose_csv(arguments.pose);
-  return io::make_pipeline(std::move(robot), camera, config, arguments.camera_info);
+  return io::make_session(std::move(robot), camera, config, {}, arguments.camera_info);
 }
 
 /// Throws if `file` is an input or another output.
@@ -168,16 +167,18 @@ int execute(const RenderArguments& arguments) {
   Robot robot = Robot::load(arguments.robot, arguments.options);
   const std::vector<double> positions = positions_of(robot, arguments);
   const Camera camera = io::read_camera_info(arguments.camera_info, arguments.rectified);
-  Pipeline pipeline = make_pipeline(arguments, std::move(robot), camera);
+  Session session = make_session(arguments, std::move(robot), camera);
+  Pipeline& pipeline = session.pipeline();
 
   // The results do not depend on this depth.
   const Image<float> any_depth(camera.intrinsics.width(), camera.intrinsics.height(), 1.0F);
-  const FrameReport& first = pipeline.process({.depth = any_depth.view(), .joints = positions});
+  const FrameReport& first =
+      pipeline.process({.depth = any_depth.view(), .pose = {.positions = positions}});
   if (!first.T_root_camera) throw InputError(first.message);
   RenderedImages images(arguments, first);
   print_notes(pipeline.robot().notes());
   std::vector<std::string> of_pose = rest_notes(pipeline.robot(), arguments);
-  io::SequenceNotes doubts(pipeline.robot());
+  Warnings doubts(pipeline.robot());
   doubts.add(first, positions);
   append(of_pose, doubts.lines());
   print_notes(of_pose);
@@ -186,7 +187,7 @@ int execute(const RenderArguments& arguments) {
   const Image<float> seen = io::copy_of(first.virtual_depth.depth);
   io::Statistics repeats;
   for (int i = 0; i < arguments.repeat; ++i)
-    repeats.add(pipeline.process({.depth = seen.view(), .joints = positions}));
+    repeats.add(pipeline.process({.depth = seen.view(), .pose = {.positions = positions}}));
   images.finish();
   const auto of_robot = pipeline.robot().notes();
   std::vector<std::string> notes(of_robot.begin(), of_robot.end());

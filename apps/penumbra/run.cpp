@@ -23,7 +23,7 @@ namespace {
 std::atomic<int> interrupted_by = 0;  // a signal's number
 
 /// Judges all frames, with a bar on the terminal.
-io::RunResult judge_all(io::Judging& judging, io::RunOutput& output) {
+io::RunResult judge_all(io::InputSession& judging, io::RunOutput& output) {
   Progress progress(judging.size().value_or(0));
   return judging.run(output, [&] {
     progress.step();
@@ -55,7 +55,7 @@ void check_place(const RunArguments& arguments) {
 }  // namespace
 
 std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
-                                           const io::Judging& judging) {
+                                           const io::InputSession& judging) {
   const Pipeline& pipeline = judging.pipeline();
   const std::string& root = pipeline.robot().links().front();
   if (io::is_output_bag(options.path))
@@ -93,7 +93,7 @@ int execute(const RunArguments& arguments) {
       cameras.push_back({name, {}});
   if (!cameras.empty()) return run_cameras(arguments, cameras);
   if (!io::is_output_bag(path)) io::check_output_folder(arguments.output);
-  io::Judging judging(arguments.judging, print_line);
+  io::InputSession judging(arguments.judging, print_line);
   const auto output = open_output(arguments.output, judging);
   catch_interrupts();
   output->begin(judging.head());

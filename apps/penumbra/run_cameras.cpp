@@ -26,7 +26,7 @@ namespace {
 struct CameraTask {
   std::string name;
   RunArguments arguments;
-  std::optional<io::Judging> judging = {};
+  std::optional<io::InputSession> judging = {};
   std::optional<io::CameraRun> views = {};
   io::RunResult result = {};
   std::exception_ptr fault = {};

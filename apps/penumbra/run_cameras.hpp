@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <apps/penumbra/arguments.hpp>
-#include <io/run/judging.hpp>
+#include <io/run/input_session.hpp>
 
 namespace penumbra::app {
 
@@ -18,7 +18,7 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
 
 /// Replaces earlier results: in a folder now, in a bag at the end.
 [[nodiscard]] std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
-                                                         const io::Judging& judging);
+                                                         const io::InputSession& judging);
 
 /// From now on the first Ctrl-C or SIGTERM only makes was_interrupted() true; a second one ends the
 /// program.

@@ -43,7 +43,7 @@ void add_cameras(CLI::App& app, RunArguments& run) {
            });
 }
 
-void add_sequence(CLI::App& app, io::JudgingOptions& judging) {
+void add_sequence(CLI::App& app, io::SessionOptions& judging) {
   add_choice<ImageSpace>(
       app, "--image", "raw (default): results fit the recorded images; or rectified", judging.image,
       {{"raw", ImageSpace::raw}, {"rectified", ImageSpace::rectified}});
@@ -56,27 +56,38 @@ void add_sequence(CLI::App& app, io::JudgingOptions& judging) {
              });
 }
 
-/// Returns the numbers between commas; nothing if they are not `count`.
-std::vector<double> to_numbers(const std::string& text, std::size_t count) {
+/// Returns the numbers between commas; none if one of them is no number.
+std::vector<double> to_numbers(const std::string& text) {
   std::vector<double> numbers;
-  for (const std::string& part : split(text, ','))
-    if (const auto number = io::parse_number<double>(part)) numbers.push_back(*number);
-  if (numbers.size() != count || split(text, ',').size() != count) numbers.clear();
+  for (const std::string& part : split(text, ',')) {
+    const auto number = io::parse_number<double>(part);
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
   return numbers;
 }
 
 DriftLimits to_drift_limits(const std::string& text) {
-  const std::vector<double> limits = to_numbers(text, 2);
-  if (limits.empty() || limits[0] <= 0.0 || limits[1] <= 0.0)
-    refuse_option("--drift-limits", text, "MM,DEGREES: two numbers above 0");
-  return {.position = 1e-3 * limits[0], .rotation = limits[1] * std::numbers::pi / 180.0};
+  const std::vector<double> limits = to_numbers(text);
+  if (limits.size() != 2) refuse_option("--drift-limits", text, "MM,DEGREES: two numbers");
+  const DriftLimits drift{.position = 1e-3 * limits[0],
+                          .rotation = limits[1] * std::numbers::pi / 180.0};
+  drift.check();
+  return drift;
 }
 
-Tolerance to_tolerance(const std::string& text) {
-  const std::vector<double> abc = to_numbers(text, 3);
-  if (abc.empty())
-    refuse_option("--tolerance", text, "A,B,C: three numbers, of e(z) = A + B z + C z^2 in metres");
-  return {abc[0], abc[1], abc[2]};
+/// Adds an option for each setting of the label rule: front_min_width as --front-min-width.
+void add_rule(CLI::App& app, io::RuleOptions& rule) {
+  for_each_setting<LabelRule>([&]<typename Value>(const Setting<LabelRule, Value>& setting) {
+    std::string option = std::string("--") + setting.name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    const char* const value = !NumberSetting<Value> ? "A,B,C" : *setting.unit != 0 ? "PX" : "N";
+    add_option(app, option, setting.meaning, value,
+               [&rule, setting, option](const std::string& text) {
+                 if (!rule.give(setting, to_numbers(text)))
+                   refuse_option(option, text, expected_of(setting));
+               });
+  });
 }
 
 io::Saves to_saves(const std::string& text) {
@@ -109,7 +120,7 @@ void check_output_bag(const RunArguments& run) {
 }
 
 /// Targets come from a file or from topics. Pixels in topics are those of the camera's images.
-void check_targets(const io::JudgingOptions& judging) {
+void check_targets(const io::SessionOptions& judging) {
   if (judging.input.bag.target_topics.empty()) return;
   if (judging.targets || judging.no_targets)
     throw InputError("--target-topic: --targets is given too; leave one of them out");
@@ -126,7 +137,7 @@ void check_input(const CLI::App& app, io::InputOptions& input) {
 }
 
 /// Checks what run, tune and view have in common.
-void check_judging(const CLI::App& app, io::JudgingOptions& judging) {
+void check_judging(const CLI::App& app, io::SessionOptions& judging) {
   check_renderer(judging.backend, judging.renderer);
   check_targets(judging);
   check_input(app, judging.input);
@@ -194,21 +205,14 @@ void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
   for (std::size_t i = first; i < options.size(); ++i) options[i]->group(help.group);
 }
 
-void add_judging(CLI::App& app, io::JudgingOptions& judging, const std::string& geometry_default) {
+void add_judging(CLI::App& app, io::SessionOptions& judging, const std::string& geometry_default) {
   io::InputOptions& input = judging.input;
   io::RuleOptions& rule = judging.rule;
   add_renderer(app, judging.backend, judging.renderer);
   add_geometry(app, input.geometry, geometry_default);
   add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
   add_extra(app, input.extra);
-  add_option(app, "--tolerance",
-             "depth that differs by less than e(z) = A + B z + C z^2 metres is the same", "A,B,C",
-             [&](const std::string& text) { rule.tolerance = to_tolerance(text); });
-  add_number(app, "--front-min-width", "front regions narrower than this become occluded; 0: off",
-             "PX", rule.front_min_width, 0, LabelRule::max_width);
-  add_number(app, "--fringe-reach",
-             "how far past its outline the sensor shows the robot's depth; 0: off", "PX",
-             rule.fringe_reach, 0, LabelRule::max_fringe_reach);
+  add_rule(app, rule);
   add_option(app, "--sensor",
              "realsense_d4xx (default), zed, tof, structured_light or none: their tolerance and "
              "fringe reach; the two options override",
@@ -221,7 +225,7 @@ void add_judging(CLI::App& app, io::JudgingOptions& judging, const std::string& 
              "MM,DEGREES", [&](const std::string& text) { judging.drift = to_drift_limits(text); });
   add_choice<bool>(app, "--labels",
                    "full (default), or paper: constant 0.01 m, no clean-up, no fringe, no beyond; "
-                   "--tolerance, --front-min-width and --fringe-reach override",
+                   "--tolerance and the other settings override",
                    rule.paper_labels, {{"full", false}, {"paper", true}});
 }
 

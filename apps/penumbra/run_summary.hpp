@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <io/run/judging.hpp>
+#include <io/run/input_session.hpp>
 
 namespace penumbra::app {
 

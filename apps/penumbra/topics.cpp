@@ -57,7 +57,7 @@ int execute(const TopicsArguments& arguments) {
   const auto graph = io::join_graph(arguments.graph);
   static_cast<void>(stop.wait(to_duration(arguments.wait)));
   const std::vector<io::GraphTopic> topics = graph->graph();
-  print_notes(graph->take_complaints());
+  print_notes(graph->take_warnings());
   if (arguments.json)
     std::cout << io::graph_json(graph->domain(), topics) << '\n';
   else

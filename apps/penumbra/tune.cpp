@@ -19,7 +19,7 @@
 #include <io/files/image_size.hpp>
 #include <io/files/stl_file.hpp>
 #include <io/files/tuning_report.hpp>
-#include <io/run/judging.hpp>
+#include <io/run/input_session.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -32,16 +32,17 @@ class KeptFrames final : public io::RunOutput {
   explicit KeptFrames(const DepthRange& range) : frames(range) {}
 
   void begin(const io::ReportHead& /*head*/) override {}
-  void save(const FrameReport& report, const io::FrameData& data,
+  void save(const FrameReport& report, const Frame& frame,
             const io::ShownTargets& /*targets*/) override {
     frames.add(report);
-    if (!data.color.empty() && frames.holds(report.index)) colors[report.index] = data.color;
+    if (!frame.color.view.empty() && frames.holds(report.index))
+      colors[report.index] = io::copy_of(frame.color.view);
     std::erase_if(colors, [&](const auto& color) { return !frames.holds(color.first); });
   }
   void finish(const io::Statistics& /*all*/, std::span<const std::string> /*notes*/) override {}
 
   TuningFrames frames;
-  std::map<std::size_t, Image<io::Rgb8>> colors;
+  std::map<std::size_t, Image<Rgb8>> colors;
 };
 
 std::string percent(double share) { return fixed(100.0 * share, 2) + " %"; }
@@ -108,7 +109,7 @@ void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& e
 
 int execute(const TuneArguments& arguments) {
   const fs::path& folder = arguments.output;
-  io::Judging judging(arguments.judging, print_line);
+  io::InputSession judging(arguments.judging, print_line);
   const Pipeline& pipeline = judging.pipeline();
   KeptFrames kept(pipeline.rule().range);
   {
@@ -140,10 +141,10 @@ int execute(const TuneArguments& arguments) {
   }
   const auto frames = kept.frames.frames();
   const TuningFrame& shown = frames[tuning.fringe.shown_frame];
-  Image<io::Rgb8> color;
+  Image<Rgb8> color;
   const auto seen = io::rectified(pipeline.rectification(),
                                   std::as_const(kept.colors[shown.index]).view(), color);
-  const Image<io::Rgb8> picture = io::draw_tuning(tuning, shown, seen);
+  const Image<Rgb8> picture = io::draw_tuning(tuning, shown, seen);
   io::write_png(folder / "tune.png", picture.view());
   const std::string json = io::tuning_json(tuning, frames, extras) + "\n";
   io::write_file(folder / "tune.json", json.data(), json.size());

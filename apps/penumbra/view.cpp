@@ -23,7 +23,7 @@
 #include <apps/penumbra/text.hpp>
 #include <io/bag/bag_reader.hpp>
 #include <io/files/camera_views.hpp>
-#include <io/run/judging.hpp>
+#include <io/run/input_session.hpp>
 #include <io/web/cameras_view.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/run_folder.hpp>
@@ -94,12 +94,12 @@ class ViewSource {
   [[nodiscard]] const io::CameraRun* run() const { return recorder_ ? &recorder_->run() : nullptr; }
 
  private:
-  void open_input(const io::JudgingOptions& options, const std::string& camera);
+  void open_input(const io::SessionOptions& options, const std::string& camera);
   void open_run(const ViewArguments& arguments);
   void judge();
 
   std::vector<std::string> cameras_;
-  std::optional<io::Judging> judging_;
+  std::optional<io::InputSession> judging_;
   std::optional<io::FrameStore> store_;
   std::optional<io::ViewRecorder> recorder_;  // with several cameras
   std::optional<io::RunFolder> folder_;
@@ -134,7 +134,7 @@ ViewSource::~ViewSource() {
   if (thread_.joinable()) thread_.join();
 }
 
-void ViewSource::open_input(const io::JudgingOptions& options, const std::string& camera) {
+void ViewSource::open_input(const io::SessionOptions& options, const std::string& camera) {
   judging_.emplace(options, print_line);
   const Pipeline& pipeline = judging_->pipeline();
   store_.emplace(pipeline.rectification());

@@ -13,15 +13,15 @@ ROOT = pathlib.Path(__file__).parents[2]
 
 # Folders of penumbra/ and what of them a program uses.
 HEADERS = {
-    "The whole method": ["pipeline/pipeline.hpp", "pipeline/frame.hpp", "pipeline/target.hpp"],
+    "The whole method": ["pipeline/pipeline.hpp", "pipeline/frame.hpp", "targets/target.hpp"],
     "Poses over time": ["pipeline/frame_queue.hpp", "time/pose_history.hpp",
-                        "pipeline/pose_lookup.hpp", "time/joint_buffer.hpp",
+                        "poses/robot_pose.hpp", "poses/pose_lookup.hpp", "time/joint_buffer.hpp",
                         "time/transform_buffer.hpp"],
     "Robot": ["robot/robot.hpp"],
     "Camera": ["camera/camera.hpp", "camera/intrinsics.hpp", "camera/distortion.hpp",
                "camera/rectification.hpp", "camera/registration.hpp"],
     "Renderers": ["render/depth_renderer.hpp"],
-    "Labels and verdicts": ["labels/labels.hpp", "targets/target.hpp",
+    "Labels and verdicts": ["labels/labels.hpp", "targets/region.hpp",
                             "targets/target_judge.hpp"],
     "Tracking": ["tracking/trackers.hpp"],
     "Calibration": ["calibration/calibration.hpp"],

@@ -23,7 +23,7 @@ def judge(source: str) -> Dict[str, List[penumbra.TargetReport]]:
     pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
     targets = penumbra.TargetsFile.open(
         given.targets, robot=given.robot, image=given.config.image, images=pipeline.intrinsics,
-        is_bent=not given.camera.distortion.is_none,
+        has_distortion=not given.camera.distortion.is_none,
         beyond_hides=given.beyond is not penumbra.BeyondMeans.visible)
     judged: Dict[str, List[penumbra.TargetReport]] = {}
     for frame in given:

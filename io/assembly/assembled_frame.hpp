@@ -9,7 +9,7 @@
 #include <utility>
 
 #include <penumbra/pipeline/frame_queue.hpp>
-#include <penumbra/pipeline/target.hpp>
+#include <penumbra/targets/target.hpp>
 #include <penumbra/time/transform_buffer.hpp>
 
 #include <io/assembly/camera_mount.hpp>
@@ -39,17 +39,16 @@ struct CameraSetup {
   TargetInbox targets;
 };
 
-/// A depth image with all that is needed to judge it. DepthInput makes the pipeline's frame of it.
+/// A frame whose images are not decoded yet: DepthInput does that.
 struct AssembledFrame {
   std::shared_ptr<CameraSetup> setup;
-  std::uint64_t index = 0;  ///< the number of the camera's depth message, from 0
+  /// Its index is the number of the camera's depth message, from 0. A source_message says why the
+  /// image must not be used.
+  Frame frame;
   KeptImage image;
-  std::int64_t arrived = 0;         ///< on the caller's clock
-  QueuedFrame pose;                 ///< at the image's own stamp, or a status without a pose
-  std::string fault;                ///< why the image must not be used; empty: it may be
-  TransformAnswer T_judged_depth;   ///< if the setup has a separate depth camera
-  std::span<const Target> targets;  ///< valid until the setup's next frame
-  std::optional<KeptImage> color;   ///< if it was requested and received
+  std::optional<KeptImage> color;  ///< if it was requested and received
+  std::int64_t arrived = 0;        ///< on the caller's clock
+  TransformAnswer T_judged_depth;  ///< if the setup has a separate depth camera
 };
 
 }  // namespace penumbra::io

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/pipeline/pose_lookup.hpp>
+#include <penumbra/poses/pose_lookup.hpp>
 
 namespace penumbra::io {
 

@@ -63,7 +63,8 @@ bool BagSource::is_in_range(std::int64_t image) const {
          image < options_.end.value_or(std::numeric_limits<std::int64_t>::max());
 }
 
-bool BagSource::next(FrameData& data, Frame& frame) {
+bool BagSource::next(Frame& frame) {
+  current_ = {};
   while (!assembler_.next(0, now_, options_.with_color, current_)) {
     if (!ended_) {
       read_message();
@@ -74,13 +75,16 @@ bool BagSource::next(FrameData& data, Frame& frame) {
                      " depth images is in the range; change --frames");
   }
   given_ = true;
-  if (const auto fault = depth_.read(current_, frame, data.message); !fault.empty())
+  if (const auto fault = depth_.read(current_); !fault.empty())
     assembler_.add_fault(options_.topics.depth.name, current_.arrived, fault);
-  data.index = options_.first.value_or(0) + static_cast<std::int64_t>(current_.index);
-  frame.index = static_cast<std::size_t>(data.index);
-  data.stamp = frame.stamp;
-  data.status = frame.source_status;
-  if (options_.with_color) show(data, frame);
+  frame = std::move(current_.frame);
+  *frame.index += static_cast<std::size_t>(options_.first.value_or(0));
+  if (options_.topics.color && options_.with_color) {
+    frame.color_message =
+        current_.color ? decode_color(*current_.color, options_.camera.cameras.judged, color_)
+                       : ColorImages::none_near;
+    if (frame.color_message.empty()) frame.color = std::as_const(color_).view();
+  }
   assembler_.done(0, true);
   return true;
 }
@@ -121,24 +125,6 @@ const std::optional<std::size_t>& BagSource::input_of(std::size_t topic) {
     }
   }
   return inputs_[topic];
-}
-
-void BagSource::show(FrameData& data, const Frame& frame) {
-  data.color_message.clear();
-  if (options_.topics.color)
-    data.color_message =
-        current_.color ? decode_color(*current_.color, options_.camera.cameras.judged, data.color)
-                       : ColorImages::none_near;
-  if (!options_.topics.color || !data.color_message.empty()) data.color = {};
-  std::visit(
-      [&](const auto& view) {
-        using T = std::remove_const_t<std::remove_pointer_t<decltype(view.data)>>;
-        Image<T> copy(view.empty() ? 0 : view.width, view.empty() ? 0 : view.height);
-        for (int v = 0; v < copy.height(); ++v)
-          std::copy_n(view.row(v), copy.width(), copy.view().row(v));
-        data.depth = std::move(copy);
-      },
-      frame.depth);
 }
 
 std::vector<std::string> BagSource::notes() const {

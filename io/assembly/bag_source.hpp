@@ -39,7 +39,7 @@ class BagSource final : public FrameSource {
 
   /// Reads the next frame. Throws InputError at the end if the bag has none of the requested
   /// frames.
-  bool next(FrameData& data, Frame& frame) override;
+  bool next(Frame& frame) override;
   [[nodiscard]] std::optional<std::size_t> size() const override { return size_; }
   [[nodiscard]] std::vector<std::string> notes() const override;
 
@@ -48,7 +48,6 @@ class BagSource final : public FrameSource {
   void read_message();
   [[nodiscard]] const std::optional<std::size_t>& input_of(std::size_t topic);
   [[nodiscard]] bool is_in_range(std::int64_t image) const;
-  void show(FrameData& data, const Frame& frame);
 
   BagSourceOptions options_;
   std::unique_ptr<BagReader> bag_;
@@ -56,7 +55,8 @@ class BagSource final : public FrameSource {
   FrameAssembler assembler_;
   DepthInput depth_;
   std::vector<std::optional<std::size_t>> inputs_;  // the assembler's topic of each of the bag's
-  AssembledFrame current_;                          // the frame that the caller uses
+  AssembledFrame current_;                          // whose image the caller's frame refers to
+  Image<Rgb8> color_;                               // likewise
   std::optional<std::size_t> size_;
   std::int64_t images_ = 0;  // number read so far
   std::int64_t now_ = 0;     // current log time

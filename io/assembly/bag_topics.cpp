@@ -103,8 +103,8 @@ class Chooser {
     const auto other = std::find_if(topics_.begin(), topics_.end(),
                                     [&](const BagTopic* topic) { return topic->name == name; });
     if (other != topics_.end())
-      refuse(option + ": " + name + " is of type " + printable((*other)->type) + "; " +
-             one_of(types) + " is wanted");
+      refuse(option + ": " + name + " is of type " + printable((*other)->type) + "; expected " +
+             one_of(types));
     refuse(option + ": there is no topic '" + name + "' with messages" + near_names(name, known));
   }
 
@@ -135,7 +135,7 @@ class Chooser {
     for (const BagTopic& topic : topics)
       if (topic.encoding != "cdr")
         return "is not a bag of ROS 2: messages of " + printable(topic.name) + " are encoded as '" +
-               printable(topic.encoding) + "'; cdr is wanted";
+               printable(topic.encoding) + "'; expected cdr";
     return "holds no messages";
   }
 

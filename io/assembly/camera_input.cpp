@@ -31,21 +31,6 @@ std::string why_dropped(DropReason reason) {
 
 }  // namespace
 
-std::string_view to_string(FrameDrop reason) {
-  switch (reason) {
-    case FrameDrop::unreadable:
-      return "unreadable";
-    case FrameDrop::not_ready:
-      return "not_ready";
-    case FrameDrop::changed:
-      return "changed";
-    case FrameDrop::no_camera_info:
-      return "no_camera_info";
-    default:
-      return to_string(static_cast<DropReason>(reason));
-  }
-}
-
 CameraInput::CameraInput(CameraInputOptions options, const RobotInput& robot)
     : options_(std::move(options)),
       robot_(robot),
@@ -69,18 +54,21 @@ void CameraInput::take_depth(KeptImage image, std::int64_t now) {
   const std::int64_t stamp = image.header().stamp;
   const std::string frame = image.header().frame_id;
   infos_.add_image(stamp);
-  Waiting waiting{.index = index, .image = std::move(image), .arrived = now};
-  if (gives_every()) {
+  Waiting waiting;
+  waiting.frame.index = index;
+  waiting.image = std::move(image);
+  waiting.arrived = now;
+  if (is_lossless()) {
     color_infos_.add_image(stamp);
     if (frame_name(frame) != frame_name(depth_frame_))
-      waiting.fault = "the depth image is of the frame '" + printable(frame) +
-                      "', the first one of '" + printable(depth_frame_) + "'";
+      waiting.frame.source_message = "the depth image is of the frame '" + printable(frame) +
+                                     "', the first one of '" + printable(depth_frame_) + "'";
   } else {
     note_arrival(now);
     depth_frame_ = frame;
     refresh();
-    if (!setup_) return drop(FrameDrop::not_ready);
-    if (stamp < valid_from_) return drop(FrameDrop::changed);
+    if (!setup_) return drop(DropReason::not_ready);
+    if (stamp < valid_from_) return drop(DropReason::changed);
   }
   queued_.emplace(index, std::move(waiting));
   setup_->queue.push(index, stamp, now);
@@ -88,15 +76,18 @@ void CameraInput::take_depth(KeptImage image, std::int64_t now) {
 
 void CameraInput::take_unreadable(const std::string& fault, std::int64_t now) {
   const std::uint64_t index = counts_.received++;
-  if (!gives_every()) return drop(FrameDrop::unreadable);
-  hold_without_pose({.index = index, .image = {}, .arrived = now, .fault = fault},
-                    "the depth image's message cannot be read");
+  if (!is_lossless()) return drop(DropReason::unreadable);
+  Waiting waiting;
+  waiting.frame.index = index;
+  waiting.frame.source_message = fault;
+  waiting.arrived = now;
+  hold_without_pose(std::move(waiting), "the depth image's message cannot be read");
 }
 
 bool CameraInput::take_info(const CameraInfoMessage& info) {
   const std::int64_t stamp = info.header.stamp;
   const bool differs = info_ && !is_same_camera(*info_, info);
-  if (gives_every()) {
+  if (is_lossless()) {
     const bool begins = differs && !infos_.last_differs();
     infos_.add_info(stamp, differs);
     return begins;
@@ -119,7 +110,7 @@ bool CameraInput::take_info(const CameraInfoMessage& info) {
 
 bool CameraInput::take_color_info(const CameraInfoMessage& info) {
   const bool differs = color_info_ && !is_same_camera(*color_info_, info);
-  if (gives_every()) {
+  if (is_lossless()) {
     const bool begins = differs && !color_infos_.last_differs();
     color_infos_.add_info(info.header.stamp, differs);
     return begins;
@@ -136,7 +127,7 @@ bool CameraInput::take_color_info(const CameraInfoMessage& info) {
 }
 
 void CameraInput::refresh() {
-  if (gives_every()) return;
+  if (is_lossless()) return;
   Basis basis{.robot = robot_.posed().get(),
               .frames = robot_.frames_revision(),
               .cameras = cameras_revision_,
@@ -153,7 +144,7 @@ void CameraInput::refresh() {
 }
 
 void CameraInput::replace_setup(std::shared_ptr<CameraSetup> setup) {
-  drop(FrameDrop::changed, queued_.size() + held_.size());
+  drop(DropReason::changed, queued_.size() + held_.size());
   queued_.clear();
   held_.clear();
   if (setup_) {
@@ -179,7 +170,7 @@ std::shared_ptr<CameraSetup> CameraInput::find_setup() {
 }
 
 std::shared_ptr<CameraSetup> CameraInput::make_setup(JudgedCameras cameras, CameraMount mount) {
-  const FrameQueueOptions queue{.policy = gives_every() ? DropPolicy::every : DropPolicy::newest,
+  const FrameQueueOptions queue{.policy = is_lossless() ? DropPolicy::every : DropPolicy::newest,
                                 .time_offset = options_.time_offset,
                                 .max_wait = options_.max_wait,
                                 .max_frames = options_.max_frames,
@@ -188,9 +179,9 @@ std::shared_ptr<CameraSetup> CameraInput::make_setup(JudgedCameras cameras, Came
                                           .camera_parent = mount.parent,
                                           .camera_frame = mount.frame}};
   const auto on_drop = [this](const DroppedFrame& frame) {
-    if (gives_every()) return dropped_.push_back(frame);
+    if (is_lossless()) return dropped_.push_back(frame);
     queued_.erase(frame.key);
-    drop(static_cast<FrameDrop>(frame.reason));
+    drop(frame.reason);
   };
   return std::make_shared<CameraSetup>(robot_.posed(), std::move(cameras), std::move(mount), queue,
                                        options_.hidden_targets, on_drop);
@@ -215,11 +206,12 @@ void CameraInput::finish() {
 }
 
 void CameraInput::hold_without_pose(Waiting waiting, const std::string& why) {
-  waiting.pose.stamp = waiting.image.is_empty() ? 0 : waiting.image.header().stamp;
-  waiting.pose.pose.status = options_.poses == PoseSource::transforms
-                                 ? FrameStatus::missing_transform
-                                 : FrameStatus::missing_joints;
-  waiting.pose.pose.message = why;
+  if (!waiting.image.is_empty() && waiting.image.header().stamp > 0)
+    waiting.frame.stamp = waiting.image.header().stamp;
+  waiting.frame.pose.status = options_.poses == PoseSource::transforms
+                                  ? FrameStatus::missing_transform
+                                  : FrameStatus::missing_joints;
+  waiting.frame.pose.message = why;
   held_.push_back(std::move(waiting));
 }
 
@@ -227,18 +219,20 @@ void CameraInput::collect(std::int64_t now) {
   const auto take_queued = [this](std::uint64_t index) {
     return std::move(queued_.extract(index).mapped());
   };
-  for (QueuedFrame pose; setup_ && setup_->queue.next(now, pose); pose = {}) {
-    held_.push_back(take_queued(pose.key));
-    held_.back().pose = std::move(pose);
+  Frame posed;
+  while (const auto index = setup_ ? setup_->queue.next(now, posed) : std::nullopt) {
+    Waiting& held = held_.emplace_back(take_queued(*index));
+    held.frame.stamp = posed.stamp;
+    held.frame.pose = std::move(posed.pose);
   }
   for (const DroppedFrame& frame : std::exchange(dropped_, {}))
     hold_without_pose(take_queued(frame.key), why_dropped(frame.reason));
-  if (gives_every()) return;
-  for (; held_.size() > options_.max_frames; held_.pop_front()) drop(FrameDrop::overflow);
+  if (is_lossless()) return;
+  for (; held_.size() > options_.max_frames; held_.pop_front()) drop(DropReason::overflow);
 }
 
 CameraInput::InfoState CameraInput::find_info(const Waiting& waiting, std::int64_t now) {
-  const std::int64_t stamp = waiting.pose.stamp;
+  const std::int64_t stamp = waiting.frame.stamp.value_or(0);
   if (!infos_.are_likely() || infos_.covers(stamp)) return InfoState::known;
   if (!finished_ && now - waiting.arrived < newest_companion_wait) return InfoState::awaited;
   if (infos_.are_certain()) return InfoState::missing;
@@ -253,12 +247,12 @@ bool CameraInput::find_newest(std::int64_t now, Waiting& found) {
     const auto place = held_.begin() + static_cast<std::ptrdiff_t>(i);
     if (state == InfoState::missing) {
       ++without_info_;
-      drop(FrameDrop::no_camera_info);
+      drop(DropReason::no_camera_info);
       held_.erase(place);
       continue;
     }
     without_info_ = 0;
-    drop(FrameDrop::superseded, i);
+    drop(DropReason::superseded, i);
     found = std::move(*place);
     held_.erase(held_.begin(), place + 1);
     return true;
@@ -271,7 +265,7 @@ bool CameraInput::awaits_companions(const Waiting& waiting, std::int64_t now,
   if (finished_ || waiting.image.is_empty() || held_.size() >= options_.max_frames ||
       stamp_distance(now, waiting.arrived) > std::uint64_t{every_companion_wait})
     return false;
-  const std::int64_t stamp = waiting.pose.stamp;
+  const std::int64_t stamp = waiting.frame.stamp.value_or(0);
   const bool has_info = infos_.are_certain() ? infos_.covers(stamp) : infos_.reaches(stamp);
   const bool has_color_info = options_.color_info_topic.empty() || color_infos_.reaches(stamp);
   const bool has_color = !with_color || options_.color_topic.empty() || colors_.reaches(stamp);
@@ -279,8 +273,9 @@ bool CameraInput::awaits_companions(const Waiting& waiting, std::int64_t now,
 }
 
 std::string CameraInput::fault_of(const Waiting& waiting) const {
-  if (!gives_every() || !waiting.fault.empty()) return waiting.fault;
-  const std::int64_t stamp = waiting.pose.stamp;
+  const std::string& known = waiting.frame.source_message;
+  if (!is_lossless() || !known.empty()) return known;
+  const std::int64_t stamp = waiting.frame.stamp.value_or(0);
   if (infos_.are_certain() && stamp > 0 && !infos_.covers(stamp))
     return "its camera_info is missing, although other images have one: it may be another camera's";
   if (infos_.differs(stamp) || color_infos_.differs(stamp))
@@ -290,30 +285,27 @@ std::string CameraInput::fault_of(const Waiting& waiting) const {
 
 bool CameraInput::find_next(std::int64_t now, bool with_color, Waiting& found) {
   collect(now);
-  if (!gives_every()) return find_newest(now, found);
+  if (!is_lossless()) return find_newest(now, found);
   if (held_.empty() || awaits_companions(held_.front(), now, with_color)) return false;
   found = std::move(held_.front());
   held_.pop_front();
   return true;
 }
 
-bool CameraInput::next(std::int64_t now, bool with_color, AssembledFrame& frame) {
-  Waiting found;
-  if (!find_next(now, with_color, found)) return false;
-  frame.fault = fault_of(found);
-  frame.setup = setup_;
-  frame.index = found.index;
-  frame.image = std::move(found.image);
-  frame.arrived = found.arrived;
-  frame.pose = std::move(found.pose);
+bool CameraInput::next(std::int64_t now, bool with_color, AssembledFrame& next) {
+  if (!find_next(now, with_color, next)) return false;
+  next.setup = setup_;
+  Frame& frame = next.frame;
+  frame.source_message = fault_of(next);
   frame.targets = setup_->targets.take();
-  if (setup_->cameras.depth && has_pose(frame.pose.pose.status))
-    setup_->posed->history.transforms().at(frame.pose.pose_stamp, setup_->cameras.judged.frame_id,
-                                           depth_frame_, frame.T_judged_depth);
-  const KeptImage* const color = with_color ? colors_.find(frame.pose.stamp) : nullptr;
-  frame.color.reset();
-  if (color != nullptr) frame.color = *color;
-  colors_.forget_before(frame.pose.stamp);
+  const std::int64_t stamp = frame.stamp.value_or(0);
+  if (setup_->cameras.depth && has_pose(frame.pose.status))
+    setup_->posed->history.transforms().at(setup_->queue.pose_stamp(stamp),
+                                           setup_->cameras.judged.frame_id, depth_frame_,
+                                           next.T_judged_depth);
+  if (const KeptImage* const color = with_color ? colors_.find(stamp) : nullptr)
+    next.color = *color;
+  colors_.forget_before(stamp);
   ++counts_.in_work;
   return true;
 }
@@ -329,7 +321,7 @@ std::optional<std::int64_t> CameraInput::wake_at() const {
   if (setup_) first = setup_->queue.wake_at();
   if (!held_.empty()) {
     const std::int64_t alone =
-        held_.front().arrived + (gives_every() ? every_companion_wait : newest_companion_wait);
+        held_.front().arrived + (is_lossless() ? every_companion_wait : newest_companion_wait);
     first = std::min(first.value_or(alone), alone);
   }
   return first;

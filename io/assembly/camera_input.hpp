@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <penumbra/pipeline/frame_queue.hpp>
-#include <penumbra/pipeline/pose_lookup.hpp>
+#include <penumbra/poses/pose_lookup.hpp>
 
 #include <io/assembly/assembled_frame.hpp>
 #include <io/assembly/camera_infos.hpp>
@@ -53,21 +53,6 @@ struct CameraInputOptions {
   std::optional<KnownCamera> known = {};
 };
 
-/// The reason why an image was not judged.
-enum class FrameDrop {
-  superseded,  ///< the first five equal DropReason
-  late,
-  overflow,
-  clock_jump,
-  no_stamp,
-  unreadable,     ///< the message cannot be decoded
-  not_ready,      ///< no robot or no camera_info was known yet
-  changed,        ///< robot, camera_info or mount changed while it waited, or it is older than that
-  no_camera_info  ///< its own camera_info is missing, other images have one
-};
-inline constexpr std::size_t frame_drops = 9;
-[[nodiscard]] std::string_view to_string(FrameDrop reason);
-
 /// Counts depth images by result: received = judged + failed + dropped + waiting + in_work.
 struct ImageCounts {
   std::size_t received = 0;
@@ -75,9 +60,9 @@ struct ImageCounts {
   std::size_t failed = 0;  ///< no result could be computed
   std::size_t waiting = 0;
   std::size_t in_work = 0;
-  std::array<std::size_t, frame_drops> dropped{};
+  std::array<std::size_t, drop_reasons> dropped{};
 
-  [[nodiscard]] std::size_t of(FrameDrop reason) const {
+  [[nodiscard]] std::size_t of(DropReason reason) const {
     return dropped[static_cast<std::size_t>(reason)];
   }
 };
@@ -119,7 +104,7 @@ class CameraInput {
   void finish();
 
   /// See FrameAssembler.
-  bool next(std::int64_t now, bool with_color, AssembledFrame& frame);
+  bool next(std::int64_t now, bool with_color, AssembledFrame& next);
   void done(bool is_judged, std::size_t unjudged_targets);
   [[nodiscard]] std::optional<std::int64_t> wake_at() const;
 
@@ -132,7 +117,7 @@ class CameraInput {
   [[nodiscard]] bool lacks_color_info() const {
     return !options_.color_info_topic.empty() && !color_info_;
   }
-  /// Returns the number of consecutive images that were dropped as FrameDrop::no_camera_info.
+  /// Returns the number of consecutive images that were dropped as DropReason::no_camera_info.
   [[nodiscard]] std::size_t without_info() const { return without_info_; }
   [[nodiscard]] std::size_t camera_changes() const { return camera_changes_; }
   [[nodiscard]] std::optional<std::int64_t> last_depth() const { return last_depth_; }
@@ -143,13 +128,7 @@ class CameraInput {
 
  private:
   /// An image that waits for its pose, then, with its pose, for its camera_info.
-  struct Waiting {
-    std::uint64_t index = 0;
-    KeptImage image;
-    std::int64_t arrived = 0;
-    std::string fault = {};  // why it must not be used
-    QueuedFrame pose = {};
-  };
+  using Waiting = AssembledFrame;
   /// The state of an image's own camera_info if the driver sends one with each image.
   enum class InfoState { known, awaited, missing };
   /// The inputs of a setup.
@@ -160,13 +139,13 @@ class CameraInput {
     bool operator==(const Basis&) const = default;
   };
 
-  [[nodiscard]] bool gives_every() const { return options_.known.has_value(); }
+  [[nodiscard]] bool is_lossless() const { return options_.known.has_value(); }
   void note_arrival(std::int64_t now);
   [[nodiscard]] std::shared_ptr<CameraSetup> find_setup();
   [[nodiscard]] std::shared_ptr<CameraSetup> make_setup(JudgedCameras cameras, CameraMount mount);
   [[nodiscard]] JudgedCameras find_cameras() const;
   void replace_setup(std::shared_ptr<CameraSetup> setup);
-  void drop(FrameDrop reason, std::size_t images = 1) {
+  void drop(DropReason reason, std::size_t images = 1) {
     counts_.dropped[static_cast<std::size_t>(reason)] += images;
   }
   void hold_without_pose(Waiting waiting, const std::string& why);

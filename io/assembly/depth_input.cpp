@@ -21,20 +21,16 @@ DepthInput::DepthInput(const JudgedCameras& cameras) {
   if (cameras.depth) registration_.emplace(*cameras.depth, cameras.judged);
 }
 
-std::string DepthInput::read(const AssembledFrame& from, Frame& frame, std::string& message) {
-  frame = from.pose.frame();
-  if (from.pose.stamp <= 0) frame.stamp.reset();
-  frame.targets = from.targets;
-  message = from.pose.pose.message;
-  std::string undecoded, fault = from.fault;
-  if (fault.empty()) fault = undecoded = decode(from.image, frame.depth);
-  if (fault.empty()) fault = bring(from, frame.depth);
+std::string DepthInput::read(AssembledFrame& job) {
+  Frame& frame = job.frame;
+  std::string undecoded;
+  std::string& fault = frame.source_message;
+  if (fault.empty()) fault = undecoded = decode(job.image, frame.depth.view);
+  if (fault.empty()) fault = bring(job, frame.depth.view);
   if (!fault.empty()) {
-    message += (message.empty() ? "" : "; ") + fault;
-    if (frame.source_status == FrameStatus::ok) frame.source_status = FrameStatus::bad_depth;
+    frame.source_status = FrameStatus::bad_depth;
     frame.depth = empty_;
   }
-  frame.source_message = message;
   return undecoded;
 }
 
@@ -54,7 +50,7 @@ std::string DepthInput::bring(const AssembledFrame& from, DepthView& depth) {
     return "the depth image is " + size_text(width, height) + ", the camera " +
            size_text(width_, height_);
   if (!registration_) return {};
-  if (!has_pose(from.pose.pose.status)) {
+  if (!has_pose(from.frame.pose.status)) {
     depth = empty_;  // the depth camera's position is not known
     return {};
   }

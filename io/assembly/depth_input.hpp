@@ -13,17 +13,16 @@
 
 namespace penumbra::io {
 
-/// Makes the pipeline's frames of assembled ones: decodes depth images, checks their size, and
-/// registers them to the judged camera if they are of another camera.
+/// Decodes the depth images of assembled frames, checks their size, and registers them to the
+/// judged camera if they are of another camera.
 class DepthInput {
  public:
   explicit DepthInput(const JudgedCameras& cameras);
 
-  /// Fills `frame`, all but its index. An image that cannot be used makes the status bad_depth,
-  /// unless there is no pose either, and leaves the depth empty. `message` gets the frame's
-  /// message. `frame` refers to all arguments and to this until the next call. Returns why the
-  /// image's message cannot be decoded, or an empty text.
-  [[nodiscard]] std::string read(const AssembledFrame& from, Frame& frame, std::string& message);
+  /// Sets the frame's depth, which refers to its image and to this until the next call. An image
+  /// that cannot be used makes its source_status bad_depth. Returns why the image's message cannot
+  /// be decoded, or an empty text.
+  [[nodiscard]] std::string read(AssembledFrame& job);
 
  private:
   [[nodiscard]] std::string decode(const KeptImage& image, DepthView& depth);

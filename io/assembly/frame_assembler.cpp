@@ -68,8 +68,8 @@ void FrameAssembler::forget() {
   follow_robot();
 }
 
-void FrameAssembler::place(MadeRobot made) {
-  robot_.place(std::move(made));
+void FrameAssembler::set_robot(MadeRobot made) {
+  robot_.set_robot(std::move(made));
   follow_robot();
 }
 

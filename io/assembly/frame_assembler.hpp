@@ -61,10 +61,12 @@ class FrameAssembler {
   void forget();
 
   /// Returns the robot to make, once, or null: a robot_description was received. Reading its meshes
-  /// takes time, so that the caller chooses the thread. place() takes the made robot.
-  [[nodiscard]] std::unique_ptr<const RobotOrder> take_order() { return robot_.take_order(); }
-  void place(MadeRobot made);
-  /// Orders a robot again that could not be made: its meshes may exist now.
+  /// takes time, so that the caller chooses the thread. set_robot() takes the made robot.
+  [[nodiscard]] std::unique_ptr<const RobotLoadRequest> take_load_request() {
+    return robot_.take_load_request();
+  }
+  void set_robot(MadeRobot made);
+  /// Requests a robot again that could not be made: its meshes may exist now.
   void retry_robot() { robot_.retry(); }
 
   /// Sets `frame` to the next frame of a camera. Returns false if none is ready. Call it until then

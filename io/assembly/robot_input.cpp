@@ -120,15 +120,16 @@ std::optional<Eigen::Isometry3d> PosedRobot::find_pose(const std::string& target
   return T_root_link[*a].inverse() * T_root_link[*b];
 }
 
-MadeRobot make_robot(const RobotOrder& order) {
+MadeRobot make_robot(const RobotLoadRequest& request) {
   try {
     // The folder is "/", because relative mesh paths would otherwise be resolved from the working
     // folder of the program.
-    Robot robot = robot_of(order.descriptions, order.static_transforms, "/", order.options);
-    return {
-        order.number, std::make_shared<PosedRobot>(std::move(robot), order.compare_sources), {}};
+    Robot robot = robot_of(request.descriptions, request.static_transforms, "/", request.options);
+    return {request.number,
+            std::make_shared<PosedRobot>(std::move(robot), request.compare_sources),
+            {}};
   } catch (const InputError& error) {
-    return {order.number, nullptr, error.what()};
+    return {request.number, nullptr, error.what()};
   }
 }
 
@@ -156,24 +157,24 @@ void RobotInput::take(const StringMessage& description, const std::string& robot
   known->second = description.data;
   posed_.reset();
   fault_.clear();
-  if (descriptions_.size() == options_.names.size()) order();
+  if (descriptions_.size() == options_.names.size()) request_load();
 }
 
-void RobotInput::order() {
-  RobotOrder order{++orders_, {}, {}, options_.robot, options_.compare_sources};
+void RobotInput::request_load() {
+  RobotLoadRequest request{++requests_, {}, {}, options_.robot, options_.compare_sources};
   for (const std::string& name : options_.names)
-    order.descriptions.push_back({name, descriptions_.at(name)});
-  for (const auto& [child, t] : static_transforms_) order.static_transforms.push_back(t);
-  order_ = std::make_unique<const RobotOrder>(std::move(order));
+    request.descriptions.push_back({name, descriptions_.at(name)});
+  for (const auto& [child, t] : static_transforms_) request.static_transforms.push_back(t);
+  request_ = std::make_unique<const RobotLoadRequest>(std::move(request));
 }
 
 void RobotInput::retry() {
-  if (!fault_.empty() && !is_being_made()) order();
+  if (!fault_.empty() && !is_being_made()) request_load();
 }
 
-void RobotInput::place(MadeRobot made) {
-  if (made.number != orders_) return;
-  placed_ = orders_;
+void RobotInput::set_robot(MadeRobot made) {
+  if (made.number != requests_) return;
+  placed_ = requests_;
   fault_ = std::move(made.fault);
   if (made.robot) replace(std::move(made.robot));
 }

@@ -64,7 +64,7 @@ struct RobotInputOptions {
 };
 
 /// A received robot that has to be made. Reading its meshes takes time.
-struct RobotOrder {
+struct RobotLoadRequest {
   std::uint64_t number = 0;  ///< number of RobotInput
   std::vector<RobotDescription> descriptions;
   std::vector<TransformMessage> static_transforms;
@@ -72,15 +72,15 @@ struct RobotOrder {
   bool compare_sources = true;  ///< see RobotInputOptions
 };
 
-/// The outcome of an order: a robot, or the reason why it could not be made.
+/// The outcome of a request: a robot, or the reason why it could not be made.
 struct MadeRobot {
-  std::uint64_t number = 0;  ///< the number of the order
+  std::uint64_t number = 0;  ///< the number of the request
   std::shared_ptr<PosedRobot> robot;
   std::string fault;
 };
 
 /// Makes a robot. Any thread may call this.
-[[nodiscard]] MadeRobot make_robot(const RobotOrder& order);
+[[nodiscard]] MadeRobot make_robot(const RobotLoadRequest& request);
 
 /// The robot of a graph, from robot_description, joint states and transforms, and what is attached
 /// to it.
@@ -88,19 +88,21 @@ class RobotInput {
  public:
   explicit RobotInput(RobotInputOptions options);
 
-  /// Receives a description. A new text orders a new robot and forgets the old robot and its joint
-  /// states, because they may be wrong now: there is no robot until the new one is made. The same
-  /// text again has no effect, unless its robot could not be made: then it is tried again. Does
-  /// nothing if the robot is given.
-  /// `robot`: its name among several, which are made once all are there.
+  /// Receives a description. A new text requests a new robot and forgets the old robot and its
+  /// joint states, because they may be wrong now: there is no robot until the new one is made. The
+  /// same text again has no effect, unless its robot could not be made: then it is tried again.
+  /// Does nothing if the robot is given. `robot`: its name among several, which are made once all
+  /// are there.
   void take(const StringMessage& description, const std::string& robot);
   /// Returns the robot to make, once, or null if there is none.
-  [[nodiscard]] std::unique_ptr<const RobotOrder> take_order() { return std::move(order_); }
-  [[nodiscard]] bool has_order() const { return order_ != nullptr; }
-  /// Orders a robot again that could not be made: its meshes may exist now.
+  [[nodiscard]] std::unique_ptr<const RobotLoadRequest> take_load_request() {
+    return std::move(request_);
+  }
+  [[nodiscard]] bool has_load_request() const { return request_ != nullptr; }
+  /// Requests a robot again that could not be made: its meshes may exist now.
   void retry();
   /// Takes a made robot. Does nothing if another description was received since.
-  void place(MadeRobot made);
+  void set_robot(MadeRobot made);
   /// Forgets the joint states and transforms, except static transforms.
   void forget() {
     if (posed_) replace(std::make_shared<PosedRobot>(posed_->robot, options_.compare_sources));
@@ -124,7 +126,7 @@ class RobotInput {
   /// Returns why the received robot could not be made; empty if it was made or none was received.
   [[nodiscard]] const std::string& fault() const { return fault_; }
   /// Returns whether a robot was received that is not made yet.
-  [[nodiscard]] bool is_being_made() const { return placed_ != orders_; }
+  [[nodiscard]] bool is_being_made() const { return placed_ != requests_; }
 
   /// Returns a number that grows when TF names a new frame.
   [[nodiscard]] std::uint64_t frames_revision() const { return frames_revision_; }
@@ -141,13 +143,14 @@ class RobotInput {
 
  private:
   void replace(std::shared_ptr<PosedRobot> robot);
-  void order();
+  void request_load();
 
   RobotInputOptions options_;
   std::shared_ptr<PosedRobot> posed_;
   std::map<std::string, std::string> descriptions_;  // the last received one of each robot
-  std::unique_ptr<const RobotOrder> order_;
-  std::uint64_t orders_ = 0, placed_ = 0;  // numbers of the last order and of the last robot made
+  std::unique_ptr<const RobotLoadRequest> request_;
+  std::uint64_t requests_ = 0,
+                placed_ = 0;  // numbers of the last request and of the last robot made
   std::string fault_;
   FrameTree frames_;
   std::uint64_t frames_revision_ = 0;

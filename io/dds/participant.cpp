@@ -173,7 +173,7 @@ class DdsParticipant final : public Participant {
 
   [[nodiscard]] int domain() const override { return domain_; }
 
-  std::vector<std::string> take_complaints() override { return take_logged_lines(); }
+  std::vector<std::string> take_warnings() override { return take_logged_lines(); }
 
  private:
   int domain_;

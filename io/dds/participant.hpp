@@ -133,7 +133,7 @@ class Participant {
   [[nodiscard]] virtual int domain() const = 0;
 
   /// Returns the warnings of the middleware since the last call, one line each.
-  [[nodiscard]] virtual std::vector<std::string> take_complaints() = 0;
+  [[nodiscard]] virtual std::vector<std::string> take_warnings() = 0;
 };
 
 /// Joins ROS 2's graph. Environment, as in ROS 2 Jazzy: ROS_DOMAIN_ID,

@@ -24,8 +24,8 @@ auto blame(const CameraInfoFields& info, const char* field, const F& call) {
 
 int pixels_of(const CameraInfoFields& info, const char* field, std::int64_t value, int least = 0) {
   if (value < least || value > Intrinsics::max_size)
-    info.fail(field, "is " + std::to_string(value) + "; " + std::to_string(least) + " to " +
-                         std::to_string(Intrinsics::max_size) + " pixels are wanted");
+    info.fail(field, "is " + std::to_string(value) + "; expected " + std::to_string(least) +
+                         " to " + std::to_string(Intrinsics::max_size) + " pixels");
   return static_cast<int>(value);
 }
 
@@ -37,8 +37,8 @@ struct Matrix {
 
   void require_size(std::size_t count) const {
     if (values.size() != count)
-      info.fail(name, "has " + std::to_string(values.size()) + " values; " + std::to_string(count) +
-                          " are wanted");
+      info.fail(name, "has " + std::to_string(values.size()) + " values; expected " +
+                          std::to_string(count));
   }
   void require(std::initializer_list<std::size_t> places, double wanted, const char* why) const {
     for (const std::size_t i : places)
@@ -58,8 +58,8 @@ Intrinsics raw_intrinsics(const CameraInfoFields& info) {
   const Matrix k{info, "k", info.k};
   k.require_size(9);
   k.require({1}, 0, "a skew is not supported and must be 0");
-  k.require({3, 6, 7}, 0, "[fx 0 cx, 0 fy cy, 0 0 1] is wanted");
-  k.require({8}, 1, "[fx 0 cx, 0 fy cy, 0 0 1] is wanted");
+  k.require({3, 6, 7}, 0, "expected [fx 0 cx, 0 fy cy, 0 0 1]");
+  k.require({8}, 1, "expected [fx 0 cx, 0 fy cy, 0 0 1]");
   return full_intrinsics(k, info.k[0], info.k[4], info.k[2], info.k[5]);
 }
 
@@ -75,9 +75,9 @@ Intrinsics rectified_intrinsics(const CameraInfoFields& info) {
   p.require_size(12);
   p.require({1}, 0, "a skew is not supported and must be 0");
   p.require({3, 7, 11}, 0,
-            "the image of a second camera of a stereo pair is not supported; 0 is wanted");
-  p.require({4, 8, 9}, 0, "[fx 0 cx 0, 0 fy cy 0, 0 0 1 0] is wanted");
-  p.require({10}, 1, "[fx 0 cx 0, 0 fy cy 0, 0 0 1 0] is wanted");
+            "the image of a second camera of a stereo pair is not supported; expected 0");
+  p.require({4, 8, 9}, 0, "expected [fx 0 cx 0, 0 fy cy 0, 0 0 1 0]");
+  p.require({10}, 1, "expected [fx 0 cx 0, 0 fy cy 0, 0 0 1 0]");
   return full_intrinsics(p, info.p[0], info.p[5], info.p[2], info.p[6]);
 }
 

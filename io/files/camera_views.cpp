@@ -71,7 +71,7 @@ TargetFusion fusion_of(std::span<const CameraRun> runs) {
 
 }  // namespace
 
-void ViewRecorder::save(const FrameReport& report, const FrameData& frame,
+void ViewRecorder::save(const FrameReport& report, const Frame& frame,
                         const ShownTargets& targets) {
   if (!report.stamp && has_pose(report.status))
     throw InputError("camera '" + run_.camera.name + "': frame " + std::to_string(report.index) +

@@ -31,8 +31,7 @@ class ViewRecorder final : public RunOutput {
 
   void begin(const ReportHead& head) override { to_.begin(head); }
   /// A faulty frame may lack a stamp: it is not fused. Throws InputError for a good one without.
-  void save(const FrameReport& report, const FrameData& frame,
-            const ShownTargets& targets) override;
+  void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override {
     to_.finish(statistics, notes);
   }

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/pipeline/target.hpp>
+#include <penumbra/targets/target.hpp>
 
 #include <io/files/candidates_file.hpp>
 #include <io/files/csv.hpp>
@@ -27,8 +27,8 @@ constexpr std::size_t link_column = 1 + number_columns.size();
 using Cells = std::vector<std::string_view>;
 
 [[noreturn]] void refuse_header(const std::string& what) {
-  throw InputError(what + "; the header " + std::string(candidate_header) +
-                   " with or without ,link is wanted");
+  throw InputError(what + "; expected the header " + std::string(candidate_header) +
+                   " with or without ,link");
 }
 
 void check_candidate_header(const Cells& cells) {
@@ -44,19 +44,18 @@ CameraCandidate candidate_of(const Cells& row, const Robot& robot) {
   if (candidate.name.empty() ||
       std::any_of(candidate.name.begin(), candidate.name.end(), is_control))
     throw InputError("the name is '" + printable(candidate.name) +
-                     "'; letters and digits are "
-                     "wanted");
+                     "'; expected letters and digits");
   std::vector<double> numbers;
   for (std::size_t i = 0; i < number_columns.size(); ++i) {
     const auto value = parse_number<double>(row[1 + i]);
     if (!value)
       throw InputError(std::string(number_columns[i]) + " is '" + printable(row[1 + i]) +
-                       "'; a number is wanted");
+                       "'; expected a number");
     numbers.push_back(*value);
   }
   candidate.T_link_camera = isometry_of(numbers);
   if (candidate.T_link_camera.translation().cwiseAbs().maxCoeff() > max_target_distance)
-    throw InputError("is more than 1000 km away; metres are wanted");
+    throw InputError("is more than 1000 km away; expected metres");
   if (row.size() == link_column) return candidate;
   candidate.link = row[link_column];
   const Cells known(robot.links().begin(), robot.links().end());
@@ -94,8 +93,7 @@ std::vector<CameraCandidate> read_candidates(const std::filesystem::path& file,
   }
   if (candidates.empty())
     throw InputError(file.string() +
-                     ": has a header, but no candidate; a line for each pose is "
-                     "wanted");
+                     ": has a header, but no candidate; expected a line for each pose");
   return candidates;
 }
 

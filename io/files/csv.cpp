@@ -47,7 +47,7 @@ bool CsvLines::next() {
 
 FrameTable::FrameTable(const std::filesystem::path& file) : file_(file), text_(read_csv(file)) {
   CsvLines lines(text_);
-  if (!lines.next()) throw InputError(file.string() + ": is empty; a header frame,... is wanted");
+  if (!lines.next()) throw InputError(file.string() + ": is empty; expected a header frame,...");
   header_ = lines.cells();
   header_line_ = lines.line();
   if (header_[0] != "frame")
@@ -61,7 +61,7 @@ FrameTable::FrameTable(const std::filesystem::path& file) : file_(file), text_(r
     // Ranges end at the next number, which must be valid too.
     if (!frame || *frame < 0 || *frame == std::numeric_limits<std::int64_t>::max())
       throw InputError(place(lines.line()) + "'" + printable(lines.cells()[0]) +
-                       "' is no frame number; a whole number from 0 is wanted");
+                       "' is no frame number; expected a whole number from 0");
     rows_.push_back({lines.line(), *frame, lines.cells()});
   }
 }
@@ -94,7 +94,7 @@ T FrameTable::number(const Row& row, std::size_t column) const {
   throw InputError(
       "column '" + printable(header_[column]) + "' " +
       (text.empty() ? "is empty" : "is '" + printable(text) + "'") +
-      (std::is_integral_v<T> ? "; whole nanoseconds are wanted" : "; a finite number is wanted"));
+      (std::is_integral_v<T> ? "; expected whole nanoseconds" : "; expected a finite number"));
 }
 template double FrameTable::number(const Row&, std::size_t) const;
 template std::int64_t FrameTable::number(const Row&, std::size_t) const;

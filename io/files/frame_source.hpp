@@ -8,8 +8,6 @@
 
 #include <penumbra/pipeline/frame.hpp>
 
-#include <io/files/frame_reader.hpp>
-
 namespace penumbra::io {
 
 /// A sequence of frames: a recording folder or a bag.
@@ -20,10 +18,8 @@ class FrameSource {
   FrameSource& operator=(const FrameSource&) = delete;
   virtual ~FrameSource() = default;
 
-  /// Reads the next frame: `data` for pictures, and `frame` for the pipeline, which refers to
-  /// `data` and to this and is valid until the next call. A frame's fault is its status. Returns
-  /// false at the end.
-  virtual bool next(FrameData& data, Frame& frame) = 0;
+  /// Reads the next frame. Returns false at the end.
+  virtual bool next(Frame& frame) = 0;
 
   /// Returns the number of frames, if it is known before the end.
   [[nodiscard]] virtual std::optional<std::size_t> size() const = 0;

@@ -77,8 +77,8 @@ ValueFormat fixed_format(std::vector<std::string_view> columns,
   return {[=](const YamlNode& node) {
             std::vector<double> numbers = node.numbers();
             if (numbers.size() != least && numbers.size() != most)
-              node.fail("has " + std::to_string(numbers.size()) + " values; [" + joined(columns) +
-                        "] is wanted");
+              node.fail("has " + std::to_string(numbers.size()) + " values; expected [" +
+                        joined(columns) + "]");
             return numbers;
           },
           std::move(columns), std::move(optional_columns)};
@@ -94,7 +94,7 @@ Eigen::Isometry3d isometry_of(const std::vector<double>& n) {
   Eigen::Quaterniond q(n[6], n[3], n[4], n[5]);
   if (!(std::abs(q.norm() - 1.0) <= quaternion_error))
     throw InputError("quaternion has the length " + std::to_string(q.norm()) +
-                     "; x, y, z, w of length 1 are wanted");
+                     "; expected x, y, z, w of length 1");
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = q.normalized().toRotationMatrix();
   pose.translation() = position_of(n);
@@ -108,12 +108,12 @@ FrameValues::FrameValues(const YamlNode& node, const ValueFormat& format, const 
   const YamlNode* csv = node.is_map() ? node.find("csv") : nullptr;
   if (frames == nullptr && csv == nullptr) {
     constant_.emplace().numbers = format.read(node);
-    node.blamed_for([&] { check(*constant_); });
+    node.with_context([&] { check(*constant_); });
     return;
   }
   node.allow_only({"frames", "csv"});
   if (frames != nullptr && csv != nullptr)
-    node.fail("has both frames and csv; one of them is wanted");
+    node.fail("has both frames and csv; expected one of them");
   if (frames != nullptr) {
     read_frames(*frames, format, check);
     return;
@@ -128,7 +128,7 @@ void FrameValues::read_frames(const YamlNode& frames, const ValueFormat& format,
                               const Check& check) {
   for (const YamlNode& entry : frames.entries()) {
     const auto index = parse_number<std::int64_t>(entry.key());
-    if (!index || *index < 0) entry.fail("is no frame number; a whole number from 0 is wanted");
+    if (!index || *index < 0) entry.fail("is no frame number; expected a whole number from 0");
     const auto [added, is_new] = by_frame_.try_emplace(*index);
     if (!is_new) entry.fail("frame " + std::to_string(*index) + " is there already; keep one");
     FrameValue& value = added->second;
@@ -136,7 +136,7 @@ void FrameValues::read_frames(const YamlNode& frames, const ValueFormat& format,
       value.fault = "not found in frame " + entry.key();
     } else {
       value.numbers = format.read(entry);
-      entry.blamed_for([&] { check(value); });
+      entry.with_context([&] { check(value); });
     }
   }
 }

@@ -69,7 +69,7 @@ std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const R
     }
     if (row.stamp.value_or(0) < 0)  // the column is something else
       throw InputError(table.place(from.line) + "stamp " + std::to_string(*row.stamp) +
-                       " is negative; nanoseconds from 0 are wanted");
+                       " is negative; expected nanoseconds from 0");
   }
   if (rows.empty()) throw InputError(file.string() + ": has no frames below its header");
   return rows;

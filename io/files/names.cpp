@@ -55,7 +55,7 @@ std::string near_names(std::string_view name, std::span<const std::string_view> 
   std::vector<std::string_view> names;
   names.reserve(near.size());
   for (const auto& [d, other] : near) names.push_back(other);
-  return names.empty() ? "" : "; near are: " + joined(names);
+  return names.empty() ? "" : "; did you mean " + joined(names) + "?";
 }
 
 }  // namespace penumbra::io

@@ -72,10 +72,9 @@ std::string read_header_text(InputFile& input, std::string& text) {
 std::string check(const Header& header) {
   if (header.type != "<f4")
     return "holds '" + header.type + "'; depths must be '<f4' (little-endian float32, metres)";
-  if (header.order == "True") return "is in Fortran order; C order (row by row) is wanted";
+  if (header.order == "True") return "is in Fortran order; expected C order (row by row)";
   if (header.shape.size() != 2)
-    return "has " + std::to_string(header.shape.size()) +
-           " dimensions; 2 (height, width) are wanted";
+    return "has " + std::to_string(header.shape.size()) + " dimensions; expected 2 (height, width)";
   for (const std::uint64_t n : header.shape)
     if (n < 1 || n > Intrinsics::max_size)
       return "has a side of " + std::to_string(n) + " pixels; 1 to " +

@@ -8,8 +8,8 @@
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/pipeline/target.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/targets/target.hpp>
 
 #include <io/files/png.hpp>
 #include <io/files/target_overlay.hpp>

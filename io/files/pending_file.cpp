@@ -64,7 +64,7 @@ bool is_without_name(const fs::path& file, const fs::path& found) {
 void check_is_no_folder(const std::string& option, const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error))
-    throw InputError(option + ": " + file.string() + " is a folder; the name of a file is wanted");
+    throw InputError(option + ": " + file.string() + " is a folder; expected the name of a file");
 }
 
 FileLock::FileLock(const fs::path& folder)

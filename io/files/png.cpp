@@ -98,8 +98,8 @@ class PngDecoder {
     if ((is_grey || is_palette) && png_get_bit_depth(png_, info_) == bits && !transparent)
       return {};
     return "is " + std::to_string(png_get_bit_depth(png_, info_)) + "-bit " +
-           color_name(color_type) + (transparent ? " with transparency" : "") + "; " +
-           std::to_string(bits) + "-bit grey is wanted";
+           color_name(color_type) + (transparent ? " with transparency" : "") + "; expected " +
+           std::to_string(bits) + "-bit grey";
   }
 
   // Reads the rest of the file. Rows have `stride` bytes each.

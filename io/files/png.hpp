@@ -16,11 +16,6 @@
 
 namespace penumbra::io {
 
-struct Rgb8 {
-  std::uint8_t r = 0, g = 0, b = 0;
-  bool operator==(const Rgb8&) const = default;
-};
-
 /// Reads a PNG file. Reuses the buffer of `image` if the size stays the same. Returns a fault of
 /// the file (missing, truncated, damaged, another pixel format, another size than wanted); `image`
 /// is then unspecified. Allocates no more than the file can hold.

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double max_rotation_error = 1e-4;  // per element; files with few digits are off by less
 constexpr double max_distance = 1e6;         // metres: float32 depths beyond would mean nothing
-constexpr std::string_view rows_wanted = "four rows of four comma-separated numbers are wanted";
+constexpr std::string_view expected_rows = "expected four rows of four comma-separated numbers";
 
 Eigen::Matrix4d read_matrix(const std::filesystem::path& file) {
   const std::string text = read_csv(file);
@@ -26,22 +26,22 @@ Eigen::Matrix4d read_matrix(const std::filesystem::path& file) {
   int row = 0;
   for (; lines.next(); ++row) {
     const std::string place = file.string() + ":" + std::to_string(lines.line()) + ": ";
-    if (row == 4) throw InputError(place + "is a fifth row; " + std::string(rows_wanted));
+    if (row == 4) throw InputError(place + "is a fifth row; " + std::string(expected_rows));
     if (lines.cells().size() != 4)
       throw InputError(place + "has " + std::to_string(lines.cells().size()) + " cells; " +
-                       std::string(rows_wanted));
+                       std::string(expected_rows));
     for (int column = 0; column < 4; ++column) {
       const std::string_view cell = lines.cells()[static_cast<std::size_t>(column)];
       const auto value = parse_number<double>(cell);
       if (!value)
         throw InputError(place + "'" + printable(cell) + "' is no finite number; " +
-                         std::string(rows_wanted));
+                         std::string(expected_rows));
       matrix(row, column) = *value;
     }
   }
   if (row != 4)
     throw InputError(file.string() + ": has " + std::to_string(row) + " rows; " +
-                     std::string(rows_wanted));
+                     std::string(expected_rows));
   return matrix;
 }
 
@@ -65,7 +65,7 @@ Eigen::Isometry3d read_pose_csv(const std::filesystem::path& file) {
 
   const Eigen::Vector3d position = matrix.topRightCorner<3, 1>();
   if (position.cwiseAbs().maxCoeff() > max_distance)
-    throw InputError(file.string() + ": is more than 1000 km away; metres are wanted");
+    throw InputError(file.string() + ": is more than 1000 km away; expected metres");
 
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = nearest;

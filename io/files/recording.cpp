@@ -25,7 +25,7 @@ std::filesystem::path file_of(const YamlNode& node, const std::filesystem::path&
 Geometry geometry_of(const YamlNode& node) {
   if (node.text() == "collision") return Geometry::collision;
   if (node.text() == "visual") return Geometry::visual;
-  node.fail("is '" + node.text() + "'; collision or visual is wanted");
+  node.fail("is '" + node.text() + "'; expected collision or visual");
 }
 
 std::map<std::string, std::filesystem::path> packages_of(const YamlNode& node,
@@ -80,14 +80,14 @@ std::vector<RecordedRobot> robots_of(const YamlNode& root, const std::filesystem
       pose->fail("is for several robots ('robots: NAME: ...'); leave it out");
     return {robot_of(only, folder)};
   }
-  if (root.find("robot") != nullptr) several->fail("stands beside 'robot'; one of them is wanted");
+  if (root.find("robot") != nullptr) several->fail("stands beside 'robot'; expected one of them");
   std::vector<RecordedRobot> robots;
   for (const YamlNode& entry : several->entries()) {
     RecordedRobot& robot = robots.emplace_back(robot_of(entry, folder));
     robot.name = entry.key();
     const YamlNode& pose = entry.at("pose");
     const std::vector<double> numbers = pose.numbers(7);
-    robot.T_world_root = pose.blamed_for([&] { return isometry_of(numbers); });
+    robot.T_world_root = pose.with_context([&] { return isometry_of(numbers); });
   }
   return robots;
 }
@@ -100,33 +100,26 @@ void refuse_depth_camera(const YamlNode& camera) {
           "the colour image, and remove depth_info and depth_pose");
 }
 
-int pixels_of(const YamlNode& node, int most) {
-  const std::int64_t pixels = node.integer();
-  if (pixels < 0 || pixels > most)
-    node.fail("is " + std::to_string(pixels) + "; 0 to " + std::to_string(most) +
-              " pixels are possible");
-  return static_cast<int>(pixels);
+/// Refuses unknown keys. `more`: keys of one of several cameras.
+RuleOptions rule_of(const YamlNode& node, const std::vector<std::string_view>& more) {
+  std::vector<std::string_view> camera_keys{"info",       "parent",     "pose",   "sensor",
+                                            "range",      "rectified",  "beyond", "depth_info",
+                                            "depth_pose", "depth_scale"};
+  camera_keys.insert(camera_keys.end(), more.begin(), more.end());
+  RuleOptions rule;
+  rule.given = read_settings(node, rule.values, std::move(camera_keys));
+  if (const YamlNode* sensor = node.find("sensor")) {
+    rule.sensor = sensor->text();
+    sensor->with_context([&] { return LabelRule::for_sensor(sensor->text()); });
+  }
+  return rule;
 }
 
-void read_label_rule(const YamlNode& node, RecordingCamera& camera) {
-  LabelRule rule;
-  if (const YamlNode* sensor = node.find("sensor")) {
-    camera.sensor = sensor->text();
-    sensor->blamed_for([&] { rule = LabelRule::for_sensor(sensor->text()); });
-  }
-  if (const YamlNode* tolerance = node.find("tolerance")) {
-    const std::vector<double> abc = tolerance->numbers(3);
-    camera.tolerance = rule.tolerance = {abc[0], abc[1], abc[2]};
-    tolerance->blamed_for([&] { rule.check(); });
-  }
-  if (const YamlNode* width = node.find("front_min_width"))
-    camera.front_min_width = pixels_of(*width, LabelRule::max_width);
-  if (const YamlNode* reach = node.find("fringe_reach"))
-    camera.fringe_reach = pixels_of(*reach, LabelRule::max_fringe_reach);
+void read_depth_meaning(const YamlNode& node, RecordingCamera& camera) {
   if (const YamlNode* range = node.find("range")) {
     const std::vector<double> ends = range->numbers(2);
     camera.range = camera.camera.range = {ends[0], ends[1]};
-    range->blamed_for([&] { camera.camera.check(); });
+    range->with_context([&] { camera.camera.check(); });
   }
   if (const YamlNode* beyond = node.find("beyond")) {
     if (beyond->text() == "occluded")
@@ -134,16 +127,14 @@ void read_label_rule(const YamlNode& node, RecordingCamera& camera) {
     else if (beyond->text() == "visible")
       camera.beyond = BeyondMeans::visible;
     else
-      beyond->fail("is '" + beyond->text() + "'; occluded or visible is wanted");
+      beyond->fail("is '" + beyond->text() + "'; expected occluded or visible");
   }
 }
 
-constexpr std::string_view camera_keys[] = {
-    "info",  "parent",    "pose",   "sensor",     "tolerance",  "front_min_width", "fringe_reach",
-    "range", "rectified", "beyond", "depth_info", "depth_pose", "depth_scale"};
-
-RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& folder) {
+RecordingCamera camera_of(const YamlNode& node, const std::vector<std::string_view>& more,
+                          const std::filesystem::path& folder) {
   refuse_depth_camera(node);
+  RuleOptions rule = rule_of(node, more);
   const YamlNode* rectified = node.find("rectified");
   const bool is_rectified = rectified != nullptr && rectified->boolean();
   const std::filesystem::path info = file_of(node.at("info"), folder);
@@ -151,21 +142,22 @@ RecordingCamera camera_of(const YamlNode& node, const std::filesystem::path& fol
                          .camera = read_camera_info(info, is_rectified),
                          .rectified = is_rectified,
                          .parent = {},
-                         .T_parent_camera = {}};
+                         .T_parent_camera = {},
+                         .rule = std::move(rule)};
   const YamlNode* pose = node.find("pose");
   if (pose != nullptr || node.find("parent") != nullptr) camera.parent = node.at("parent").text();
   if (pose != nullptr) camera.T_parent_camera = read_pose_csv(file_of(*pose, folder));
   if (const YamlNode* scale = node.find("depth_scale")) {
     camera.depth_scale = scale->number();
     if (!(*camera.depth_scale > 0.0))
-      scale->fail("is not above 0; metres per unit of the depth images are wanted, as in 0.0001");
+      scale->fail("is not above 0; expected metres per unit of the depth images, as in 0.0001");
   }
-  read_label_rule(node, camera);
+  read_depth_meaning(node, camera);
   return camera;
 }
 
 FramePattern pattern_of(const YamlNode& node, const std::filesystem::path& folder) {
-  return node.blamed_for([&] { return FramePattern(node.text(), folder); });
+  return node.with_context([&] { return FramePattern(node.text(), folder); });
 }
 
 /// `images` has the patterns; of several cameras, one may have joints at its own stamps.
@@ -197,7 +189,6 @@ const YamlNode* wanted_camera(const YamlNode& root, const std::string& wanted) {
   const YamlNode& frames = root.at("frames");
   if (cameras == nullptr) {
     frames.allow_only({"joints", "depth", "color"});
-    root.at("camera").allow_only(camera_keys);
     if (!wanted.empty())
       root.at("camera").fail("the recording has one camera, without a name; leave '" + wanted +
                              "' out");
@@ -211,9 +202,6 @@ const YamlNode* wanted_camera(const YamlNode& root, const std::string& wanted) {
     cameras->fail((wanted.empty() ? "the recording has several; choose one by --camera"
                                   : "there is no '" + wanted + "'") +
                   ": " + known);
-  std::vector<std::string_view> keys(std::begin(camera_keys), std::end(camera_keys));
-  keys.insert(keys.end(), {"joints", "depth", "color", "targets"});
-  camera->allow_only(keys);
   return camera;
 }
 
@@ -230,7 +218,7 @@ std::shared_ptr<const PreparedMesh> mesh_of(const YamlNode& body,
   if ((box == nullptr) == (file == nullptr)) body.fail("needs a mesh (a file) or a box (its size)");
   if (file != nullptr) return std::make_shared<PreparedMesh>(load_mesh(file_of(*file, folder)));
   const std::vector<double> size = box->numbers(3);
-  return std::make_shared<PreparedMesh>(box->blamed_for([&] {
+  return std::make_shared<PreparedMesh>(box->with_context([&] {
     return make_box({size[0], size[1], size[2]});
   }));
 }
@@ -247,7 +235,7 @@ std::vector<RecordedBody> bodies_of(const YamlNode& attached, const std::filesys
                                          .end = std::numeric_limits<std::int64_t>::max()});
     if (const YamlNode* pose = entry.find("pose")) {
       const std::vector<double> numbers = pose->numbers(7);
-      body.body.T_link_body = pose->blamed_for([&] { return isometry_of(numbers); });
+      body.body.T_link_body = pose->with_context([&] { return isometry_of(numbers); });
     }
     if (const YamlNode* frames = entry.find("frames")) {
       if (frames->items().size() != 2) frames->fail("expected [FIRST, END]");
@@ -279,7 +267,9 @@ Recording Recording::open(const std::filesystem::path& folder_or_yaml, const std
   if (const YamlNode* bodies = root.find("attached")) attached = bodies_of(*bodies, folder);
   return {.file = file,
           .robots = robots_of(root, folder),
-          .camera = camera_of(one != nullptr ? *one : root.at("camera"), folder),
+          .camera = one != nullptr
+                        ? camera_of(*one, {"joints", "depth", "color", "targets"}, folder)
+                        : camera_of(root.at("camera"), {}, folder),
           .frames = frames_of(root.at("frames"), one != nullptr ? *one : root.at("frames"), folder),
           .targets = targets,
           .attached = std::move(attached)};
@@ -325,10 +315,7 @@ PipelineConfig Recording::pipeline_config() const {
     throw InputError(file.string() +
                      ": camera: key 'pose' is missing; 'penumbra calibrate --search' finds it");
   PipelineConfig config;
-  if (camera.sensor) config.rule = LabelRule::for_sensor(*camera.sensor);
-  if (camera.tolerance) config.rule.tolerance = *camera.tolerance;
-  if (camera.front_min_width) config.rule.front_min_width = *camera.front_min_width;
-  if (camera.fringe_reach) config.rule.fringe_reach = *camera.fringe_reach;
+  config.rule = camera.rule.applied_to(config.rule);
   config.camera_parent = camera.parent;
   config.T_parent_camera = *camera.T_parent_camera;
   return config;

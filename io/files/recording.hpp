@@ -17,6 +17,7 @@
 
 #include <io/files/frame_pattern.hpp>
 #include <io/files/pose_file.hpp>
+#include <io/files/settings.hpp>
 
 namespace penumbra::io {
 
@@ -43,11 +44,8 @@ struct RecordingCamera {
   std::string parent;  ///< the link that carries the camera; empty: the root, or not known
   /// Pose of the optical frame in the parent link; only `calibrate` does without.
   std::optional<Eigen::Isometry3d> T_parent_camera;
-  std::optional<DepthRange> range = {};     ///< metres
-  std::optional<Tolerance> tolerance = {};  ///< of LabelRule
-  std::optional<int> front_min_width = {};  ///< of LabelRule, pixels
-  std::optional<int> fringe_reach = {};     ///< of LabelRule, pixels
-  std::optional<std::string> sensor = {};   ///< of LabelRule::for_sensor
+  std::optional<DepthRange> range = {};  ///< metres
+  RuleOptions rule = {};
   std::optional<BeyondMeans> beyond = {};
   std::optional<double> depth_scale = {};  ///< metres per unit of the depth images
 };

@@ -37,10 +37,10 @@ Json vector_json(const Vector& values) {
   return array;
 }
 
-Json blame_json(const Judgement& judgement, std::span<const std::string> links) {
+Json blame_json(const Judgement& judgement) {
   Json blame = Json::array();
   for (const Blame& one : judgement.blame)
-    blame.push_back({{"link", links[one.link]}, {"fraction", one.fraction}});
+    blame.push_back({{"link", one.name}, {"fraction", one.fraction}});
   return blame;
 }
 
@@ -68,7 +68,7 @@ Json counts_json(const std::array<std::size_t, count>& counts) {
   return all == 0 ? Json(nullptr) : json;
 }
 
-Json target_json(const TargetReport& target, std::span<const std::string> links) {
+Json target_json(const TargetReport& target) {
   const Judgement none;
   const Judgement& judged = target.judgement ? *target.judgement : none;
   const auto of_judged = [&](auto value) { return target.judgement ? Json(value) : Json(nullptr); };
@@ -85,14 +85,14 @@ Json target_json(const TargetReport& target, std::span<const std::string> links)
           {"measured_fraction", judged.measured ? share(*judged.measured) : Json(nullptr)},
           {"seen_past_fraction", judged.seen_past ? share(*judged.seen_past) : Json(nullptr)},
           {"verdict", to_string(target.verdict)},
-          {"blame", target.judgement ? blame_json(judged, links) : Json(nullptr)},
+          {"blame", target.judgement ? blame_json(judged) : Json(nullptr)},
           {"point", target.point ? vector_json(*target.point) : Json(nullptr)},
           {"point_pixels", target.point ? Json(judged.point_pixels) : Json(nullptr)},
           {"point_spread_m", target.point ? Json(judged.point_spread) : Json(nullptr)},
           {"handled", handled_json(target.handled)},
           {"estimate", target.estimate ? Json(to_string(*target.estimate)) : Json(nullptr)},
           {"stamp_ns", or_null(target.stamp)},
-          {"reason", or_null(std::string(target.reason))}};
+          {"reason", or_null(target.reason)}};
 }
 
 Json target_summary_json(const TargetStatistics& target) {
@@ -132,30 +132,34 @@ Json bag_json(const UsedBag& bag) {
 }
 
 Json settings_json(const UsedSettings& used) {
-  const LabelRule& rule = used.rule;
+  const DepthRange& range = used.rule.range;
   const auto finite = [](double metres) { return std::isfinite(metres) ? Json(metres) : Json(); };
   Json margins = Json::object(), extras = Json::array();
   for (const auto& [pattern, margin] : used.robot.margins) margins[pattern] = margin;
   for (const ExtraMesh& extra : used.robot.extra)
     extras.push_back({{"link", extra.link}, {"mesh", extra.mesh.string()}});
-  return {{"tolerance", {rule.tolerance.a, rule.tolerance.b, rule.tolerance.c}},
-          {"front_min_width", rule.front_min_width},
-          {"edge_margin", rule.edge_margin},
-          {"fringe_reach", rule.fringe_reach},
-          {"beyond_factor", rule.beyond_factor},
-          {"labels", used.paper_labels ? "paper" : "full"},
-          {"beyond", used.beyond == BeyondMeans::visible ? "visible" : "occluded"},
-          {"targets", or_null(used.targets)},
-          {"target_history_s", used.target_history},
-          {"bag", used.bag ? bag_json(*used.bag) : Json(nullptr)},
-          {"range", {finite(rule.range.near), finite(rule.range.far)}},
-          {"image", used.image == ImageSpace::raw ? "raw" : "rectified"},
-          {"geometry", geometry_json(used.robot)},
-          {"geometry_fallback", used.robot.geometry_fallback},
-          {"margins", std::move(margins)},
-          {"extra", std::move(extras)},
-          {"ignore_links", list(used.robot.ignore_links)},
-          {"only_links", list(used.robot.only_links)}};
+  Json json;
+  for_each_setting<LabelRule>([&](const auto& setting) {
+    const auto& value = used.rule.*setting.member;
+    if constexpr (requires { value.a; })
+      json[setting.name] = {value.a, value.b, value.c};
+    else
+      json[setting.name] = value;
+  });
+  json.update({{"labels", used.paper_labels ? "paper" : "full"},
+               {"beyond", used.beyond == BeyondMeans::visible ? "visible" : "occluded"},
+               {"targets", or_null(used.targets)},
+               {"target_history_s", used.target_history},
+               {"bag", used.bag ? bag_json(*used.bag) : Json(nullptr)},
+               {"range", {finite(range.near), finite(range.far)}},
+               {"image", used.image == ImageSpace::raw ? "raw" : "rectified"},
+               {"geometry", geometry_json(used.robot)},
+               {"geometry_fallback", used.robot.geometry_fallback},
+               {"margins", std::move(margins)},
+               {"extra", std::move(extras)},
+               {"ignore_links", list(used.robot.ignore_links)},
+               {"only_links", list(used.robot.only_links)}});
+  return json;
 }
 
 Json pixels_json(const PixelCounts& pixels) {
@@ -171,8 +175,7 @@ Json frame_json(const FrameReport& report) {
   const Json age =
       report.joint_age ? Json(static_cast<double>(*report.joint_age) / ns_per_ms) : Json(nullptr);
   Json targets = Json::array(), attached = Json::object();
-  for (const TargetReport& target : report.targets)
-    targets.push_back(target_json(target, report.links));
+  for (const TargetReport& target : report.targets) targets.push_back(target_json(target));
   for (const std::size_t body : report.attached) attached[report.links[body]] = body + 1;
   return {{"index", report.index},
           {"stamp_ns", or_null(report.stamp)},

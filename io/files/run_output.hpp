@@ -7,7 +7,6 @@
 
 #include <penumbra/pipeline/frame.hpp>
 
-#include <io/files/frame_reader.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/files/report_json.hpp>
 
@@ -24,8 +23,7 @@ class RunOutput {
 
   /// Called once, before frames.
   virtual void begin(const ReportHead& head) = 0;
-  virtual void save(const FrameReport& report, const FrameData& frame,
-                    const ShownTargets& targets) = 0;
+  virtual void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) = 0;
   virtual void finish(const Statistics& statistics, std::span<const std::string> notes) = 0;
 
   /// Returns what could not be written, a line each.

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include <penumbra/base/statistics-inl.hpp>
+
 #include <io/files/statistics.hpp>
 
 namespace penumbra::io {
@@ -26,11 +28,8 @@ std::string reason_of(const std::string& message) {
 
 std::optional<Quantiles> quantiles(std::vector<double> samples) {
   if (samples.empty()) return std::nullopt;
-  std::sort(samples.begin(), samples.end());
-  const std::size_t n = samples.size();
-  const std::size_t rank99 = (n * 99 + 99) / 100;  // ceil(0.99 n), from 1
-  return Quantiles{samples.front(), 0.5 * (samples[(n - 1) / 2] + samples[n / 2]),
-                   samples[rank99 - 1], samples.back()};
+  return Quantiles{detail::quantile(samples, 0.0), detail::median(samples),
+                   detail::quantile(samples, 0.99), detail::quantile(samples, 1.0)};
 }
 
 void Statistics::add(const FrameReport& report) {

@@ -15,8 +15,8 @@
 
 namespace penumbra::io {
 
-/// Order statistics of samples. p99: the smallest sample that at least 99 % do not exceed; median
-/// of an even number: the mean of the middle two.
+/// Order statistics of samples. p99: the smallest sample that at least 99 % do not exceed; median:
+/// the larger of the middle two.
 struct Quantiles {
   double min = 0.0, median = 0.0, p99 = 0.0, max = 0.0;
 };

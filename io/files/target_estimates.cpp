@@ -9,17 +9,14 @@
 namespace penumbra::io {
 namespace {
 
-// Larger values mean nothing; smaller ones are below the rounding of a double at 1 m.
-constexpr double least_sigma = 1e-9, largest_sigma = 1e9;
-
 /// Returns the covariance for the sigmas of position and, if given, orientation.
 Matrix6d covariance_of(std::span<const double> sigmas) {
   Matrix6d covariance = Matrix6d::Zero();
   for (std::size_t i = 0; i < sigmas.size(); ++i) {
     const double sigma = sigmas[i];
-    if (!(sigma >= least_sigma && sigma <= largest_sigma))
+    if (!is_in(detail::positive, sigma))
       throw InputError("sigma of the estimate is " + std::to_string(sigma) +
-                       "; 1e-9 to 1e9 is wanted (metres, of orientation radians)");
+                       "; expected 1e-9 to 1e9 (metres, of orientation radians)");
     covariance.diagonal().segment<3>(3 * static_cast<Eigen::Index>(i)).setConstant(sigma * sigma);
   }
   return covariance;
@@ -43,7 +40,7 @@ EstimateSource read_estimate(const TargetReader& reader, const YamlNode& node) {
   node.allow_only({"pose", "point", "link"});
   const YamlNode* pose = node.find("pose");
   if ((pose == nullptr) == (node.find("point") == nullptr))
-    node.fail("one of pose: [x, y, z, qx, qy, qz, qw] and point: [x, y, z] is wanted");
+    node.fail("expected one of pose: [x, y, z, qx, qy, qz, qw] and point: [x, y, z]");
   const ReferenceFrame link = link_of(node, reader.context.robot);
   const bool is_pose = pose != nullptr;
   const auto make = [=](const FrameValue& value) { return estimate_of(value, is_pose, link); };

@@ -102,16 +102,16 @@ struct Outliner {
     return {closed({polygon.corners.begin(), polygon.corners.end()})};
   }
   std::vector<PixelPath> operator()(const PixelMask& mask) const {
-    return borders(mask.mask.width, mask.mask.height,
-                   [&](int u, int v) { return mask.mask(u, v) != 0; });
+    return borders(mask.mask.view.width, mask.mask.view.height,
+                   [&](int u, int v) { return mask.mask.view(u, v) != 0; });
   }
   std::vector<PixelPath> operator()(const RunLengthMask& mask) const { return borders_of(mask); }
   std::vector<PixelPath> operator()(const PixelEllipse& ellipse) const {
     return {path_of(ellipse)};
   }
   std::vector<PixelPath> operator()(const RenderedRegion& region) const {
-    return borders(region.depth.width, region.depth.height,
-                   [&](int u, int v) { return region.depth(u, v) > 0.0F; });
+    return borders(region.depth.view.width, region.depth.view.height,
+                   [&](int u, int v) { return region.depth.view(u, v) > 0.0F; });
   }
 
   std::vector<PixelPath> operator()(const KeypointTarget& target) const {

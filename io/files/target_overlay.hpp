@@ -11,9 +11,9 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
+#include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/targets/target.hpp>
 
 #include <io/files/png.hpp>
 

@@ -33,7 +33,7 @@ void check(const TargetShape& shape, const Intrinsics& images) {
 double positive(const YamlNode& node) {
   const double value = node.number();
   if (value > 0.0) return value;
-  node.fail("is " + node.text() + "; a number above 0 is wanted");
+  node.fail("is " + node.text() + "; expected a positive number");
 }
 
 /// Returns shapes made from a frame's numbers. The numbers in the YAML file are checked at once.
@@ -53,7 +53,7 @@ Extent extent_of(const YamlNode& node) {
   if (extent == nullptr) return Extent::amodal;
   if (extent->text() == "amodal") return Extent::amodal;
   if (extent->text() == "modal") return Extent::modal;
-  extent->fail("is '" + extent->text() + "'; amodal or modal is wanted");
+  extent->fail("is '" + extent->text() + "'; expected amodal or modal");
 }
 
 std::optional<double> depth_of(const YamlNode& node) {
@@ -62,10 +62,9 @@ std::optional<double> depth_of(const YamlNode& node) {
 }
 
 /// Returns a region with the common settings, and the value's own depth if it has one.
-RegionTarget region_target(const RegionTarget& common, const Region& region,
-                           const FrameValue& value) {
+RegionTarget region_target(const RegionTarget& common, Region region, const FrameValue& value) {
   RegionTarget target = common;
-  target.region = region;
+  target.region = std::move(region);
   if (value.expected_depth) target.expected_depth = value.expected_depth;
   return target;
 }
@@ -79,7 +78,7 @@ ShapeSource read_box(const TargetReader& reader, const YamlNode& node) {
                    [common = common_of(reader)](const FrameValue& value) -> TargetShape {
                      const auto& n = value.numbers;
                      if (!(n[2] > 0.0 && n[3] > 0.0))
-                       throw InputError("has no area: width and height above 0 are wanted");
+                       throw InputError("has no area; expected width and height above 0");
                      return region_target(common, PixelBox{n[0], n[1], n[2], n[3]}, value);
                    });
 }
@@ -88,18 +87,17 @@ std::vector<double> corners_of(const YamlNode& node) {
   std::vector<double> numbers;
   for (const YamlNode& corner : node.items())
     for (const double number : corner.numbers(2)) numbers.push_back(number);
-  if (numbers.size() < 6) node.fail("has fewer than 3 corners; [[u, v], ...] is wanted");
+  if (numbers.size() < 6) node.fail("has fewer than 3 corners; expected [[u, v], ...]");
   return numbers;
 }
 
 ShapeSource read_polygon(const TargetReader& reader, const YamlNode& node) {
-  auto corners = std::make_shared<std::vector<Eigen::Vector2d>>();
   return source_of(reader, node, {corners_of, {}, {}},
-                   [corners, common = common_of(reader)](const FrameValue& value) -> TargetShape {
-                     corners->clear();
+                   [common = common_of(reader)](const FrameValue& value) -> TargetShape {
+                     PixelPolygon polygon;
                      for (std::size_t i = 0; i + 1 < value.numbers.size(); i += 2)
-                       corners->emplace_back(value.numbers[i], value.numbers[i + 1]);
-                     return region_target(common, PixelPolygon{*corners}, value);
+                       polygon.corners.emplace_back(value.numbers[i], value.numbers[i + 1]);
+                     return region_target(common, std::move(polygon), value);
                    });
 }
 
@@ -110,58 +108,59 @@ std::vector<double> run_lengths_of(const YamlNode& node) {
   for (const YamlNode& count : node.at("counts").items()) {
     const std::int64_t pixels = count.integer();
     if (pixels < 0 || pixels > std::numeric_limits<std::uint32_t>::max())
-      count.fail("is " + count.text() + "; a number of pixels is wanted");
+      count.fail("is " + count.text() + "; expected a number of pixels");
     numbers.push_back(static_cast<double>(pixels));
   }
   return numbers;
 }
 
 ShapeSource read_run_lengths(const TargetReader& reader, const YamlNode& node) {
-  auto counts = std::make_shared<std::vector<std::uint32_t>>();
   const Intrinsics images = reader.context.images;
   return source_of(reader, node, {run_lengths_of, {}, {}},
                    [=, common = common_of(reader)](const FrameValue& value) -> TargetShape {
                      const auto& n = value.numbers;
                      if (n[0] != images.height() || n[1] != images.width())
-                       throw InputError("is of another size; [" + std::to_string(images.height()) +
-                                        ", " + std::to_string(images.width()) +
-                                        "] (height, width) is wanted");
-                     counts->clear();
+                       throw InputError("is of another size; expected [" +
+                                        std::to_string(images.height()) + ", " +
+                                        std::to_string(images.width()) + "] (height, width)");
+                     RunLengthMask runs{images.width(), images.height(), {}};
                      double pixels = 0.0;
                      for (std::size_t i = 2; i < n.size(); ++i) {
-                       counts->push_back(static_cast<std::uint32_t>(n[i]));
+                       runs.counts.push_back(static_cast<std::uint32_t>(n[i]));
                        pixels += n[i];
                      }
                      if (pixels != n[0] * n[1])
                        throw InputError("counts add up to " + std::to_string(std::llround(pixels)) +
-                                        "; all pixels of the image are wanted");
-                     return region_target(
-                         common, RunLengthMask{images.width(), images.height(), *counts}, value);
+                                        "; expected all pixels of the image");
+                     return region_target(common, std::move(runs), value);
                    });
 }
 
 ShapeSource read_mask(const TargetReader& reader, const YamlNode& node) {
   const ImageSize size{reader.context.images.width(), reader.context.images.height()};
-  auto mask = std::make_shared<Image<std::uint8_t>>();
-  const auto make = [mask, common = common_of(reader)] {
+  const auto read = [size, common = common_of(reader)](const std::filesystem::path& file) {
+    auto mask = std::make_shared<Image<std::uint8_t>>();
+    read_png(file, *mask, size).require();
     return ShapeSource::Given{
-        region_target(common, PixelMask{std::as_const(*mask).view()}, FrameValue{})};
+        region_target(common,
+                      PixelMask{Shared<ImageView<const std::uint8_t>>(
+                          std::shared_ptr<const Image<std::uint8_t>>(std::move(mask)))},
+                      FrameValue{})};
   };
   if (!node.is_map()) {
-    const FileResult read = read_png(reader.folder / node.text(), *mask, size);
-    if (!read.ok()) node.fail(read.message);
-    node.blamed_for([&] { check(make().shape, reader.context.images); });
-    return {[=](std::int64_t) { return make(); }};
+    ShapeSource::Given given;
+    node.with_context([&] {
+      given = read(reader.folder / node.text());
+      check(given.shape, reader.context.images);
+    });
+    return {[given](std::int64_t) { return given; }};
   }
   node.allow_only({"files"});
   const YamlNode& files = node.at("files");
   const FramePattern pattern =
-      files.blamed_for([&] { return FramePattern(files.text(), reader.folder); });
+      files.with_context([&] { return FramePattern(files.text(), reader.folder); });
   if (pattern.existing().empty()) files.fail("no file of that name for any frame");
-  return {[=](std::int64_t index) {
-    read_png(pattern.file(index), *mask, size).require();
-    return make();
-  }};
+  return {[=](std::int64_t index) { return read(pattern.file(index)); }};
 }
 
 /// Reads semi-axes and angle of a key point from `radius` or `ellipse`, in pixels, or with _m in
@@ -183,7 +182,7 @@ void read_ellipse(const YamlNode& node, KeypointTarget& target) {
   }
   const std::vector<double> ellipse = given->numbers(3);
   if (!(ellipse[0] > 0.0 && ellipse[1] > 0.0))
-    given->fail("has no area; [a, b, angle] with a and b above 0 is wanted");
+    given->fail("has no area; expected [a, b, angle] with a and b above 0");
   target.semi_axes = {ellipse[0], ellipse[1]};
   target.angle = ellipse[2] * std::numbers::pi / 180.0;
 }
@@ -224,7 +223,7 @@ ShapeSource read_object_box(const TargetReader& reader, const YamlNode& node) {
   const YamlNode& size = reader.node.at("size");
   const std::vector<double> edges = size.numbers(3);
   if (!(edges[0] > 0.0 && edges[1] > 0.0 && edges[2] > 0.0))
-    size.fail("has an edge that is not above 0; metres are wanted");
+    size.fail("has an edge that is not above 0; expected metres");
   common.size = position_of(edges);
   return source_of(reader, node, pose_format(), [common](const FrameValue& value) -> TargetShape {
     BoxTarget target = common;
@@ -249,14 +248,14 @@ void check_extent(const TriangleMesh& mesh, const YamlNode& blamed) {
   if (extent >= least && extent <= max_target_distance && farthest <= max_target_distance) return;
   std::ostringstream text;
   text << "makes a mesh of " << extent << " m that reaches " << farthest
-       << " m from its origin; an extent of 1e-6 to 1e6 m, as far out at the most, is wanted";
+       << " m from its origin; expected an extent of 1e-6 to 1e6 m, at most as far out";
   blamed.fail(text.str());
 }
 
-std::shared_ptr<const TriangleMesh> mesh_of(const TargetReader& reader) {
+std::shared_ptr<const PreparedMesh> mesh_of(const TargetReader& reader) {
   const YamlNode& file = reader.node.at("file");
   TriangleMesh mesh;
-  file.blamed_for([&] { mesh = load_mesh(reader.folder / file.text()); });
+  file.with_context([&] { mesh = load_mesh(reader.folder / file.text()); });
   const YamlNode* scale = reader.node.find("scale");
   if (scale != nullptr) {
     const double factor = positive(*scale);
@@ -264,7 +263,7 @@ std::shared_ptr<const TriangleMesh> mesh_of(const TargetReader& reader) {
       vertex = (factor * vertex.cast<double>()).cast<float>();
   }
   check_extent(mesh, scale != nullptr ? *scale : file);
-  return std::make_shared<const TriangleMesh>(std::move(mesh));
+  return std::make_shared<const PreparedMesh>(mesh);
 }
 
 ShapeSource read_mesh(const TargetReader& reader, const YamlNode& node) {
@@ -338,8 +337,8 @@ ShapeSource read_shape(const TargetReader& reader) {
     std::string known;
     for (const ShapeKind& kind : kinds())
       known += (known.empty() ? "" : ", ") + std::string(kind.key);
-    reader.node.fail("target '" + reader.name + "' has no place; one of the keys " + known +
-                     " is wanted");
+    reader.node.fail("target '" + reader.name + "' has no place; expected one of the keys " +
+                     known);
   }
   std::vector<std::string_view> known(common_keys.begin(), common_keys.end());
   known.push_back(chosen->key);

@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/pipeline/target.hpp>
+#include <penumbra/targets/target.hpp>
 
 #include <io/files/frame_values.hpp>
 #include <io/files/targets_file.hpp>
@@ -34,7 +34,7 @@ struct TargetReader {
 };
 
 /// A target's shape by frame. `of_frame` throws InputError with the place if a frame has no valid
-/// shape. The shape's references are valid until its next call.
+/// shape.
 struct ShapeSource {
   struct Given {
     TargetShape shape;

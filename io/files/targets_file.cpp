@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <deque>
 #include <span>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <penumbra/base/error.hpp>
 
@@ -17,7 +17,7 @@ namespace penumbra::io {
 
 /// One target and where its parts come from.
 struct TargetSource {
-  std::string name, frame_id, fault;
+  Target settings;  // the same in each frame
   ShapeSource shape;
   std::optional<EstimateSource> estimate;
 };
@@ -30,10 +30,10 @@ void check_image(const YamlNode& root, const TargetsContext& context) {
   const YamlNode* key = root.find("image");
   if (key != nullptr) {
     if (key->text() != "raw" && key->text() != "rectified")
-      key->fail("is '" + key->text() + "'; raw or rectified is wanted");
+      key->fail("is '" + key->text() + "'; expected raw or rectified");
     if (key->text() == "rectified") image = ImageSpace::rectified;
   }
-  if (!context.is_bent || image == context.image) return;
+  if (!context.has_distortion || image == context.image) return;
   const std::span<const YamlNode> targets = root.at("targets").items();
   if (std::none_of(targets.begin(), targets.end(), names_pixels)) return;
   const YamlNode& blamed = key != nullptr ? *key : root.at("targets");
@@ -48,7 +48,7 @@ void check_image(const YamlNode& root, const TargetsContext& context) {
 void check_name(const YamlNode& node) {
   const std::string& name = node.text();
   if (std::any_of(name.begin(), name.end(), is_control))
-    node.fail("has a control character; letters, digits and signs are wanted");
+    node.fail("has a control character; expected letters, digits and signs");
 }
 
 std::string frame_id_of(const YamlNode& node, const TargetsContext& context) {
@@ -66,11 +66,11 @@ std::string frame_id_of(const YamlNode& node, const TargetsContext& context) {
 TargetSource source_of(const YamlNode& node, const TargetsContext& context,
                        const std::filesystem::path& folder, ValueTables& tables) {
   TargetSource source;
-  source.name = node.at("name").text();
+  source.settings.name = node.at("name").text();
   check_name(node.at("name"));
-  const TargetReader reader{node, source.name, context, folder, tables};
+  const TargetReader reader{node, source.settings.name, context, folder, tables};
   source.shape = read_shape(reader);
-  source.frame_id = frame_id_of(node, context);
+  source.settings.frame_id = frame_id_of(node, context);
   if (const YamlNode* estimate = node.find("estimate"))
     source.estimate = read_estimate(reader, *estimate);
   return source;
@@ -80,7 +80,7 @@ TargetSource source_of(const YamlNode& node, const TargetsContext& context,
 void check_handling(const YamlNode& node, const TargetSource& source,
                     const TargetHandling& handling) {
   if (source.estimate && std::holds_alternative<std::monostate>(handling))
-    node.at("estimate").fail("is given, but not handled; handling: pose or point is wanted");
+    node.at("estimate").fail("is given, but not handled; expected handling: pose or point");
   if (!std::holds_alternative<PoseTrackerConfig>(handling)) return;
   if (source.estimate && !source.estimate->is_pose)
     node.at("handling")
@@ -95,13 +95,11 @@ void check_handling(const YamlNode& node, const TargetSource& source,
             "estimate: {pose: ...}");
 }
 
-Target target_of(const YamlNode& node, const TargetSource& source, const TargetsContext& context) {
-  Target target;
-  target.name = source.name;
-  target.frame_id = source.frame_id;
+void read_settings(const YamlNode& node, const TargetsContext& context, TargetSource& source) {
+  Target& target = source.settings;
   if (const YamlNode* margin = node.find("depth_margin")) {
     target.depth_margin = margin->number();
-    margin->blamed_for([&] { check_target(target); });
+    margin->with_context([&] { check_target(target); });
   }
   target.thresholds.beyond_hides = context.beyond_hides;
   if (const YamlNode* thresholds = node.find("thresholds"))
@@ -114,31 +112,26 @@ Target target_of(const YamlNode& node, const TargetSource& source, const Targets
         .fail(
             "is not possible here: the part of a box3d or a mesh outside of the image is not "
             "known");
-  return target;
 }
 
-void fill(TargetSource& source, std::int64_t index, Target& target) {
-  target.shape = {};
-  target.stamp.reset();
-  target.estimate.reset();
-  source.fault.clear();
+Target target_of(const TargetSource& source, std::int64_t index) {
+  Target target = source.settings;
   try {
     if (source.estimate) target.estimate = source.estimate->of_frame(index);
     ShapeSource::Given given = source.shape.of_frame(index);
     target.stamp = given.stamp;
     target.shape = std::move(given.shape);
   } catch (const InputError& fault) {
-    source.fault = fault.what();
+    target.fault = fault.what();
   }
-  target.fault = source.fault;
+  return target;
 }
 
 }  // namespace
 
 struct TargetsFile::State {
   std::filesystem::path file;
-  std::deque<TargetSource> sources;  // targets refer to their names
-  std::vector<Target> targets;
+  std::vector<TargetSource> sources;
   double history = 0.0;
 };
 
@@ -158,11 +151,11 @@ TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsCo
   for (const YamlNode& node : root.at("targets").items()) {
     TargetSource& source =
         state->sources.emplace_back(source_of(node, context, file.parent_path(), tables));
-    const auto [known, is_new] = numbers.emplace(source.name, numbers.size());
+    const auto [known, is_new] = numbers.emplace(source.settings.name, numbers.size());
     if (!is_new)
-      node.at("name").fail("'" + source.name + "' is the name of target " +
+      node.at("name").fail("'" + source.settings.name + "' is the name of target " +
                            std::to_string(known->second + 1) + " already; use each name once");
-    state->targets.push_back(target_of(node, source, context));
+    read_settings(node, context, source);
     if (source.shape.may_be_late) state->history = context.history;
   }
   if (const YamlNode* history = root.find("history")) {
@@ -173,10 +166,10 @@ TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsCo
   return TargetsFile(std::move(state));
 }
 
-std::span<const Target> TargetsFile::of_frame(std::int64_t index) {
-  for (std::size_t i = 0; i < state_->sources.size(); ++i)
-    fill(state_->sources[i], index, state_->targets[i]);
-  return state_->targets;
+std::vector<Target> TargetsFile::of_frame(std::int64_t index) const {
+  std::vector<Target> targets;
+  for (const TargetSource& source : state_->sources) targets.push_back(target_of(source, index));
+  return targets;
 }
 
 const std::filesystem::path& TargetsFile::file() const { return state_->file; }

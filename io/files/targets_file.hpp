@@ -4,15 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/target.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/targets/target.hpp>
 
 namespace penumbra::io {
 
@@ -23,7 +22,7 @@ struct TargetsContext {
   const Robot& robot;                  ///< its links may be named
   ImageSpace image;                    ///< of the report
   Intrinsics images;                   ///< of the report's images
-  bool is_bent;                        ///< the camera's raw images have lens distortion
+  bool has_distortion;                 ///< the camera's raw images have lens distortion
   bool beyond_hides;                   ///< default of targets
   double history = default_history;    ///< seconds that frames are kept for late targets
   std::string_view camera_frame = {};  ///< of the report's images; empty: it has no name
@@ -42,8 +41,8 @@ class TargetsFile {
   TargetsFile& operator=(TargetsFile&&) noexcept;
 
   /// Returns all targets in the file's order. A target without a valid value in this frame has a
-  /// fault and no shape. Valid until the next call.
-  [[nodiscard]] std::span<const Target> of_frame(std::int64_t index);
+  /// fault and no shape.
+  [[nodiscard]] std::vector<Target> of_frame(std::int64_t index) const;
 
   [[nodiscard]] const std::filesystem::path& file() const;
   [[nodiscard]] std::size_t size() const;

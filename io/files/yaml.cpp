@@ -192,22 +192,22 @@ void YamlNode::allow_only(std::span<const std::string_view> known) const {
 }
 
 std::span<const YamlNode> YamlNode::entries() const {
-  if (kind_ != Kind::map) fail("is " + described() + "; keys with values are wanted");
+  if (kind_ != Kind::map) fail("is " + described() + "; expected keys with values");
   return children_;
 }
 
 std::span<const YamlNode> YamlNode::items() const {
-  if (kind_ != Kind::list) fail("is " + described() + "; a list is wanted");
+  if (kind_ != Kind::list) fail("is " + described() + "; expected a list");
   return children_;
 }
 
 const std::string& YamlNode::text() const {
-  if (kind_ != Kind::scalar || text_.empty()) fail("is " + described() + "; a text is wanted");
+  if (kind_ != Kind::scalar || text_.empty()) fail("is " + described() + "; expected a text");
   return text_or_empty();
 }
 
 const std::string& YamlNode::text_or_empty() const {
-  if (kind_ != Kind::scalar) fail("is " + described() + "; a text is wanted");
+  if (kind_ != Kind::scalar) fail("is " + described() + "; expected a text");
   if (text_.find('\0') != std::string::npos) fail("holds a character 0");
   return text_;
 }
@@ -215,13 +215,13 @@ const std::string& YamlNode::text_or_empty() const {
 double YamlNode::number() const {
   if (kind_ == Kind::scalar && !quoted_)
     if (const auto value = parse_number<double>(text_)) return *value;
-  fail("is " + described() + "; a finite number is wanted");
+  fail("is " + described() + "; expected a finite number");
 }
 
 std::int64_t YamlNode::integer() const {
   if (kind_ == Kind::scalar && !quoted_)
     if (const auto value = parse_number<std::int64_t>(text_)) return *value;
-  fail("is " + described() + "; a whole number is wanted");
+  fail("is " + described() + "; expected a whole number");
 }
 
 bool YamlNode::boolean() const {
@@ -229,7 +229,7 @@ bool YamlNode::boolean() const {
     if (text_ == "true" || text_ == "True" || text_ == "TRUE") return true;
     if (text_ == "false" || text_ == "False" || text_ == "FALSE") return false;
   }
-  fail("is " + described() + "; true or false is wanted");
+  fail("is " + described() + "; expected true or false");
 }
 
 std::vector<double> YamlNode::numbers() const {
@@ -241,8 +241,7 @@ std::vector<double> YamlNode::numbers() const {
 std::vector<double> YamlNode::numbers(std::size_t count) const {
   std::vector<double> values = numbers();
   if (values.size() != count)
-    fail("has " + std::to_string(values.size()) + " values; " + std::to_string(count) +
-         " are wanted");
+    fail("has " + std::to_string(values.size()) + " values; expected " + std::to_string(count));
   return values;
 }
 

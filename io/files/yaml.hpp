@@ -63,7 +63,7 @@ class YamlNode {
 
   /// Runs `call`. An InputError that it throws becomes a fault of this value.
   template <typename F>
-  auto blamed_for(const F& call) const {
+  auto with_context(const F& call) const {
     try {
       return call();
     } catch (const InputError& fault) {

@@ -36,7 +36,7 @@ std::string seconds_since(std::int64_t then, std::int64_t now) {
 std::string silence_of(const LiveLink& link, const InputTopic& topic) {
   const std::string name = printable(topic.name);
   if (!link.other_type.empty())
-    return name + " is of type " + printable(link.other_type) + ", " + topic.type + " is wanted";
+    return name + " is of type " + printable(link.other_type) + "; expected " + topic.type;
   if (!link.is_open) return name + " is not subscribed to: nobody publishes it yet";
   if (link.publishers > 0) return {};
   if (!link.refused_because.empty())
@@ -95,9 +95,9 @@ void add_counts(Status& status, const ImageCounts& counts) {
   add_count(status, "received", counts.received);
   add_count(status, "judged", counts.judged);
   add_count(status, "failed", counts.failed);
-  for (std::size_t i = 0; i < frame_drops; ++i)
+  for (std::size_t i = 0; i < drop_reasons; ++i)
     if (counts.dropped[i] > 0)
-      add_count(status, "dropped: " + std::string(to_string(static_cast<FrameDrop>(i))),
+      add_count(status, "dropped: " + std::string(to_string(static_cast<DropReason>(i))),
                 counts.dropped[i]);
 }
 
@@ -200,8 +200,8 @@ LiveFault camera_fault(const LiveInbox& inbox, std::size_t number, std::span<con
     return {Status::error,
             "nothing was published for " + seconds_since(*tally.last_published, now)};
   if (tally.last.status == FrameStatus::ok) {
-    const std::string moved = tally.last.drift.message();
-    return {moved.empty() ? Status::ok : Status::warn, moved};
+    const std::vector<std::string> warnings = inbox.warnings(number);
+    return warnings.empty() ? LiveFault() : LiveFault{Status::warn, warnings.front()};
   }
   const std::uint8_t level = has_pose(tally.last.status) ? Status::warn : Status::error;
   return {level, std::string(to_string(tally.last.status)) + ": " + tally.last.message};
@@ -251,6 +251,7 @@ DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, s
         camera.setup()->mount.parent + ", by " + camera.setup()->mount.source);
   if (const auto& renderer = inbox.tally(number).last.renderer) add_renderer(status, *renderer);
   add_counts(status, counts);
+  for (const std::string& line : inbox.warnings(number)) add(status, "warning", line);
   add_drift(status, inbox.tally(number).last.drift);
   add_tally(status, inbox.tally(number));
   if (camera.camera_changes() > 0)

@@ -100,4 +100,18 @@ void LiveInbox::done(std::size_t camera, const LiveOutcome& outcome, std::int64_
     ++tally.beyond_clock;
 }
 
+void LiveInbox::warn(std::size_t camera, const std::shared_ptr<const CameraSetup>& setup,
+                     std::vector<std::string> warnings) {
+  tallies_[camera].warned = setup;
+  tallies_[camera].warnings = std::move(warnings);
+}
+
+std::vector<std::string> LiveInbox::warnings(std::size_t number) const {
+  const LiveTally& tally = tallies_[number];
+  std::vector<std::string> lines;
+  if (tally.warned.lock().get() == camera(number).setup()) lines = tally.warnings;
+  if (std::string moved = tally.last.drift.message(); !moved.empty()) lines.push_back(moved);
+  return lines;
+}
+
 }  // namespace penumbra::io

@@ -5,12 +5,13 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <penumbra/calibration/watch.hpp>
-#include <penumbra/pipeline/pose_lookup.hpp>
+#include <penumbra/poses/pose_lookup.hpp>
 #include <penumbra/scene/target_fusion.hpp>
 
 #include <io/assembly/frame_assembler.hpp>
@@ -54,6 +55,8 @@ struct LiveOutcome {
   std::int64_t arrived = 0;
   std::optional<RendererInfo> renderer;  ///< the renderer used; nothing if it could not be made
   CameraFrame views;                     ///< of the targets, if the frame is published
+  /// Finds the warnings about a camera's setup. Takes a second, on any thread; mostly null.
+  std::function<std::vector<std::string>()> find_warnings;
 };
 
 /// The results of a camera's images.
@@ -63,6 +66,8 @@ struct LiveTally {
   LatencyHistogram processing;   ///< from arrival to published, ms
   std::size_t beyond_clock = 0;  ///< images with stamps of another clock; no latency
   LiveOutcome last;
+  std::vector<std::string> warnings;  ///< about the setup `warned`, a line each
+  std::weak_ptr<const CameraSetup> warned;
   std::optional<RendererInfo> renderer;        ///< the last one; nothing if no image was judged yet
   std::optional<std::int64_t> last_published;  ///< on the caller's clock
 };
@@ -76,6 +81,13 @@ class LiveInbox : public FrameAssembler {
   /// Counts the outcome of a frame, once. `system_now`: nanoseconds since 1970.
   void done(std::size_t camera, const LiveOutcome& outcome, std::int64_t now,
             std::int64_t system_now);
+
+  /// Sets the warnings about a camera's setup.
+  void warn(std::size_t camera, const std::shared_ptr<const CameraSetup>& setup,
+            std::vector<std::string> warnings);
+
+  /// Returns the warnings about a camera's present setup, and whether the camera has moved.
+  [[nodiscard]] std::vector<std::string> warnings(std::size_t camera) const;
 
   [[nodiscard]] const LiveOptions& options() const { return options_; }
   [[nodiscard]] const LiveTally& tally(std::size_t i) const { return tallies_[i]; }

@@ -46,7 +46,7 @@ LiveRunner::LiveRunner(const LiveOptions& options, const PipelineConfig& config,
 }
 
 void LiveRunner::start() {
-  making_ = std::thread([this] { make_robots(); });
+  background_ = std::thread([this] { work_in_background(); });
   for (std::size_t i = 0; i < cameras_.size(); ++i)
     cameras_[i].thread = std::thread([this, i] { work(i); });
 }
@@ -57,20 +57,20 @@ void LiveRunner::stop() {
     stopping_ = true;
   }
   changed_.notify_all();
-  ordered_.notify_all();
-  if (making_.joinable()) making_.join();
+  requested_.notify_all();
+  if (background_.joinable()) background_.join();
   for (CameraThread& camera : cameras_)
     if (camera.thread.joinable()) camera.thread.join();
 }
 
 void LiveRunner::receive(std::size_t topic, const SerializedMessage& message) {
-  bool has_order = false;
+  bool has_load_request = false;
   {
     const std::lock_guard lock(mutex_);
     inbox_.receive(topic, message, steady_now());
-    has_order = inbox_.robot().has_order();
+    has_load_request = inbox_.robot().has_load_request();
   }
-  if (has_order) ordered_.notify_all();
+  if (has_load_request) requested_.notify_all();
   changed_.notify_all();
 }
 
@@ -94,24 +94,37 @@ void LiveRunner::forget() {
   inbox_.forget();
 }
 
-void LiveRunner::make_robots() {
+void LiveRunner::work_in_background() {
   std::unique_lock lock(mutex_);
   try {
     while (!stopping_) {
-      const auto order = inbox_.take_order();
-      if (!order) {
-        if (ordered_.wait_for(lock, robot_retry_) == std::cv_status::timeout) inbox_.retry_robot();
-        continue;
-      }
-      lock.unlock();
-      MadeRobot made = maker_(*order);
-      lock.lock();
-      inbox_.place(std::move(made));
-      changed_.notify_all();
+      if (const auto request = inbox_.take_load_request())
+        serve(*request, lock);
+      else if (!pending_warnings_.empty())
+        find_warnings(lock);
+      else if (requested_.wait_for(lock, robot_retry_) == std::cv_status::timeout)
+        inbox_.retry_robot();
     }
   } catch (...) {
     fail(lock);
   }
+}
+
+void LiveRunner::serve(const RobotLoadRequest& request, std::unique_lock<std::mutex>& lock) {
+  lock.unlock();
+  MadeRobot made = maker_(request);
+  lock.lock();
+  inbox_.set_robot(std::move(made));
+  changed_.notify_all();
+}
+
+void LiveRunner::find_warnings(std::unique_lock<std::mutex>& lock) {
+  const PendingWarnings next = std::move(pending_warnings_.front());
+  pending_warnings_.pop_front();
+  lock.unlock();
+  std::vector<std::string> lines = next.find();
+  lock.lock();
+  inbox_.warn(next.camera, next.setup, std::move(lines));
 }
 
 void LiveRunner::fail(std::unique_lock<std::mutex>& lock) {
@@ -154,13 +167,17 @@ void LiveRunner::work(std::size_t camera) {
       lock.unlock();
       WithoutOverlay without_overlay(*self.sink);
       ResultSink& sink = with_overlay ? *self.sink : without_overlay;
-      const LiveOutcome outcome = self.worker->judge(job, sink, self.watcher);
+      LiveOutcome outcome = self.worker->judge(job, sink, self.watcher);
       if (fusion_ != nullptr && outcome.is_published)
         fusion_->add(camera, outcome.views, job.setup->posed->robot.links().front());
       const std::int64_t now = steady_now(), system = system_now();
       job.image = {};
       job.color.reset();
       lock.lock();
+      if (outcome.find_warnings) {
+        pending_warnings_.push_back({camera, job.setup, std::exchange(outcome.find_warnings, {})});
+        requested_.notify_all();
+      }
       inbox_.done(camera, outcome, now, system);
     }
   } catch (...) {

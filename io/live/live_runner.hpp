@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <exception>
 #include <functional>
 #include <memory>
@@ -21,8 +22,8 @@
 
 namespace penumbra::io {
 
-/// Judges the messages of the graph. One thread serves each camera, one makes robots, and one
-/// receives.
+/// Judges the messages of the graph. One thread serves each camera, one does what takes a second
+/// (makes robots, diagnoses setups), and one receives.
 ///
 /// One mutex guards the inbox: robot, poses, waiting images and counts. It is held while a message
 /// is received and while a job is picked, and never while a job is processed or meshes are read. So
@@ -30,7 +31,7 @@ namespace penumbra::io {
 /// sink, without the mutex.
 class LiveRunner {
  public:
-  using RobotMaker = std::function<MadeRobot(const RobotOrder&)>;
+  using RobotMaker = std::function<MadeRobot(const RobotLoadRequest&)>;
 
   static constexpr std::chrono::seconds default_robot_retry{5};
 
@@ -90,23 +91,32 @@ class LiveRunner {
     std::int64_t next_overlay = 0;  // earliest time; used by this thread only
     std::thread thread;
   };
+  /// Warnings that the background thread has not found yet.
+  struct PendingWarnings {
+    std::size_t camera;
+    std::shared_ptr<const CameraSetup> setup;
+    std::function<std::vector<std::string>()> find;
+  };
   void work(std::size_t camera);
-  void make_robots();
+  void work_in_background();
+  void serve(const RobotLoadRequest& request, std::unique_lock<std::mutex>& lock);
+  void find_warnings(std::unique_lock<std::mutex>& lock);
   void fail(std::unique_lock<std::mutex>& lock);
   void wait(std::size_t camera, std::unique_lock<std::mutex>& lock);
 
   std::mutex mutex_;
-  std::condition_variable changed_, ordered_;
-  LiveInbox inbox_;           // guarded by mutex_
-  PipelineConfig config_;     // likewise
-  bool stopping_ = false;     // likewise
-  std::exception_ptr fault_;  // likewise
+  std::condition_variable changed_, requested_;
+  std::deque<PendingWarnings> pending_warnings_;  // guarded by mutex_
+  LiveInbox inbox_;                               // guarded by mutex_
+  PipelineConfig config_;                         // likewise
+  bool stopping_ = false;                         // likewise
+  std::exception_ptr fault_;                      // likewise
   std::atomic<bool> has_failed_ = false;
   std::vector<CameraThread> cameras_;
   LiveFusion* fusion_ = nullptr;
   RobotMaker maker_;
   std::chrono::milliseconds robot_retry_;
-  std::thread making_;
+  std::thread background_;
 };
 
 }  // namespace penumbra::io

@@ -11,14 +11,16 @@ Json quantiles_json(const LatencyHistogram& times) {
           {"p99", or_null(times.quantile(0.99))}};
 }
 
-Json camera_json(const CameraInput& camera, const LiveTally& tally, const WrittenResults& results) {
+Json camera_json(const LiveInbox& inbox, std::size_t number, const WrittenResults& results) {
+  const CameraInput& camera = inbox.camera(number);
+  const LiveTally& tally = inbox.tally(number);
   const ImageCounts counts = camera.counts();
   const UnjudgedTargets targets = camera.targets();
   Json dropped = Json::object();
-  for (std::size_t i = 0; i < frame_drops; ++i)
-    dropped[std::string(to_string(static_cast<FrameDrop>(i)))] = counts.dropped[i];
+  for (std::size_t i = 0; i < drop_reasons; ++i)
+    dropped[std::string(to_string(static_cast<DropReason>(i)))] = counts.dropped[i];
   Json frames = Json::object();
-  for (const auto& [status, number] : tally.statuses) frames[status] = number;
+  for (const auto& [status, count] : tally.statuses) frames[status] = count;
   Json written = Json::object();
   for (const ResultTopic& topic : result_topics)
     written[std::string(topic.name)] = results.written[static_cast<std::size_t>(topic.result)];
@@ -37,6 +39,7 @@ Json camera_json(const CameraInput& camera, const LiveTally& tally, const Writte
           {"arrival_to_published_ms", quantiles_json(tally.processing)},
           {"stamps_of_another_clock", tally.beyond_clock},
           {"camera_info_changes", camera.camera_changes()},
+          {"warnings", inbox.warnings(number)},
           {"calibration", drift_json(tally.last.drift)},
           {"targets_not_judged",
            {{"replaced", targets.replaced},
@@ -60,7 +63,7 @@ std::string live_summary_json(const LiveInbox& inbox, std::span<const LiveLink> 
   std::size_t not_written = 0, unacknowledged = 0;
   for (std::size_t i = 0; i < inbox.camera_count(); ++i) {
     const WrittenResults& results = run.results.at(i);
-    cameras.push_back(camera_json(inbox.camera(i), inbox.tally(i), results));
+    cameras.push_back(camera_json(inbox, i, results));
     not_written += results.not_written;
     unacknowledged += results.unacknowledged;
   }

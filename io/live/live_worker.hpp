@@ -5,8 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <penumbra/calibration/watch.hpp>
-#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/session/session.hpp>
 
 #include <io/assembly/depth_input.hpp>
 #include <io/assembly/result_encoder.hpp>
@@ -31,21 +30,22 @@ class LiveWorker {
   /// The objects made for a setup.
   struct Tools {
     Tools(const CameraSetup& setup, const PipelineConfig& config, const DriftLimits& limits);
-    Pipeline pipeline;
+    Session session;
     ResultEncoder encoder;
     DepthInput depth;
-    CalibrationWatch watch;
   };
 
   [[nodiscard]] bool follow(const std::shared_ptr<CameraSetup>& setup);
+  void find_warnings(std::int64_t now, LiveOutcome& outcome);
   void show_color(const AssembledFrame& job, bool wanted);
 
   PipelineConfig config_;
   DriftLimits limits_;
   std::shared_ptr<CameraSetup> setup_;
   std::unique_ptr<Tools> tools_;
-  std::string fault_;    // why `tools_` is null
-  std::string message_;  // of the current frame
+  std::optional<std::int64_t> next_warnings_;  // on the inbox's clock
+  bool has_warned_ = false;                    // about this setup
+  std::string fault_;                          // why `tools_` is null
   std::size_t judged_ = 0;
   Image<Rgb8> color_;
 };

@@ -12,7 +12,7 @@ CdrReader::CdrReader(std::span<const std::byte> payload) {
   const auto kind =
       std::to_integer<std::size_t>(payload[0]) << 8 | std::to_integer<std::size_t>(payload[1]);
   if (kind != 1) {
-    fail("its encapsulation is " + std::to_string(kind) + "; 1 (CDR_LE) is wanted");
+    fail("its encapsulation is " + std::to_string(kind) + "; expected 1 (CDR_LE)");
     return;
   }
   bytes_ = payload.subspan(header_bytes);
@@ -67,8 +67,7 @@ void CdrReader::fail(std::string reason) {
 
 void CdrReader::fail_short(std::size_t count) {
   if (ok())
-    fail(std::to_string(count) + (count == 1 ? " is" : " are") + " wanted where " +
-         std::to_string(remaining()) + " bytes are left");
+    fail("has " + std::to_string(remaining()) + " bytes left; expected " + std::to_string(count));
 }
 
 }  // namespace penumbra::io

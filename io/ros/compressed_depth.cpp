@@ -168,7 +168,7 @@ std::optional<std::string> decode_compressed_depth(const CompressedImageMessage&
   const bool is_float = format.encoding == "32FC1";
   if ((!is_float && format.encoding != "16UC1") || (format.codec != "png" && format.codec != "rvl"))
     return "has format '" + printable(message.format) +
-           "'; '16UC1; compressedDepth' or '32FC1; compressedDepth', png or rvl, is wanted";
+           "'; expected '16UC1; compressedDepth' or '32FC1; compressedDepth', png or rvl";
   if (message.data.size() < parameter_bytes) return "ends before its data";
   const auto packed = message.data.subspan(parameter_bytes);
   auto fault = format.codec == "rvl" ? unpack_rvl(packed, depth.millimetres)

@@ -98,8 +98,8 @@ std::optional<std::string> check_layout(const ImageMessage& message, std::size_t
   if (message.step >= row && message.data.size() == all) return std::nullopt;
   return "of " + std::to_string(message.width) + " x " + std::to_string(message.height) + " " +
          message.encoding + " has steps of " + std::to_string(message.step) + " bytes and " +
-         std::to_string(message.data.size()) + " bytes; steps of " + std::to_string(row) +
-         " or more are wanted, one for each row";
+         std::to_string(message.data.size()) + " bytes; expected steps of " + std::to_string(row) +
+         " or more, one for each row";
 }
 
 template <typename T>
@@ -164,7 +164,7 @@ std::optional<std::string> decode_depth(const ImageMessage& message, DecodedDept
   if (message.encoding == "32FC1")
     return of_image("depth image", take_depth(message, depth.metres, depth.view));
   return "depth image has encoding '" + printable(message.encoding) +
-         "'; 16UC1, mono16 or 32FC1 is wanted";
+         "'; expected 16UC1, mono16 or 32FC1";
 }
 
 std::optional<std::string> decode_depth(const CompressedImageMessage& message,
@@ -182,7 +182,7 @@ std::optional<std::string> decode_colour(const ImageMessage& message, Image<Rgb8
   const ColourFormat* format = find_colour_format(message.encoding);
   if (format == nullptr)
     return "colour image has encoding '" + printable(message.encoding) +
-           "'; rgb8, bgr8, rgba8, bgra8, mono8, yuv422 or yuv422_yuy2 is wanted";
+           "'; expected rgb8, bgr8, rgba8, bgra8, mono8, yuv422 or yuv422_yuy2";
   if (auto fault = check_layout(message, format->pixel_bytes))
     return of_image("colour image", fault);
   if (format->in_pairs && message.width % 2 != 0)

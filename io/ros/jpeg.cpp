@@ -157,7 +157,7 @@ std::optional<std::string> decode_jpeg(std::span<const std::byte> bytes, Image<R
   if (!decoder.read_header(bytes)) return decoder.damaged();
   const jpeg_decompress_struct& codec = decoder.codec();
   if (codec.num_components != 1 && codec.num_components != 3)
-    return "is a JPEG of " + std::to_string(codec.num_components) + " colours; 1 or 3 are wanted";
+    return "is a JPEG of " + std::to_string(codec.num_components) + " colours; expected 1 or 3";
   if (codec.arith_code != FALSE) return "is a JPEG in arithmetic coding, which is not read";
   if (auto fault = check_image_size(codec.image_width, codec.image_height)) return fault;
   const std::uint64_t pixels = std::uint64_t{codec.image_width} * codec.image_height;

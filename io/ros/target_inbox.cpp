@@ -32,17 +32,17 @@ TargetHandling handling_of(const TargetShape& shape, HiddenTargets hidden) {
   return PointTrackerConfig{.motion = PointMotion::constant_velocity};
 }
 
-Region region_of(const BoundingBox2D& box, std::vector<Eigen::Vector2d>& corners) {
+Region region_of(const BoundingBox2D& box) {
   const Eigen::Vector2d& centre = box.centre.position;
   const Eigen::Vector2d half(box.size_x / 2, box.size_y / 2);
   if (box.centre.theta == 0)
     return PixelBox{centre.x() - half.x(), centre.y() - half.y(), box.size_x, box.size_y};
   const Eigen::Rotation2Dd turn(box.centre.theta);
-  corners.clear();
+  PixelPolygon outline;
   for (const auto& [x, y] :
        std::array<std::array<double, 2>, 4>{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}})
-    corners.push_back(centre + turn * Eigen::Vector2d(x * half.x(), y * half.y()));
-  return PixelPolygon{corners};
+    outline.corners.push_back(centre + turn * Eigen::Vector2d(x * half.x(), y * half.y()));
+  return outline;
 }
 
 }  // namespace
@@ -52,7 +52,7 @@ TargetInbox::TargetInbox(const Robot& robot, std::string_view camera_frame,
     : robot_(robot), camera_frame_(camera_frame), frame_prefix_(frame_prefix), hidden_(hidden) {}
 
 TargetInbox::List::iterator TargetInbox::forget(List::iterator one) {
-  by_name_.erase(one->name);
+  by_name_.erase(one->target.name);
   return waiting_.erase(one);
 }
 
@@ -72,20 +72,21 @@ void TargetInbox::make_room(const std::string& topic, std::int64_t stamp) {
   }
 }
 
-TargetInbox::Waiting& TargetInbox::add_target(std::string name, const MessageHeader& header) {
+Target& TargetInbox::add_target(std::string name, const MessageHeader& header) {
   if (const auto other = by_name_.find(name); other != by_name_.end()) {
     forget(other->second);
     ++replaced_;
   }
   Waiting& waiting = waiting_.emplace_back();
   waiting.topic = topic_;
-  waiting.name = std::move(name);
-  by_name_.emplace(waiting.name, std::prev(waiting_.end()));
-  waiting.image_frame = without_slash(header.frame_id);
-  waiting.target.stamp = header.stamp;
-  if (header.stamp <= 0) waiting.fault = "its message has no stamp";
-  if (waiting.image_frame.empty()) waiting.fault = "its message does not name its frame";
-  return waiting;
+  Target& target = waiting.target;
+  target.name = std::move(name);
+  by_name_.emplace(target.name, std::prev(waiting_.end()));
+  target.frame_id = without_slash(header.frame_id);
+  target.stamp = header.stamp;
+  if (header.stamp <= 0) target.fault = "its message has no stamp";
+  if (target.frame_id.empty()) target.fault = "its message does not name its frame";
+  return target;
 }
 
 TargetInbox::BaseName TargetInbox::base_name_of(const std::string& topic, const std::string& id,
@@ -96,19 +97,19 @@ TargetInbox::BaseName TargetInbox::base_name_of(const std::string& topic, const 
   return base;
 }
 
-std::vector<TargetInbox::Waiting*> TargetInbox::add_targets(const std::vector<BaseName>& names,
-                                                            const MessageHeader& header) {
+std::vector<Target*> TargetInbox::add_targets(const std::vector<BaseName>& names,
+                                              const MessageHeader& header) {
   std::unordered_map<std::string_view, std::size_t> uses;
   for (const BaseName& base : names) ++uses[base.text];
   std::unordered_set<std::string> taken;
   std::unordered_map<std::string_view, int> last;
-  std::vector<Waiting*> all;
+  std::vector<Target*> all;
   for (const BaseName& base : names) {
     std::string name = base.text;
     for (int& i = last.try_emplace(base.text, 1).first->second; !taken.insert(name).second;)
       name = base.text + " " + std::to_string(++i);
     all.push_back(&add_target(name, header));
-    all.back()->target.has_identity = base.is_id && uses[base.text] == 1 && name == base.text;
+    all.back()->has_identity = base.is_id && uses[base.text] == 1 && name == base.text;
   }
   return all;
 }
@@ -118,10 +119,10 @@ void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& m
   std::vector<BaseName> names;
   for (const Detection2DMessage& detection : message.detections)
     names.push_back(base_name_of(topic, detection.id, detection.results));
-  const std::vector<Waiting*> all = add_targets(names, message.header);
+  const std::vector<Target*> all = add_targets(names, message.header);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    auto& shape = all[i]->target.shape.emplace<RegionTarget>();
-    shape.region = region_of(message.detections[i].bbox, all[i]->corners);
+    auto& shape = all[i]->shape.emplace<RegionTarget>();
+    shape.region = region_of(message.detections[i].bbox);
     shape.extent = Extent::modal;
   }
 }
@@ -131,11 +132,11 @@ void TargetInbox::add(const std::string& topic, const Detection3DArrayMessage& m
   std::vector<BaseName> names;
   for (const Detection3DMessage& detection : message.detections)
     names.push_back(base_name_of(topic, detection.id, detection.results));
-  const std::vector<Waiting*> all = add_targets(names, message.header);
+  const std::vector<Target*> all = add_targets(names, message.header);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const BoundingBox3D& box = message.detections[i].bbox;
     const ReferenceFrame frame = resolve_frame(*all[i]);
-    all[i]->target.shape = BoxTarget{.pose = box.centre, .size = box.size, .frame = frame};
+    all[i]->shape = BoxTarget{.pose = box.centre, .size = box.size, .frame = frame};
   }
 }
 
@@ -144,20 +145,20 @@ void TargetInbox::add(const std::string& topic, const KeypointsMessage& message)
   std::vector<BaseName> names;
   for (const KeypointMessage& keypoint : message.keypoints)
     names.push_back(base_name_of(topic, keypoint.name, {}));
-  const std::vector<Waiting*> all = add_targets(names, message.header);
+  const std::vector<Target*> all = add_targets(names, message.header);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const KeypointMessage& keypoint = message.keypoints[i];
     KeypointTarget shape{.pixel = {keypoint.u, keypoint.v}, .score = keypoint.score};
     if (keypoint.depth > 0) shape.expected_depth = keypoint.depth;
-    all[i]->target.shape = shape;
+    all[i]->shape = shape;
   }
 }
 
 void TargetInbox::add(const std::string& topic, const PoseStampedMessage& message) {
   make_room(topic, message.header.stamp);
-  Waiting& one = add_target(topic, message.header);
+  Target& one = add_target(topic, message.header);
   const ReferenceFrame frame = resolve_frame(one);
-  one.target.shape = PointTarget{.position = message.pose.translation(), .frame = frame};
+  one.shape = PointTarget{.position = message.pose.translation(), .frame = frame};
 }
 
 bool TargetInbox::knows(std::string_view frame, bool of_pixels) const {
@@ -167,33 +168,27 @@ bool TargetInbox::knows(std::string_view frame, bool of_pixels) const {
          robot_.find_link(frame.substr(frame_prefix_.size()));
 }
 
-ReferenceFrame TargetInbox::resolve_frame(Waiting& waiting) const {
-  const std::string frame = std::exchange(waiting.image_frame, {});
+ReferenceFrame TargetInbox::resolve_frame(Target& target) const {
+  const std::string frame = std::exchange(target.frame_id, {});
   if (frame.empty() || frame == without_slash(camera_frame_)) return {};
-  waiting.link_frame = frame;
-  if (frame.starts_with(frame_prefix_)) waiting.link_frame.erase(0, frame_prefix_.size());
   if (!knows(frame, false))
-    waiting.fault =
+    target.fault =
         "its frame '" + printable(frame) + "' is neither the camera's nor a link of the robot";
-  return ReferenceFrame::of_link(waiting.link_frame);
+  return ReferenceFrame::of_link(
+      frame.starts_with(frame_prefix_) ? frame.substr(frame_prefix_.size()) : frame);
 }
 
-std::span<const Target> TargetInbox::take() {
+std::vector<Target> TargetInbox::take() {
+  std::vector<Target> targets;
   by_name_.clear();
-  taken_ = std::exchange(waiting_, {});
-  targets_.clear();
-  for (Waiting& waiting : taken_) {
-    waiting.target.name = waiting.name;
+  for (Waiting& waiting : std::exchange(waiting_, {})) {
+    Target& target = targets.emplace_back(std::move(waiting.target));
     // Only pixels have an image frame. The camera's name is compared as it stands.
-    if (!waiting.image_frame.empty())
-      waiting.target.frame_id =
-          waiting.image_frame == without_slash(camera_frame_) ? camera_frame_ : waiting.image_frame;
-    waiting.target.fault = waiting.fault;
-    if (waiting.target.has_identity)
-      waiting.target.handling = handling_of(waiting.target.shape, hidden_);
-    targets_.push_back(waiting.target);
+    if (!target.frame_id.empty() && target.frame_id == without_slash(camera_frame_))
+      target.frame_id = camera_frame_;
+    if (target.has_identity) target.handling = handling_of(target.shape, hidden_);
   }
-  return targets_;
+  return targets;
 }
 
 }  // namespace penumbra::io

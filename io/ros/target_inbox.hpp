@@ -10,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include <penumbra/pipeline/target.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/targets/target.hpp>
 
 #include <io/ros/messages.hpp>
 
@@ -55,9 +55,8 @@ class TargetInbox {
   /// Adds a point with a ball of PointTarget::radius around it.
   void add(const std::string& topic, const PoseStampedMessage& message);
 
-  /// Returns the targets received since the last call, the newest of each name. Valid until the
-  /// next call.
-  [[nodiscard]] std::span<const Target> take();
+  /// Returns the targets received since the last call, the newest of each name.
+  [[nodiscard]] std::vector<Target> take();
 
   [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
   /// Returns how many were never taken because a newer one of their name came first.
@@ -66,11 +65,8 @@ class TargetInbox {
   [[nodiscard]] std::size_t discarded() const { return discarded_; }
 
  private:
-  /// A target and the values that it refers to.
   struct Waiting {
     std::string_view topic;  // newest_'s
-    std::string name, image_frame, link_frame, fault;
-    std::vector<Eigen::Vector2d> corners;
     Target target;
   };
 
@@ -85,13 +81,12 @@ class TargetInbox {
   /// Drops old targets. To be called before a message's targets are added.
   void make_room(const std::string& topic, std::int64_t stamp);
   List::iterator forget(List::iterator one);
-  Waiting& add_target(std::string name, const MessageHeader& header);
+  Target& add_target(std::string name, const MessageHeader& header);
   /// Adds a target for each of a message's detections.
-  std::vector<Waiting*> add_targets(const std::vector<BaseName>& names,
-                                    const MessageHeader& header);
-  /// Resolves the frame of a 3-D target: moves it to `link_frame`, and sets `fault` if it is
-  /// neither the camera's nor a link.
-  ReferenceFrame resolve_frame(Waiting& waiting) const;
+  std::vector<Target*> add_targets(const std::vector<BaseName>& names, const MessageHeader& header);
+  /// Returns the frame of a 3-D target, which is no image frame. Sets its fault if that is neither
+  /// the camera's nor a link.
+  ReferenceFrame resolve_frame(Target& target) const;
   static BaseName base_name_of(const std::string& topic, const std::string& id,
                                std::span<const HypothesisMessage> results);
 
@@ -102,8 +97,6 @@ class TargetInbox {
   std::string_view topic_;                      // of the current message, newest_'s
   List waiting_;                                // since the last take()
   std::unordered_map<std::string_view, List::iterator> by_name_;  // in waiting_
-  List taken_;                                                    // that targets_ refer to
-  std::vector<Target> targets_;
   std::size_t replaced_ = 0, discarded_ = 0;
 };
 

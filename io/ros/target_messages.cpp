@@ -21,13 +21,11 @@ std::uint8_t value_of(Enum value, const std::array<std::uint8_t, count>& values)
   return values.at(static_cast<std::size_t>(value));
 }
 
-void put_judgement(const Judgement& judged, std::span<const std::string> links,
-                   TargetMessage& message) {
+void put_judgement(const Judgement& judged, TargetMessage& message) {
   message.judged = true;
   message.covered = judged.covered;
   message.inside = judged.inside;
-  for (const Blame& blame : judged.blame)
-    message.blame.push_back({links[blame.link], blame.fraction});
+  for (const Blame& blame : judged.blame) message.blame.push_back({blame.name, blame.fraction});
   if (judged.inside == 0) return;
   message.occluded_fraction = judged.occluded;
   message.front_fraction = judged.front;
@@ -46,13 +44,13 @@ void put_handled(const HandledTarget& handled, TargetMessage& message) {
   if (handled.orientation) message.pose.orientation = handled.orientation->coeffs();
 }
 
-TargetMessage target_message(const TargetReport& target, std::span<const std::string> links) {
-  TargetMessage message{.name = std::string(target.name)};
+TargetMessage target_message(const TargetReport& target) {
+  TargetMessage message{.name = target.name};
   message.has_stamp = target.stamp.has_value();
   message.stamp = target.stamp.value_or(0);
   message.verdict = value_of(target.verdict, verdict_values);
   message.reason = target.reason;
-  if (target.judgement) put_judgement(*target.judgement, links, message);
+  if (target.judgement) put_judgement(*target.judgement, message);
   if (target.point) {
     message.point = *target.point;
     if (target.judgement) {
@@ -107,7 +105,7 @@ TargetsMessage targets_message(const FrameReport& report, std::string_view camer
                          .status = std::string(to_string(report.status)),
                          .message = report.message};
   for (const TargetReport& target : report.targets)
-    message.targets.push_back(target_message(target, report.links));
+    message.targets.push_back(target_message(target));
   return message;
 }
 

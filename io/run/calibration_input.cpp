@@ -40,19 +40,6 @@ class Speed {
   std::vector<Eigen::Isometry3d> poses_;
 };
 
-Image<float> metres(const DepthView& view, const DepthRange& range) {
-  return std::visit(
-      [&](const auto& depth) {
-        Image<float> out(depth.width, depth.height);
-        for (int v = 0; v < depth.height; ++v)
-          for (int u = 0; u < depth.width; ++u)
-            if (const float z = metres_of(depth(u, v)); z >= range.near && z <= range.far)
-              out(u, v) = z;
-        return out;
-      },
-      view);
-}
-
 template <typename T>
 Image<T> rectified_copy(const std::optional<Rectification>& lens, const Image<T>& raw) {
   Image<T> image;
@@ -74,7 +61,6 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
 
   const Robot& robot = input.robot;
   const auto source = input.frames(robot);
-  FrameData data;
   Frame frame;
   CalibrationFrames resting, all;
   Trajectory trajectory;
@@ -82,7 +68,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   Speed speed;
   std::size_t seen = 0, faulty = 0;
   std::string fault;
-  while (source->next(data, frame)) {
+  while (source->next(frame)) {
     ++seen;
     step();
     CalibrationFrame kept{.index = frame.index.value_or(seen - 1),
@@ -91,20 +77,19 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
                           .joints = {},
                           .T_root_link = {},
                           .nearby = {}};
-    const bool has_depth = std::visit([](const auto& view) { return !view.empty(); }, frame.depth);
-    const bool has_joints = frame.joints.status == JointStatus::ok &&
-                            frame.joints.positions.size() == robot.variables().size();
-    if (frame.source_status != FrameStatus::ok || !has_depth ||
-        (frame.T_root_link.empty() && !has_joints)) {
+    const RobotPose& pose = frame.pose;
+    const bool has_joints = pose.positions.size() == robot.variables().size();
+    if (pose.status != FrameStatus::ok || frame.source_status != FrameStatus::ok ||
+        is_empty(frame.depth.view) || (pose.T_root_link.empty() && !has_joints)) {
+      const std::string& why = pose.message.empty() ? frame.source_message : pose.message;
       if (faulty++ == 0)
         fault = "frame " + std::to_string(kept.index) + ": " +
-                (frame.source_message.empty() ? std::string("no joints or no depth")
-                                              : std::string(frame.source_message));
+                (why.empty() ? "no joints or no depth" : why);
       continue;
     }
-    kept.T_root_link.assign(frame.T_root_link.begin(), frame.T_root_link.end());
+    kept.T_root_link = pose.T_root_link;
     if (kept.T_root_link.empty()) {
-      kept.joints.assign(frame.joints.positions.begin(), frame.joints.positions.end());
+      kept.joints = pose.positions;
       kept.T_root_link.resize(robot.links().size());
       robot.forward_kinematics(kept.joints, kept.T_root_link);
     }
@@ -119,7 +104,8 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
     }
     if (options.time_offset && (!now || *now < moving)) continue;
     if (!all.wants(kept.T_root_link) && !(rests && resting.wants(kept.T_root_link))) continue;
-    kept.depth = rectified_copy(lens, metres(frame.depth, input.camera.range));
+    kept.depth = rectified_copy(
+        lens, metres_of(frame.depth.view, {input.camera.range.near, input.camera.range.far}));
     if (masks) {
       Image<std::uint8_t> mask;
       const auto file = masks->file(static_cast<std::int64_t>(kept.index));

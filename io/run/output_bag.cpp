@@ -50,14 +50,13 @@ void OutputBag::write(Result result, std::int64_t stamp, std::span<const std::by
   writer_.write(channel.id, stamp, stamp, channel.messages++, payload);
 }
 
-void OutputBag::save(const FrameReport& report, const FrameData& frame,
-                     const ShownTargets& targets) {
+void OutputBag::save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) {
   if (!report.stamp)
     throw InputError(
         "frame " + std::to_string(report.index) +
         " has no stamp, and a bag's messages need one: give --fps N, of the recording");
   if (!report.missing_links.empty()) missing_link_ = report.missing_links.front();
-  encoder_.encode(report, {frame.depth_view(), frame.color.view()}, targets, *this);
+  encoder_.encode(report, {frame.depth.view, frame.color.view}, targets, *this);
 }
 
 void OutputBag::finish(const Statistics& /*statistics*/, std::span<const std::string> /*notes*/) {

@@ -26,8 +26,7 @@ class OutputBag final : public RunOutput, private ResultSink {
   OutputBag(const std::filesystem::path& file, const Camera& camera, std::string root);
 
   void begin(const ReportHead&) override {}
-  void save(const FrameReport& report, const FrameData& frame,
-            const ShownTargets& targets) override;
+  void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
   [[nodiscard]] std::vector<std::string> notes() const override;
 

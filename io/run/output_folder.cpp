@@ -196,7 +196,7 @@ void OutputFolder::write_page() const {
   pending.finish();
 }
 
-void OutputFolder::save(const FrameReport& report, const FrameData& frame,
+void OutputFolder::save(const FrameReport& report, const Frame& frame,
                         const ShownTargets& targets) {
   report_->add(report);
   saved_.push_back(report.index);
@@ -214,12 +214,12 @@ void OutputFolder::save(const FrameReport& report, const FrameData& frame,
   if (options_.saves.filtered || options_.saves.points)
     save_without_robot(report, frame, targets.camera);
   if (!options_.saves.overlay && !options_.report_page) return;
-  const auto overlay = painter_.draw(report, {frame.depth_view(), frame.color.view()}, targets);
+  const auto overlay = painter_.draw(report, {frame.depth.view, frame.color.view}, targets);
   if (options_.saves.overlay) write_later(file("overlay", index, ".png"), overlay, plain_png);
   if (options_.report_page) key_frames_.add(report, overlay);
 }
 
-void OutputFolder::save_without_robot(const FrameReport& report, const FrameData& frame,
+void OutputFolder::save_without_robot(const FrameReport& report, const Frame& frame,
                                       const Camera& camera) {
   without_robot(report, filtered_);
   if (options_.saves.filtered)
@@ -238,7 +238,7 @@ void OutputFolder::save_without_robot(const FrameReport& report, const FrameData
   cloud_maker_->make(filtered_, cloud, T_frame_camera);
   writers_->add([pcd = file("points", report.index, ".pcd"),
                  ply = file("points", report.index, ".ply"), cloud = std::move(cloud),
-                 color = copy_of(painter_.seen_color(frame.color.view()))] {
+                 color = copy_of(painter_.seen_color(frame.color.view))] {
     write_pcd(pcd, cloud, color.view());
     write_ply(ply, cloud, color.view());
   });

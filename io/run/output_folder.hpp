@@ -62,15 +62,14 @@ class OutputFolder final : public RunOutput {
 
   /// Writes the frame's images on other threads. Without the robot's pose there is no VDI and no
   /// link image, and all labels are unknown. Throws InputError if writing images fails.
-  void save(const FrameReport& report, const FrameData& frame,
-            const ShownTargets& targets) override;
+  void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
 
  private:
   void write_page() const;
   template <typename T, typename Write>
   void write_later(std::filesystem::path file, ImageView<const T> image, Write write);
-  void save_without_robot(const FrameReport& report, const FrameData& frame, const Camera& camera);
+  void save_without_robot(const FrameReport& report, const Frame& frame, const Camera& camera);
   [[nodiscard]] std::filesystem::path report_file() const { return options_.path / "report.json"; }
   [[nodiscard]] std::filesystem::path file(const char* kind, std::size_t index,
                                            const char* ending) const;

@@ -14,12 +14,13 @@ TargetsFile open_planned_targets(const PlanningOptions& options, const RunInput&
   const auto& file = options.targets ? options.targets : input.targets;
   if (!file)
     throw InputError(options.input.path.string() + ": has no targets; give a file with --targets");
-  TargetsFile targets = TargetsFile::open(*file, {.robot = input.robot,
-                                                  .image = ImageSpace::raw,
-                                                  .images = input.camera.intrinsics,
-                                                  .is_bent = !input.camera.distortion.is_none(),
-                                                  .beyond_hides = true,
-                                                  .camera_frame = input.camera.frame_id});
+  TargetsFile targets =
+      TargetsFile::open(*file, {.robot = input.robot,
+                                .image = ImageSpace::raw,
+                                .images = input.camera.intrinsics,
+                                .has_distortion = !input.camera.distortion.is_none(),
+                                .beyond_hides = true,
+                                .camera_frame = input.camera.frame_id});
   if (targets.size() == 0) throw InputError(file->string() + ": has no targets");
   return targets;
 }
@@ -53,33 +54,26 @@ struct PlacedInRoot {
   }
 };
 
-std::vector<Target> placed(std::span<const Target> given, const Eigen::Isometry3d& T_root_camera,
+std::vector<Target> placed(std::vector<Target> targets, const Eigen::Isometry3d& T_root_camera,
                            const std::filesystem::path& file) {
-  std::vector<Target> targets(given.begin(), given.end());
   for (Target& target : targets) {
     target.fault = {};  // its shape is then std::monostate: not found
     target.estimate.reset();
     try {
       std::visit(PlacedInRoot{T_root_camera}, target.shape);
     } catch (const InputError& fault) {
-      throw InputError(file.string() + ": target '" + std::string(target.name) + "' " +
-                       fault.what());
+      throw InputError(file.string() + ": target '" + target.name + "' " + fault.what());
     }
   }
   return targets;
 }
 
 /// Returns why the robot's pose is not known in a frame; empty if it is. Depth is not needed.
-std::string why_without_pose(const Frame& frame, const Robot& robot) {
-  const bool is_ok = frame.source_status == FrameStatus::ok ||
-                     frame.source_status == FrameStatus::missing_depth ||
-                     frame.source_status == FrameStatus::bad_depth;
-  const bool has_joints = frame.joints.status == JointStatus::ok &&
-                          frame.joints.positions.size() == robot.variables().size();
-  if (is_ok && (!frame.T_root_link.empty() || has_joints)) return {};
-  if (!is_ok && !frame.source_message.empty()) return std::string(frame.source_message);
-  return is_ok ? "its joint states are missing or stale"
-               : std::string(to_string(frame.source_status));
+std::string why_without_pose(const RobotPose& pose, const Robot& robot) {
+  if (!has_pose(pose.status))
+    return pose.message.empty() ? std::string(to_string(pose.status)) : pose.message;
+  const bool has_joints = pose.positions.size() == robot.variables().size();
+  return has_joints || !pose.T_root_link.empty() ? "" : "its joint states are missing or stale";
 }
 
 }  // namespace
@@ -99,29 +93,29 @@ PlanningInput read_planning_input(const PlanningOptions& options, const LineSink
   const std::size_t parent =
       config.camera_parent.empty() ? 0 : robot.find_link(config.camera_parent).value();
   const auto source = read.input.frames(robot);
-  FrameData data;
   Frame frame;
   std::string fault;
-  while (source->next(data, frame)) {
+  while (source->next(frame)) {
     const std::size_t index = frame.index.value_or(read.seen);
     ++read.seen;
     step();
-    if (const std::string why = why_without_pose(frame, robot); !why.empty()) {
+    if (const std::string why = why_without_pose(frame.pose, robot); !why.empty()) {
       if (fault.empty()) fault = "frame " + std::to_string(index) + ": " + why;
       continue;
     }
     MotionFrame& kept = read.motion.emplace_back();
     kept.index = index;
-    kept.T_root_link.assign(frame.T_root_link.begin(), frame.T_root_link.end());
+    kept.T_root_link = frame.pose.T_root_link;
     if (kept.T_root_link.empty()) {
       kept.T_root_link.resize(robot.links().size());
-      robot.forward_kinematics(frame.joints.positions, kept.T_root_link);
+      robot.forward_kinematics(frame.pose.positions, kept.T_root_link);
     }
-    kept.attached.assign(frame.attached.begin(), frame.attached.end());
-    kept.uncertain_links.assign(frame.uncertain_links.begin(), frame.uncertain_links.end());
+    kept.attached = frame.pose.attached;
+    kept.uncertain_links = frame.pose.uncertain_links;
     const Eigen::Isometry3d T_root_camera =
-        kept.T_root_link[parent] * frame.T_parent_camera.value_or(config.T_parent_camera);
-    kept.targets = placed(read.targets.of_frame(data.index), T_root_camera, read.targets.file());
+        kept.T_root_link[parent] * frame.pose.T_parent_camera.value_or(config.T_parent_camera);
+    kept.targets = placed(read.targets.of_frame(static_cast<std::int64_t>(index)), T_root_camera,
+                          read.targets.file());
   }
   read.notes = source->notes();
   if (read.motion.empty())

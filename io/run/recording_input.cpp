@@ -82,14 +82,16 @@ class RecordingSource final : public FrameSource {
       : reader_(reader), selected_(selected), with_color_(options.with_color), fps_(options.fps) {}
 
   /// Throws InputError if the recording has stamps of its own and --fps is given.
-  bool next(FrameData& data, Frame& frame) override {
+  bool next(Frame& frame) override {
     if (next_ == selected_.size()) return false;
-    reader_.read(selected_[next_++], with_color_, data);
-    if (fps_ && data.stamp)
-      throw InputError("frame " + std::to_string(data.index) +
+    frame = reader_.read(selected_[next_++], with_color_);
+    if (fps_ && frame.stamp)
+      throw InputError("frame " + std::to_string(*frame.index) +
                        " has a stamp of its own: leave --fps out");
-    if (fps_) data.stamp = std::llround(1e9 * static_cast<double>(data.index) / *fps_);
-    frame = frame_of(data);
+    if (fps_) {
+      frame.stamp = std::llround(1e9 * static_cast<double>(*frame.index) / *fps_);
+      if (!frame.pose.positions.empty()) frame.pose.age = 0;
+    }
     return true;
   }
   [[nodiscard]] std::optional<std::size_t> size() const override { return selected_.size(); }

@@ -47,33 +47,32 @@ void FrameStore::begin(const ReportHead& head) {
   head_size_ = text_.size();
 }
 
-void FrameStore::save(const FrameReport& report, const FrameData& data,
-                      const ShownTargets& targets) {
+void FrameStore::save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) {
   Entry entry;
-  const std::string frame = report_frame(report);
+  const std::string text = report_frame(report);
   const std::string poses =
       poses_json(report.T_root_link, report.T_root_camera, report.links.size()) + ", " +
       marks_json(target_overlay_.marks(targets.targets, report, targets.robot, targets.camera));
   entry.poses = spool_.append(std::as_bytes(std::span(poses)), true);
-  add_images(report, data, entry);
+  add_images(report, frame, entry);
 
   const std::lock_guard lock(mutex_);
   text_ += entries_.empty() ? "\n" : ",\n";
   entry.report_offset = text_.size();
-  entry.report_size = frame.size();
-  text_ += frame;
+  entry.report_size = text.size();
+  text_ += text;
   entries_.push_back(entry);
-  if (data.color_message.empty()) return;
-  if (without_color_++ == 0) first_without_color_ = data.color_message;
+  if (frame.color_message.empty()) return;
+  if (without_color_++ == 0) first_without_color_ = frame.color_message;
 }
 
-void FrameStore::add_images(const FrameReport& report, const FrameData& data, Entry& entry) {
+void FrameStore::add_images(const FrameReport& report, const Frame& frame, Entry& entry) {
   const auto at = [&](Part part) -> Kept& { return entry.parts[static_cast<std::size_t>(part)]; };
   at(Part::labels) = keep(report.labels, "u8");
   at(Part::links) = keep(report.virtual_depth.links, "u16");
   at(Part::vdi) = keep(report.virtual_depth.depth, "f32");
-  at(Part::depth) = keep_depth(data.depth_view());
-  at(Part::color) = keep_color(data);
+  at(Part::depth) = keep_depth(frame.depth.view);
+  at(Part::color) = keep_color(frame);
 }
 
 template <typename T>
@@ -87,14 +86,13 @@ FrameStore::Kept FrameStore::keep(ImageView<const T> image, const char* type) {
 }
 
 FrameStore::Kept FrameStore::keep_depth(const DepthView& depth) {
-  const bool is_empty = std::visit([](const auto& image) { return image.empty(); }, depth);
-  if (is_empty) return {};
+  if (is_empty(depth)) return {};
   std::visit([&](const auto& image) { fill_metres(image, metres_); }, depth);
   return keep(rectified(rectification_, std::as_const(metres_).view(), rectified_), "f32");
 }
 
-FrameStore::Kept FrameStore::keep_color(const FrameData& data) {
-  const auto image = rectified(rectification_, data.color.view(), color_);
+FrameStore::Kept FrameStore::keep_color(const Frame& frame) {
+  const auto image = rectified(rectification_, frame.color.view, color_);
   if (image.empty()) return {};
   encode_jpeg(image, jpeg_quality, file_);
   return {spool_.append(file_, false), "image/jpeg", image.width, image.height};

@@ -25,7 +25,7 @@ class FrameStore final : public FrameArchive, public RunOutput {
 
   // By one thread; save() throws InputError where the disk is full.
   void begin(const ReportHead& head) override;
-  void save(const FrameReport& report, const FrameData& data, const ShownTargets& targets) override;
+  void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
 
   // Any thread may call these.
@@ -51,8 +51,8 @@ class FrameStore final : public FrameArchive, public RunOutput {
   template <typename T>
   [[nodiscard]] Kept keep(ImageView<const T> image, const char* type);
   [[nodiscard]] Kept keep_depth(const DepthView& depth);
-  [[nodiscard]] Kept keep_color(const FrameData& data);
-  void add_images(const FrameReport& report, const FrameData& data, Entry& entry);
+  [[nodiscard]] Kept keep_color(const Frame& frame);
+  void add_images(const FrameReport& report, const Frame& frame, Entry& entry);
 
   const Rectification* rectification_;
   TargetOverlay target_overlay_;

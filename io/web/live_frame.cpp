@@ -51,7 +51,7 @@ LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFram
     : scene_(std::move(scene)),
       kept_(kept),
       index_(report.index),
-      stamp_(job.pose.stamp),
+      stamp_(job.frame.stamp.value_or(0)),
       report_(report_frame(report)),
       T_root_camera_(report.T_root_camera),
       T_root_link_(report.T_root_link.begin(), report.T_root_link.end()) {

@@ -71,7 +71,7 @@ RunReport RunReport::read(const std::filesystem::path& file) {
     report.start += ",\n\"frames\": [";
   } catch (const nlohmann::json::exception& error) {
     throw InputError(file.string() + ": is not a report of penumbra run (" + error.what() +
-                     "); a folder that run wrote with -o is wanted");
+                     "); expected a folder that run wrote with -o");
   }
   return report;
 }

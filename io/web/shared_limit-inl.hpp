@@ -18,14 +18,14 @@ class SharedLimit {
 
   struct Use {
     std::size_t size;
-    std::function<void()> give_up;  // any thread may call it
+    std::function<void()> close;  // any thread may call it
   };
   using Place = std::list<Use>::iterator;
 
   Place add(Use use) {
-    std::vector<std::function<void()>> given_up;
-    const Place place = add(std::move(use), given_up);
-    for (const auto& give_up : given_up) give_up();
+    std::vector<std::function<void()>> to_close;
+    const Place place = add(std::move(use), to_close);
+    for (const auto& close : to_close) close();
     return place;
   }
 
@@ -36,15 +36,15 @@ class SharedLimit {
   }
 
  private:
-  /// Adds a use. The caller calls `given_up` without the mutex, because that may destroy a client,
+  /// Adds a use. The caller calls `to_close` without the mutex, because that may destroy a client,
   /// which removes its use.
-  Place add(Use use, std::vector<std::function<void()>>& given_up) {
+  Place add(Use use, std::vector<std::function<void()>>& to_close) {
     const std::lock_guard lock(mutex_);
     size_ += use.size;
     for (auto old = uses_.begin(); size_ > most_ && old != uses_.end(); ++old) {
       if (old->size == 0) continue;
       size_ -= std::exchange(old->size, 0);
-      given_up.push_back(old->give_up);
+      to_close.push_back(old->close);
     }
     return uses_.insert(uses_.end(), std::move(use));
   }
@@ -56,17 +56,17 @@ class SharedLimit {
 };
 
 /// The use of a limit by a connection.
-class Seat {
+class ConnectionSlot {
  public:
-  Seat() = default;
-  Seat(const Seat&) = delete;
-  Seat& operator=(const Seat&) = delete;
-  ~Seat() { leave(); }
+  ConnectionSlot() = default;
+  ConnectionSlot(const ConnectionSlot&) = delete;
+  ConnectionSlot& operator=(const ConnectionSlot&) = delete;
+  ~ConnectionSlot() { leave(); }
 
   /// Becomes the newest use of a limit and leaves the former limit.
-  void take(SharedLimit& limit, std::function<void()> give_up) {
+  void take(SharedLimit& limit, std::function<void()> close) {
     leave();
-    place_ = limit.add({1, std::move(give_up)});
+    place_ = limit.add({1, std::move(close)});
     limit_ = &limit;
   }
 

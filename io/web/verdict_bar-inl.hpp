@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/targets/target.hpp>
+#include <penumbra/labels/labels.hpp>
 
 namespace penumbra::io {
 

@@ -63,7 +63,7 @@ template <typename Client>
 std::function<void()> close_of(std::weak_ptr<Client> weak) {
   return [weak = std::move(weak)] {
     if (const auto client = weak.lock())
-      asio::post(client->executor(), [client] { client->give_up(); });
+      asio::post(client->executor(), [client] { client->close(); });
   };
 }
 
@@ -77,7 +77,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
       : shared_(shared), stream_(std::move(stream)), channel_(std::move(channel)) {}
 
   void run(const Request& request) {
-    stay();
+    keep_alive();
     socket().expires_never();
     auto times = websocket::stream_base::timeout::suggested(beast::role_type::server);
     times.idle_timeout = std::chrono::seconds(30);
@@ -98,7 +98,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
   }
 
   [[nodiscard]] asio::any_io_executor executor() { return stream_.get_executor(); }
-  void give_up() { socket().close(); }
+  void close() { socket().close(); }
 
   void wake() {
     asio::post(stream_.get_executor(), [self = shared_from_this()] { self->send(); });
@@ -106,7 +106,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
 
  private:
   [[nodiscard]] beast::tcp_stream& socket() { return beast::get_lowest_layer(stream_); }
-  void stay() { seat_.take(shared_.authenticated, close_of(weak_from_this())); }
+  void keep_alive() { slot_.take(shared_.authenticated, close_of(weak_from_this())); }
 
   void read() {
     stream_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
@@ -115,7 +115,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
   }
 
   void take() {
-    stay();
+    keep_alive();
     const std::string text = beast::buffers_to_string(buffer_.data());
     buffer_.consume(buffer_.size());
     if (!stream_.got_text()) return close(websocket::close_code::unknown_data);
@@ -154,14 +154,14 @@ class Channel : public std::enable_shared_from_this<Channel> {
       self->sending_ = false;
       self->message_.clear();
       if (error) return;
-      self->stay();
+      self->keep_alive();
       self->send();
     };
     stream_.async_write(buffers, written);
   }
 
   Shared& shared_;
-  Seat seat_;
+  ConnectionSlot slot_;
   websocket::stream<beast::tcp_stream> stream_;
   std::unique_ptr<WebChannel> channel_;
   beast::flat_buffer buffer_;

@@ -61,12 +61,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   [[nodiscard]] const asio::any_io_executor& executor() const { return executor_; }
-  void give_up() {
+  void close() {
     if (!is_upgraded_) stream_.close();
   }
 
   void run() {
-    seat_.take(shared_.unauthenticated, close_of(weak_from_this()));
+    slot_.take(shared_.unauthenticated, close_of(weak_from_this()));
     asio::dispatch(stream_.get_executor(), [self = shared_from_this()] { self->read(); });
   }
 
@@ -86,7 +86,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     if (error == beast::error::timeout) return;  // the stream is closed already
     if (error == http::error::end_of_stream ||
         error.category() != http::make_error_code(http::error::bad_method).category())
-      return close();
+      return close_after_answer();
     keep_alive_ = false;
     version_ = 11;
     if (error == http::error::header_limit || error == http::error::buffer_overflow)
@@ -110,7 +110,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     const bool brings_token = shared_.guard.brings_token(*target);
     if (!brings_token && !shared_.guard.knows_token(sender))
       return answer(web_error(401, "the token is missing; open the address that was printed"));
-    seat_.take(shared_.authenticated, close_of(weak_from_this()));
+    slot_.take(shared_.authenticated, close_of(weak_from_this()));
     if (brings_token) return admit();
     if (websocket::is_upgrade(request)) return upgrade(request, *target);
     answer(made_answer(*target));
@@ -172,12 +172,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
                         self->shared_.waiting.remove(place);
                         self->body_.clear();
                         if (error) return self->stream_.close();
-                        if (!self->keep_alive_) return self->close();
+                        if (!self->keep_alive_) return self->close_after_answer();
                         self->read();
                       });
   }
 
-  void close() {
+  void close_after_answer() {
     beast::error_code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
     stream_.expires_after(closing_time);
@@ -196,7 +196,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   }
 
   Shared& shared_;
-  Seat seat_;
+  ConnectionSlot slot_;
   beast::tcp_stream stream_;
   asio::any_io_executor executor_ = stream_.get_executor();  // outlives a move of the stream
   beast::flat_buffer buffer_;

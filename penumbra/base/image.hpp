@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <memory>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -71,12 +76,77 @@ inline constexpr std::uint16_t saturated_depth = 0xFFFF;
 /// axis. 0, NaN, inf, negative values and saturated_depth are "no measurement".
 using DepthView = std::variant<ImageView<const std::uint16_t>, ImageView<const float>>;
 
+inline constexpr float metres_per_millimetre = 0.001F;
+
+/// The depths of a sensor that are measurements. Comparisons have no branches, so that loops
+/// vectorise.
+struct MeasuredRange {
+  constexpr MeasuredRange() = default;
+  /// Metres; near >= 0.
+  MeasuredRange(double from, double to) {
+    constexpr double rounding = 0.01;  // millimetres
+    near = std::max(near, static_cast<float>(from));
+    far = std::min(far, static_cast<float>(to));
+    first = static_cast<std::uint16_t>(
+        std::ceil(std::clamp(1000.0 * from - rounding, 1.0, 1.0 * saturated_depth)));
+    last = static_cast<std::uint16_t>(std::clamp(1000.0 * to + rounding, 0.0, 1.0 * last));
+  }
+
+  [[nodiscard]] bool holds(float metres) const { return (near <= metres) & (metres <= far); }
+  [[nodiscard]] bool holds(std::uint16_t millimetres) const {
+    return (first <= millimetres) & (millimetres <= last);
+  }
+
+  float near = std::numeric_limits<float>::min(), far = std::numeric_limits<float>::max();
+  std::uint16_t first = 1, last = saturated_depth - 1;  ///< none if last < first
+};
+
 /// Returns a sensor's depth in metres; 0: no measurement.
-[[nodiscard]] inline float metres_of(std::uint16_t depth) {
-  return depth == saturated_depth ? 0.0F : 0.001F * static_cast<float>(depth);
+[[nodiscard]] inline float metres_of(std::uint16_t depth, const MeasuredRange& range = {}) {
+  return range.holds(depth) ? metres_per_millimetre * static_cast<float>(depth) : 0.0F;
 }
-[[nodiscard]] inline float metres_of(float depth) {
-  return std::isfinite(depth) && depth > 0 ? depth : 0.0F;
+[[nodiscard]] inline float metres_of(float depth, const MeasuredRange& range = {}) {
+  return range.holds(depth) ? depth : 0.0F;
+}
+[[nodiscard]] inline Image<float> metres_of(const DepthView& view,
+                                            const MeasuredRange& range = {}) {
+  return std::visit(
+      [&](const auto& depth) {
+        Image<float> metres(depth.width, depth.height);
+        for (int v = 0; v < depth.height; ++v)
+          for (int u = 0; u < depth.width; ++u) metres(u, v) = metres_of(depth(u, v), range);
+        return metres;
+      },
+      view);
+}
+
+struct Rgb8 {
+  std::uint8_t r = 0, g = 0, b = 0;
+  friend bool operator==(const Rgb8&, const Rgb8&) = default;
+};
+
+/// A view of pixels that it may keep alive. Without an owner it refers to the caller's memory.
+template <typename View>
+struct Shared {
+  View view = {};
+  std::shared_ptr<const void> owner = {};
+
+  Shared() = default;
+  template <typename V>
+  requires std::convertible_to<const V&, View> Shared(
+      const V& pixels,  // NOLINT(google-explicit-constructor)
+      std::shared_ptr<const void> kept_by = {})
+      : view(pixels), owner(std::move(kept_by)) {}
+  template <typename T>
+  requires std::convertible_to<ImageView<const T>, View>
+  explicit Shared(std::shared_ptr<const Image<T>> image) : view(image->view()), owner(image) {}
+};
+using SharedDepth = Shared<DepthView>;
+using SharedColor = Shared<ImageView<const Rgb8>>;
+
+/// Returns whether there is no depth image.
+[[nodiscard]] inline bool is_empty(const DepthView& depth) {
+  return std::visit([](const auto& view) { return view.empty(); }, depth);
 }
 
 /// The tiles of an image that are not empty, so that the cost of later stages depends on touched

@@ -9,9 +9,10 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/calibration/calibration.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
-#include <penumbra/pipeline/pose_stage-inl.hpp>
+#include <penumbra/poses/pose_stage-inl.hpp>
 
 namespace penumbra {
 namespace {
@@ -220,8 +221,7 @@ class Calibrator {
     for (const CalibrationFrame* frame : used_)
       agreeing.push_back(observer.fit(*frame, state).agreeing);
     std::vector<double> sorted = agreeing;
-    std::sort(sorted.begin(), sorted.end());
-    const double least = elsewhere * sorted[sorted.size() / 2];
+    const double least = elsewhere * detail::median(sorted);
     FramePointers good;
     for (std::size_t i = 0; i < used_.size(); ++i)
       if (agreeing[i] >= least) good.push_back(used_[i]);
@@ -326,7 +326,12 @@ class Calibrator {
                                number(100.0 * frame.agreeing, 0) +
                                " % of the robot's pixels show it where its joints say");
     }
-    if (!fit.covariance.allFinite() || !(agreeing >= least_agreeing)) {
+    if (agreeing >= least_agreeing && !fit.covariance.allFinite()) {
+      result.faults.push_back(
+          "the images do not tell the pose: all frames repeat one view of one link; record poses "
+          "in "
+          "which links move in the camera's view");
+    } else if (!(agreeing >= least_agreeing)) {
       result.faults.push_back(
           "only " + number(100.0 * agreeing, 0) +
           " % of the robot's pixels show it at its depth: the robot is not in view, the URDF is "

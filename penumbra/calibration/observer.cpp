@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
@@ -20,13 +21,6 @@ constexpr int run = 4, least_of_run = 3;  // pixels on each side of an edge that
 constexpr int most_missing = 4;           // pixels without measurement at an edge
 constexpr int mask_reach = 40;            // pixels
 constexpr double agreeing_depth = 0.02;   // metres
-
-double median(std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -251,8 +245,8 @@ FrameFit Observer::fit(const CalibrationFrame& frame, const State& state) {
           .used = true,
           .agreeing =
               measured == 0 ? 0.0 : static_cast<double>(agreeing) / static_cast<double>(measured),
-          .residual = median(sizes[static_cast<std::size_t>(Kind::surface)]),
-          .outline = median(sizes[static_cast<std::size_t>(Kind::edge)])};
+          .residual = detail::median(sizes[static_cast<std::size_t>(Kind::surface)]),
+          .outline = detail::median(sizes[static_cast<std::size_t>(Kind::edge)])};
 }
 
 double Observer::information(const CalibrationFrame& frame, const State& state,

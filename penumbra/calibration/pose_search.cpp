@@ -5,6 +5,7 @@
 #include <numeric>
 #include <random>
 
+#include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
 #include <penumbra/mesh/simplified.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
@@ -78,9 +79,8 @@ void PoseSearch::find_moved() {
       for (const Small& small : frames_)
         if (small.depth(u, v) > 0.0f) depths.push_back(small.depth(u, v));
       if (depths.size() < CalibrationFrames::least) continue;
-      const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-      std::nth_element(depths.begin(), middle, depths.end());
-      const float limit = *middle - before_background - noise_of_square * *middle * *middle;
+      const float middle = detail::median(depths);
+      const float limit = middle - before_background - noise_of_square * middle * middle;
       for (Small& small : frames_)
         small.moved(u, v) = small.depth(u, v) > 0.0f && small.depth(u, v) < limit;
     }

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 #include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
 
 namespace penumbra::calibration {
@@ -17,15 +19,13 @@ constexpr Reach last_reach{.depth = 0.03, .pixels = 12.0};
 constexpr double narrowing = 0.8;                        // of the reach, per round
 constexpr double small_turn = 2e-6, small_shift = 2e-6;  // rad and metres: converged
 
-constexpr double to_sigma = 1.4826;    // of a median absolute residual, for normal residuals
-constexpr double tukey_width = 4.685;  // sigmas; 95 % efficient for normal residuals
 constexpr std::array<double, kinds> least_sigma{0.0005, 0.5, 0.5};  // metres, pixels, pixels
 /// Depth is counted in millimetres, edges in pixels. A flat surface or a straight edge is off by a
 /// part of a step as a whole, which its own residuals do not show: 1 / sqrt(12) along the image's
 /// axes, less where it is oblique.
 constexpr double rounding = 0.15;  // steps, standard deviation
 constexpr std::array<double, kinds> rounded{0.001 * rounding, rounding, rounding};
-constexpr double same_view = 0.01;  // metres that a link moves in the camera, at most
+constexpr double same_view = 0.03;  // metres that a link moves in the camera, at most
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
@@ -54,19 +54,9 @@ std::array<double, kinds> sigmas_of(const Residuals& residuals) {
   for (const Residual& residual : residuals.list)
     sizes[static_cast<std::size_t>(residual.kind)].push_back(std::abs(residual.value));
   std::array<double, kinds> sigmas = least_sigma;
-  for (std::size_t k = 0; k < kinds; ++k) {
-    if (sizes[k].empty()) continue;
-    const auto middle = sizes[k].begin() + static_cast<std::ptrdiff_t>(sizes[k].size() / 2);
-    std::nth_element(sizes[k].begin(), middle, sizes[k].end());
-    sigmas[k] = std::max(sigmas[k], to_sigma * *middle);
-  }
+  for (std::size_t k = 0; k < kinds; ++k)
+    sigmas[k] = std::max(sigmas[k], detail::robust_sigma(sizes[k]));
   return sigmas;
-}
-
-/// Tukey's biweight.
-double tukey(double residual_in_sigmas) {
-  const double x = residual_in_sigmas / tukey_width;
-  return std::abs(x) >= 1.0 ? 0.0 : (1.0 - x * x) * (1.0 - x * x);
 }
 
 /// Huber's weight: large residuals count by their size, so that the sum is about the area between
@@ -107,7 +97,9 @@ Equations equations_of(const Residuals& residuals, const Unknowns& unknowns, con
     const Residual& residual = residuals.list[i];
     const auto k = static_cast<std::size_t>(residual.kind);
     const double in_sigmas = residual.value / sigmas[k];
-    const double weight = residual.kind == Kind::mask ? huber(in_sigmas) : tukey(in_sigmas);
+    const double weight = residual.kind == Kind::mask
+                              ? huber(in_sigmas)
+                              : detail::tukey_weight(in_sigmas, detail::tukey_width);
     weights[i] = weight / (sigmas[k] * sigmas[k]);
     Sum& sum = sums[views[residual.frame * links + residual.link]][k];
     sum.count += weight;
@@ -150,7 +142,7 @@ Equations equations_of(const Residuals& residuals, const Unknowns& unknowns, con
 }
 
 /// The covariance by the jackknife (Efron 1982): how far the solution moves without each group of
-/// parts, in one step from all of them. `groups` names each part's.
+/// parts, in one step from all of them. `groups` names each part's. NaN for fewer than two groups.
 Matrix jackknife(const Equations& equations, const std::vector<std::size_t>& groups) {
   const Matrix& information = equations.information;
   std::map<std::size_t, Part> left_out;
@@ -165,6 +157,9 @@ Matrix jackknife(const Equations& equations, const std::vector<std::size_t>& gro
   const Matrix inverse = information.inverse();
   Matrix covariance = inverse * unseen * inverse;
   const auto count = static_cast<double>(left_out.size());
+  if (left_out.size() < 2)
+    return Matrix::Constant(covariance.rows(), covariance.cols(),
+                            std::numeric_limits<double>::quiet_NaN());
   for (const auto& [group, part] : left_out) {
     const Vector moved = (information - part.information).ldlt().solve(part.gradient);
     covariance += (count - 1.0) / count * moved * moved.transpose();
@@ -177,12 +172,8 @@ std::vector<double> medians_by_link(const Residuals& residuals, std::size_t link
   for (const Residual& residual : residuals.list)
     if (residual.kind == Kind::surface) values[residual.link].push_back(residual.value);
   std::vector<double> medians(links, std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t link = 0; link < links; ++link) {
-    if (values[link].empty()) continue;
-    const auto middle = values[link].begin() + static_cast<std::ptrdiff_t>(values[link].size() / 2);
-    std::nth_element(values[link].begin(), middle, values[link].end());
-    medians[link] = *middle;
-  }
+  for (std::size_t link = 0; link < links; ++link)
+    if (!values[link].empty()) medians[link] = detail::median(values[link]);
   return medians;
 }
 
@@ -223,17 +214,24 @@ Equations Equations::after(const Vector& step) const {
   return there;
 }
 
-/// The larger, in each unknown, of leaving out views and of leaving out frames. With few frames it
-/// is wider, as the variance of Student's t is with as many degrees of freedom.
+/// The largest, in each unknown, of leaving out views, frames and links. With few frames or links
+/// it is wider, as the variance of Student's t is with as many degrees of freedom. NaN if all
+/// frames repeat one view.
 Matrix Equations::covariance() const {
-  std::vector<std::size_t> frames;
-  for (std::size_t i = 0; i < views.size(); ++i) frames.push_back(i / links);
+  std::vector<std::size_t> frame_of, link_of;
+  std::set<std::size_t> links_in_view;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    frame_of.push_back(i / links);
+    link_of.push_back(i % links);
+    if (parts[i].information.size() > 0) links_in_view.insert(i % links);
+  }
   const Matrix by_view = jackknife(*this, views);
-  const Vector scale = (jackknife(*this, frames).diagonal().array() / by_view.diagonal().array())
-                           .max(1.0)
-                           .sqrt()
-                           .matrix();
-  const auto freedoms = static_cast<double>(views.size()) / static_cast<double>(links);
+  Vector variances = by_view.diagonal().cwiseMax(jackknife(*this, frame_of).diagonal());
+  if (links_in_view.size() > 1)
+    variances = variances.cwiseMax(jackknife(*this, link_of).diagonal());
+  const Vector scale = variances.cwiseQuotient(by_view.diagonal()).cwiseSqrt();
+  const auto freedoms = static_cast<double>(std::clamp<std::size_t>(
+      links_in_view.size(), 3, std::max<std::size_t>(3, views.size() / links)));
   return freedoms / (freedoms - 2.0) * scale.asDiagonal() * by_view * scale.asDiagonal();
 }
 

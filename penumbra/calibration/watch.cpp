@@ -8,7 +8,9 @@
 #include <variant>
 #include <vector>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
 #include <penumbra/calibration/watch.hpp>
 #include <penumbra/calibration/watch_solution-inl.hpp>
@@ -25,9 +27,7 @@ constexpr float continuous = 0.02F;    // metres between neighbours of one surfa
 constexpr double gate = 0.03;          // metres between measured and virtual depth
 constexpr float through = 0.05F;       // metres behind the surface
 constexpr double least_cosine = 0.35;  // of the angle between ray and normal
-constexpr double tukey_width = 4.685;  // sigmas; 95 % efficient for normal residuals
 constexpr double least_sigma = 5e-4;   // metres
-constexpr double to_sigma = 1.4826;    // of a median absolute residual, for normal residuals
 
 constexpr double view_motion = 0.03;  // metres that a link moves in the camera until a new view
 constexpr std::size_t view_frames = 8;
@@ -88,12 +88,6 @@ bool is_beyond_chance(const Estimate& time) {
 /// How improbable a motion is if there was none.
 double distance(const Twist& motion, const PoseCovariance& covariance) {
   return motion.dot(covariance.ldlt().solve(motion));
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace watching
@@ -272,7 +266,7 @@ void CalibrationWatch::State::accumulate(const FrameReport& report) {
   sizes.clear();
   for (const Sample& sample : found) sizes.push_back(std::abs(sample.value));
   if (sizes.empty()) return;
-  sigma += 0.05 * (std::max(least_sigma, to_sigma * median(sizes)) - sigma);
+  sigma += 0.05 * (std::max(least_sigma, detail::robust_sigma(sizes)) - sigma);
   for (std::size_t link = 0; link < open.size(); ++link) {
     View& view = open[link];
     if (view.count == 0 || (frames - view.first_frame < view_frames &&
@@ -281,9 +275,9 @@ void CalibrationWatch::State::accumulate(const FrameReport& report) {
     close(view);
   }
   for (const Sample& sample : found) {
-    const double x =
-        sample.value / (tukey_width * sigma + time_reach * std::abs(sample.row[time_offset]));
-    if (std::abs(x) >= 1.0) continue;
+    const double inlier = detail::tukey_weight(
+        sample.value, detail::tukey_width * sigma + time_reach * std::abs(sample.row[time_offset]));
+    if (inlier == 0.0) continue;
     View& view = open[sample.link];
     if (view.count == 0) {
       view = {};
@@ -293,7 +287,7 @@ void CalibrationWatch::State::accumulate(const FrameReport& report) {
       view.stamp = report.stamp;
       view.T_camera_link = T_camera_link[sample.link];
     }
-    const double weight = (1.0 - x * x) * (1.0 - x * x) / (sigma * sigma);
+    const double weight = inlier / (sigma * sigma);
     view.information += weight * sample.row * sample.row.transpose();
     view.gradient += weight * (sample.value - sample.row.dot(at)) * sample.row;
     view.last_index = report.index;
@@ -425,8 +419,16 @@ bool CalibrationWatch::State::settle(const Solution& all) {
   return false;
 }
 
+void DriftLimits::check() const {
+  if (position > 0.0 && rotation > 0.0) return;
+  throw InputError("drift limits are " + std::to_string(1e3 * position) + " mm and " +
+                   std::to_string(rotation * 180.0 / std::numbers::pi) +
+                   " degrees; expected positive numbers");
+}
+
 CalibrationWatch::CalibrationWatch(const Camera& camera, const DriftLimits& limits)
     : state_(std::make_unique<State>(camera)) {
+  limits.check();
   state_->limits = limits;
   state_->margin = std::max(2, camera.intrinsics.width() / 200);
   Vector sigmas = Vector::Constant(1.0);

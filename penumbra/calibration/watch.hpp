@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -17,8 +18,11 @@ namespace penumbra {
 
 /// Beyond which a camera's motion is reported.
 struct DriftLimits {
-  double position = 0.002;   ///< metres
-  double rotation = 0.0017;  ///< rad; 0.1 degrees
+  double position = 0.002;                           ///< metres, > 0
+  double rotation = 0.1 * std::numbers::pi / 180.0;  ///< rad, > 0
+
+  /// Throws InputError for limits that are not positive.
+  void check() const;
 };
 
 /// How far a camera is from its calibration.
@@ -57,7 +61,7 @@ struct Drift {
 /// sees. It never changes the calibration. Costs about 20 us per frame.
 class CalibrationWatch {
  public:
-  /// `camera`: of the reports' images.
+  /// `camera`: of the reports' images. Throws InputError as DriftLimits::check().
   explicit CalibrationWatch(const Camera& camera, const DriftLimits& limits = {});
   ~CalibrationWatch();
   CalibrationWatch(CalibrationWatch&&) noexcept;

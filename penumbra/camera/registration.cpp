@@ -64,6 +64,7 @@ void splat(const Box& box, T depth, ImageView<T> out) {
 DepthRegistration::DepthRegistration(const Camera& from, const Camera& to)
     : from_(from.check()),
       to_(to.check()),
+      range_(std::max(from.range.near, min_depth), std::min(from.range.far, max_depth)),
       rays_x_(from.intrinsics.width() + 2 + block, from.intrinsics.height() + 2, unreachable),
       rays_y_(rays_x_),
       slope_u_(static_cast<float>(max_slope / from.intrinsics.fx())),
@@ -116,16 +117,11 @@ void DepthRegistration::land_row(ImageView<const T> image, int v, Row& row) cons
     std::fill(row.depth.begin(), row.depth.end(), 0.0F);
     return;
   }
-  const float near = std::max(static_cast<float>(from_.range.near), nearest_z);
-  const float far = std::min(static_cast<float>(from_.range.far), farthest_z);
   for (int u = 0; u < image.width; u += block) {
     std::array<T, block> given{};
     std::copy_n(image.row(v) + u, std::min(block, image.width - u), given.begin());
     std::array<float, block> depth;
-    for (std::size_t i = 0; i < block; ++i) {
-      const float metres = metres_of(given[i]);
-      depth[i] = both(metres >= near, metres <= far) ? metres : 0.0F;
-    }
+    for (std::size_t i = 0; i < block; ++i) depth[i] = metres_of(given[i], range_);
     land_block(depth.data(), u, v, row);
     if (!to_.distortion.is_none()) bend_block(u, row);
     keep_landed(depth.data(), u, row);

@@ -90,6 +90,7 @@ class DepthRegistration {
 
   Camera from_;
   Camera to_;
+  MeasuredRange range_;
   Image<float> rays_x_, rays_y_;    // of the image and a border of one pixel
   float slope_u_, slope_v_;         // largest relative difference of depth on one surface
   Eigen::Vector2f focal_, centre_;  // of `to`

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/diagnosis/hypothesis-inl.hpp>
 #include <penumbra/mesh/simplified.hpp>
 
@@ -59,9 +60,8 @@ void Agreement::find_moved(double depth_factor) {
       if (const float z = small.depth.data()[i]; z > 0.0f) depths.push_back(factor * z);
     }
     if (depths.size() < CalibrationFrames::least) continue;
-    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-    std::nth_element(depths.begin(), middle, depths.end());
-    const float limit = *middle - before_background - noise_of_square * *middle * *middle;
+    const float middle = detail::median(depths);
+    const float limit = middle - before_background - noise_of_square * middle * middle;
     for (Small& small : frames_)
       if (const float z = factor * small.depth.data()[i]; z > 0.0f && z < limit)
         small.moved.data()[i] = 1;

@@ -65,8 +65,7 @@ class SetupCheck {
   static constexpr std::size_t most = 12;  ///< frames that are kept
   static constexpr int reach = 7;          ///< frames before and after a kept one
 
-  /// `camera`: of the reports' images; `camera_parent`: index of the link that carries it. `robot`
-  /// must outlive this.
+  /// `camera`: of the reports' images; `camera_parent`: index of the link that carries it.
   SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent);
 
   /// Adds a frame in which the robot's pose and depth are known; ignores others. `joints`: its
@@ -77,6 +76,9 @@ class SetupCheck {
   /// Compares the setup with what it would be if one mistake was mended. Takes a tenth of a second
   /// if nothing looks wrong, else about a second.
   [[nodiscard]] Diagnosis diagnose() const;
+
+  /// Returns the number of kept frames. The robot's pose differs in all of them.
+  [[nodiscard]] std::size_t poses() const { return frames_.size(); }
 
  private:
   struct Seen {
@@ -89,7 +91,7 @@ class SetupCheck {
   void keep(const FrameReport& report);
   void thin_out();
 
-  const Robot& robot_;
+  Robot robot_;
   std::size_t parent_;
   std::optional<Rectification> lens_;
   int block_;

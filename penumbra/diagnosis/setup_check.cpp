@@ -43,8 +43,7 @@ bool SetupCheck::wants(std::span<const Eigen::Isometry3d> T_root_link) const {
 
 void SetupCheck::add(const FrameReport& report, std::span<const double> joints) {
   const auto is_finite = [](const Eigen::Isometry3d& T) { return T.matrix().allFinite(); };
-  if (!has_depth(report.status) || !report.T_root_camera ||
-      std::visit([](const auto& depth) { return depth.empty(); }, report.depth) ||
+  if (!has_depth(report.status) || !report.T_root_camera || is_empty(report.depth) ||
       !std::ranges::all_of(report.T_root_link, is_finite))
     return;
   pixels_ += static_cast<std::size_t>(report.labels.width) *

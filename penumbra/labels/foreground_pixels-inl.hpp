@@ -115,7 +115,7 @@ void find_foreground(Work& work, const TileMask& tiles, ImageView<const float> v
                      ImageView<const T> measured) {
   const bool has_margin = work.rule.cells > 0;
   if (has_margin) fill_cells(work, work.mark_cells(tiles), virtual_depth);
-  const Criteria rule(work.rule, range_of(work.rule, measured.data));
+  const Criteria rule(work.rule, measured.data);
   const auto find = [&](const T* d, int u, int v) HWY_ATTR {
     ForegroundBits bits = foreground_bits(rule, d, work.limits.data() + u);
     const std::uint32_t front = work.front.get(u, v);

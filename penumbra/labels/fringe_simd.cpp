@@ -96,9 +96,8 @@ template <typename T>
 void fill_blocks(Fringe& flood, const Work& work, ImageView<const T> measured) {
   constexpr int ahead = 4;  // rows to prefetch
   const ImageView<const std::uint8_t> labels = work.labels.view();
-  const auto near = hn::Set(D(), millimetres(work.rule.millimetres.near));
-  const auto far = hn::Set(
-      D(), millimetres(std::min(work.rule.millimetres.far, farthest / millimetres_per_metre)));
+  const auto near = hn::Set(D(), work.rule.range.first);
+  const auto far = hn::Set(D(), std::min(work.rule.range.last, farthest));
   flood.reachable.tile_width = work.touched.tile_width;
   for (std::size_t j = 0; j < flood.reachable.rows.size(); ++j)
     flood.reachable.rows[j] = marked_around(work.touched, j, flood.reach);

@@ -41,22 +41,20 @@ HWY_INLINE VF load_metres(const std::uint16_t* depth) {
   return hn::Mul(hn::ConvertTo(F(), millimetres), hn::Set(F(), metres_per_millimetre));
 }
 
-HWY_INLINE const MeasuredRange& range_of(const Rule& rule, const float* /*depth*/) {
-  return rule.metres;
-}
-HWY_INLINE const MeasuredRange& range_of(const Rule& rule, const std::uint16_t* /*depth*/) {
-  return rule.millimetres;
-}
-
 /// A Rule in vectors.
 struct Criteria {
-  HWY_INLINE Criteria(const Rule& rule, const MeasuredRange& range)
+  HWY_INLINE Criteria(const Rule& rule, const float* /*depth*/)
+      : Criteria(rule, rule.range.near, rule.range.far) {}
+  HWY_INLINE Criteria(const Rule& rule, const std::uint16_t* /*depth*/)
+      : Criteria(rule, metres_per_millimetre * static_cast<float>(rule.range.first),
+                 metres_per_millimetre * static_cast<float>(rule.range.last)) {}
+  HWY_INLINE Criteria(const Rule& rule, float near, float far)
       : a(hn::Set(F(), rule.a)),
         b(hn::Set(F(), rule.b)),
         c(hn::Set(F(), rule.c)),
         beyond_factor(hn::Set(F(), rule.beyond_factor)) {
-    const auto near_bits = std::bit_cast<std::uint32_t>(range.near);
-    const auto far_bits = std::bit_cast<std::uint32_t>(range.far);
+    const auto near_bits = std::bit_cast<std::uint32_t>(near);
+    const auto far_bits = std::bit_cast<std::uint32_t>(far);
     const std::uint32_t count = far_bits < near_bits ? 0 : far_bits - near_bits + 1;
     first = hn::Set(I(), static_cast<std::int32_t>(near_bits + sign));
     end = hn::Set(I(), static_cast<std::int32_t>(count + sign));

@@ -13,23 +13,13 @@
 
 namespace penumbra::labelling {
 
-inline constexpr float metres_per_millimetre = 0.001f;
-
-/// Measurements lie in [near, far], metres; near is not 0 and far is finite.
-struct MeasuredRange {
-  float near, far;
-};
-
 /// A LabelRule for the kernels. All arithmetic is float32, without fused multiply-add.
 struct Rule {
   explicit Rule(const LabelRule& rule);
 
   float a, b, c;
   float beyond_factor;  ///< infinite if beyond is folded
-  MeasuredRange metres;
-  /// The range for millimetres * metres_per_millimetre, which is not always the float nearest to
-  /// the depth.
-  MeasuredRange millimetres;
+  MeasuredRange range;
   int width;  ///< front_min_width
   int cells;  ///< the edge margin, cells
   int reach;  ///< how far from a seed a pixel stays front

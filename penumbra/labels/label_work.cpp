@@ -12,19 +12,6 @@ constexpr int vector_room = 128;  // pixels, for whole vectors at a row's end
 
 int tiles_across(int pixels, int tile) { return (pixels + tile - 1) / tile; }
 
-/// Returns the range of the millimetres whose nearest floats, in metres, lie in a range; without
-/// the saturated value.
-MeasuredRange in_millimetres(const MeasuredRange& range) {
-  constexpr int count = saturated_depth;
-  const auto nearest = [](int millimetres) { return static_cast<float>(millimetres / 1000.0); };
-  int first = 0;
-  while (first < count && nearest(first) < range.near) ++first;
-  int end = first;
-  while (end < count && nearest(end) <= range.far) ++end;
-  return {static_cast<float>(first) * metres_per_millimetre,
-          static_cast<float>(end - 1) * metres_per_millimetre};
-}
-
 }  // namespace
 
 std::uint64_t marked_around(const TileMask& tiles, std::size_t j, int pixels) {
@@ -44,9 +31,7 @@ Rule::Rule(const LabelRule& rule)
       c(static_cast<float>(rule.tolerance.c)),
       beyond_factor(rule.fold_beyond ? std::numeric_limits<float>::infinity()
                                      : static_cast<float>(rule.beyond_factor)),
-      metres{std::max(static_cast<float>(rule.range.near), std::numeric_limits<float>::min()),
-             std::min(static_cast<float>(rule.range.far), std::numeric_limits<float>::max())},
-      millimetres(in_millimetres(metres)),
+      range(rule.range.near, rule.range.far),
       width(rule.front_min_width),
       cells((rule.edge_margin + LabelRule::cell - 1) / LabelRule::cell),
       reach(rule.edge_margin / 2) {}

@@ -21,12 +21,18 @@ template <typename... Parts>
   throw InputError(message.str());
 }
 
-/// Whether it is negative for some z >= 0.
-bool is_negative(const Tolerance& e) {
-  return e.a < 0.0 || e.c < 0.0 || (e.b < 0.0 && e.b * e.b > 4.0 * e.a * e.c);
+}  // namespace
+
+std::string_view to_string(Verdict verdict) {
+  constexpr std::array<std::string_view, 6> names = {"visible", "partial",     "hidden",
+                                                     "unknown", "out_of_view", "held"};
+  return names[static_cast<std::size_t>(verdict)];
 }
 
-}  // namespace
+bool Tolerance::is_valid() const {
+  const bool is_negative = a < 0.0 || c < 0.0 || (b < 0.0 && b * b > 4.0 * a * c);
+  return std::isfinite(a) && std::isfinite(b) && std::isfinite(c) && !is_negative;
+}
 
 LabelRule LabelRule::paper() {
   LabelRule rule;
@@ -60,18 +66,11 @@ LabelRule LabelRule::for_sensor(std::string_view name) {
 }
 
 void LabelRule::check() const {
+  check_settings(*this);
   const Tolerance& e = tolerance;
-  if (!std::isfinite(e.a) || !std::isfinite(e.b) || !std::isfinite(e.c) || is_negative(e))
+  if (!e.is_valid())
     fail("tolerance ", e.a, ",", e.b, ",", e.c,
          ": a + b z + c z^2 must be finite and not negative at any depth");
-  if (!std::isfinite(beyond_factor) || beyond_factor < 1.0)
-    fail("beyond factor ", beyond_factor, ": must be a number, 1 or more");
-  if (front_min_width < 0 || front_min_width > max_width)
-    fail("front_min_width ", front_min_width, ": must be 0 to ", max_width, " pixels");
-  if (edge_margin < 0 || edge_margin > max_edge_margin)
-    fail("edge_margin ", edge_margin, ": must be 0 to ", max_edge_margin, " pixels");
-  if (fringe_reach < 0 || fringe_reach > max_fringe_reach)
-    fail("fringe_reach ", fringe_reach, ": must be 0 to ", max_fringe_reach, " pixels");
   if (!(range.near >= 0.0 && range.near < range.far))
     fail("sensor range ", range.near, "..", range.far, " m: near must be 0 or more and below far");
 }

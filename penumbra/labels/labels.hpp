@@ -7,8 +7,10 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/base/setting.hpp>
 #include <penumbra/camera/camera.hpp>
 
 namespace penumbra {
@@ -30,6 +32,23 @@ inline constexpr std::size_t label_count = 6;
   return label == Label::clear || label == Label::front;
 }
 
+/// How much of a target is hidden, by the labels of its pixels.
+enum class Verdict {
+  visible,
+  partial,
+  hidden,
+  unknown,
+  out_of_view,
+  held  ///< a link carries it: an attached body has its name, and no pixels are judged
+};
+
+/// In their order.
+inline constexpr std::array all_verdicts = {Verdict::visible, Verdict::partial,     Verdict::hidden,
+                                            Verdict::unknown, Verdict::out_of_view, Verdict::held};
+
+/// The verdict's name in report.json.
+[[nodiscard]] std::string_view to_string(Verdict verdict);
+
 /// e(z) = a + b z + c z^2, metres: how far in front of the model a measurement may be and still be
 /// of the robot.
 struct Tolerance {
@@ -38,6 +57,9 @@ struct Tolerance {
   double c = 0.006;  ///< metres per square metre, as stereo noise grows
 
   [[nodiscard]] double at(double z) const { return a + (b + c * z) * z; }
+
+  /// Whether it is finite, and not negative at any depth.
+  [[nodiscard]] bool is_valid() const;
 };
 
 /// The rule of labelling. docs/tuning.md describes how the defaults were measured and how to choose
@@ -76,21 +98,35 @@ struct Tolerance {
 /// In the code: pixel_labels-inl.hpp compares, foreground_pixels-inl.hpp and front_cleanup-inl.hpp
 /// clean up, fringe-inl.hpp floods; label_simd.cpp calls them in order.
 struct LabelRule {
-  static constexpr int cell = 4;                ///< pixels
-  static constexpr int max_width = 63;          ///< pixels, of front_min_width
-  static constexpr int max_edge_margin = 64;    ///< pixels
-  static constexpr int max_fringe_reach = 255;  ///< pixels
-  static constexpr double fringe_step = 0.6;    ///< of e(z), from one block to the next
-  static constexpr double fringe_drift = 3.0;   ///< of e(z), from the outline's depth
+  static constexpr int cell = 4;               ///< pixels
+  static constexpr int max_width = 63;         ///< pixels, of front_min_width
+  static constexpr double fringe_step = 0.6;   ///< of e(z), from one block to the next
+  static constexpr double fringe_drift = 3.0;  ///< of e(z), from the outline's depth
 
   Tolerance tolerance;
-  double beyond_factor = 2.0;  ///< k: beyond is past dV + k e(dV)
-  int front_min_width = 7;     ///< pixels; 0: no clean-up
-  int edge_margin = 8;         ///< pixels by which an edge of the robot may be out of place;
-                               ///< 0: the foreground are the front pixels
-  int fringe_reach = 40;       ///< largest width of the fringe, pixels; 0: no fringe
-  bool fold_beyond = false;    ///< label beyond as occluded
-  DepthRange range;            ///< measured depths outside of it are no measurements
+  double beyond_factor = 2.0;
+  int front_min_width = 7;
+  int edge_margin = 8;
+  int fringe_reach = 40;
+  bool fold_beyond = false;  ///< label beyond as occluded
+  DepthRange range;          ///< measured depths outside of it are no measurements
+
+  /// The settings that files, options and parameters have. The paper's rule folds beyond; the range
+  /// is the camera's.
+  static constexpr auto settings() {
+    return std::tuple(
+        Setting("tolerance", &LabelRule::tolerance, {}, "m, m/m, m/m^2",
+                "A, B, C of e(z) = A + B z + C z^2 >= 0 metres: depth that differs by less is the "
+                "same"),
+        Setting("front_min_width", &LabelRule::front_min_width, {0, max_width}, "px",
+                "front regions narrower than this become occluded; 0: no clean-up"),
+        Setting("edge_margin", &LabelRule::edge_margin, {0, 64}, "px",
+                "how far an edge of the robot may be out of place; 0: the clean-up ignores edges"),
+        Setting("fringe_reach", &LabelRule::fringe_reach, {0, 255}, "px",
+                "how far past its outline the sensor shows the robot's depth; 0: no fringe"),
+        Setting("beyond_factor", &LabelRule::beyond_factor, {1, 1000}, "",
+                "how many tolerances behind the model beyond starts"));
+  }
 
   /// Returns the paper's rule: 0.01 m everywhere, no clean-up, no fringe, beyond folded. Pixels
   /// without measurement stay unknown.
@@ -101,8 +137,8 @@ struct LabelRule {
   /// for another name.
   [[nodiscard]] static LabelRule for_sensor(std::string_view name);
 
-  /// Throws InputError, with the values, for a tolerance that is not finite or negative at some
-  /// depth, a factor below 1, a width, margin or reach out of bounds, and near >= far.
+  /// Throws InputError, with the values, for settings out of their range, an invalid tolerance and
+  /// near >= far.
   void check() const;
 };
 

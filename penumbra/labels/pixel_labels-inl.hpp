@@ -146,7 +146,7 @@ HWY_INLINE void keep_front(Work& work, int u, int v, VB front) {
 template <bool keeps_front, typename T>
 void label_tiles(Work& work, ImageView<const float> virtual_depth, ImageView<const T> measured,
                  Counts& counts) {
-  const Criteria rule(work.rule, range_of(work.rule, measured.data));
+  const Criteria rule(work.rule, measured.data);
   const ImageView<std::uint8_t> labels = work.labels.view();
   const auto label_block = [&](int u0, int u1, int v0, int v1) HWY_ATTR {
     ByteCounts block;

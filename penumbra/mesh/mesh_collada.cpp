@@ -50,8 +50,7 @@ std::string reference(const XmlElement& element, std::string_view name) {
 std::uint64_t required_count(const XmlElement& element, std::string_view name) {
   const std::string& text = required(element, name);
   const auto value = parse_number<std::uint32_t>(text);
-  if (!value)
-    damaged_at(element, std::string(name) + "=" + in_quotes(text) + " is no whole number");
+  if (!value) damaged_at(element, std::string(name) + "=" + in_quotes(text) + " is not an integer");
   return *value;
 }
 

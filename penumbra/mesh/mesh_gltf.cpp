@@ -36,7 +36,7 @@ T value_at(const char* bytes) {
 
 /// An index into an array of the file.
 std::size_t index_in(const Json& value) {
-  if (!value.is_number_unsigned()) damaged("glTF: an index is no whole number");
+  if (!value.is_number_unsigned()) damaged("glTF: an index is not an integer");
   return value.get<std::size_t>();
 }
 

@@ -163,7 +163,7 @@ class PlyReader {
   double read_list(const Property& property) {
     const double count = number(property.count_type);
     if (!(count >= 0.0 && count == std::trunc(count)))
-      damaged("PLY: a list's count is negative or no whole number");
+      damaged("PLY: a list's count is negative or not an integer");
     corners_.clear();
     for (double i = 0.0; i < count; ++i) {
       const double value = number(property.type);

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -25,7 +24,7 @@ using Eigen::Vector3d;
 constexpr std::size_t most_rim_edges = 256;
 constexpr std::size_t most_holes = 8;
 constexpr double most_radii = 0.125;           // of the patch's size
-constexpr std::size_t most_work = 40'000'000;  // samples times triangles: a second or two
+constexpr std::size_t most_work = 40'000'000;  // samples times triangles: tenths of a second
 constexpr std::size_t usual_work = 500'000;
 constexpr std::size_t least_spread = 4;  // samples besides those of the parts
 constexpr std::size_t most_spread = 256;
@@ -108,9 +107,13 @@ bool touches(const std::vector<Ball>& balls, const std::array<Vector3d, 3>& corn
   });
 }
 
+/// Twice as long as the triangle's area.
+Vector3d normal_of(const std::array<Vector3d, 3>& corners) {
+  return (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+}
+
 double area_of(const TriangleMesh& mesh, std::size_t triangle) {
-  const auto [a, b, c] = corners_of(mesh, triangle);
-  return (b - a).cross(c - a).norm() / 2.0;
+  return normal_of(corners_of(mesh, triangle)).norm() / 2.0;
 }
 
 /// A point of a triangle.
@@ -147,32 +150,57 @@ std::vector<Sample> spread_over(const TriangleMesh& mesh,
   return samples;
 }
 
-/// Returns where the patch's front faces at a sample, from the winding number of the capped patch
-/// in front of and behind it.
-Facing facing_at(const Sample& sample, const TriangleMesh& mesh, const SurfacePatch& patch,
-                 const Caps& caps) {
-  double angle = 0.0;  // 4 pi times the mean of the winding numbers before and behind
-  for (const std::uint32_t i : patch.triangles) {
-    if (i != sample.triangle) angle += solid_angle(corners_of(mesh, i), sample.point);
+/// Returns the winding number of a triangle's outline around the line through a point along an
+/// axis.
+int winding_around(const Vector3d& p, Eigen::Index axis, const std::array<Vector3d, 3>& corners) {
+  const Eigen::Index x = (axis + 1) % 3, y = (axis + 2) % 3;
+  const std::array above{corners[0][y] > p[y], corners[1][y] > p[y], corners[2][y] > p[y]};
+  if (above[0] == above[1] && above[1] == above[2]) return 0;
+  int winding = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    if (above[k] == above[next]) continue;
+    const Vector3d a = corners[k] - p, b = corners[next] - p;
+    const bool is_left = a[x] * b[y] > b[x] * a[y];
+    if (is_left == above[next]) winding += is_left ? 1 : -1;
   }
-  for (const auto& cap : caps.triangles) angle += solid_angle(cap, sample.point);
-  const double before = (angle - 2.0 * std::numbers::pi) / (4.0 * std::numbers::pi);
-  constexpr double rounding = 0.01;
-  if (std::abs(before - std::round(before)) > rounding) return Facing::unknown;
-  return before > -0.5 ? Facing::outwards : Facing::inwards;
+  return winding;
+}
+
+/// Returns whether the capped patch's winding number is not negative in front of a sample. It is
+/// the sum of what a ray crosses, here along the axis next to the normal.
+bool faces_outwards(const Sample& sample, const TriangleMesh& mesh, const SurfacePatch& patch,
+                    const Caps& caps) {
+  const Vector3d front = normal_of(corners_of(mesh, sample.triangle));
+  Eigen::Index axis = 0;
+  front.cwiseAbs().maxCoeff(&axis);
+  int sum = 0;
+  const auto cross = [&](const std::array<Vector3d, 3>& corners) {
+    const int winding = winding_around(sample.point, axis, corners);
+    if (winding == 0) return;
+    const Vector3d normal = normal_of(corners);
+    const bool is_in_front =
+        (normal.dot(corners[0] - sample.point) > 0.0) == (normal[axis] * front[axis] > 0.0);
+    if (is_in_front) sum += winding;
+  };
+  for (const std::uint32_t i : patch.triangles)
+    if (i != sample.triangle) cross(corners_of(mesh, i));
+  for (const auto& cap : caps.triangles) cross(cap);
+  return front[axis] > 0.0 ? sum >= 0 : sum <= 0;
 }
 
 /// Returns the facing that all samples agree on.
 Facing facing_of(const std::vector<Sample>& samples, const TriangleMesh& mesh,
                  const SurfacePatch& patch, const Caps& caps) {
-  if (samples.empty() || samples.size() * patch.triangles.size() > most_work) {
+  if (samples.empty() || samples.size() * patch.triangles.size() > most_work)
     return Facing::unknown;
-  }
-  const Facing facing = facing_at(samples.front(), mesh, patch, caps);
-  const bool same = std::all_of(samples.begin() + 1, samples.end(), [&](const Sample& sample) {
-    return facing_at(sample, mesh, patch, caps) == facing;
-  });
-  return same ? facing : Facing::unknown;
+  const auto is_outwards = [&](const Sample& sample) {
+    return faces_outwards(sample, mesh, patch, caps);
+  };
+  const bool first = is_outwards(samples.front());
+  const bool same = std::all_of(samples.begin() + 1, samples.end(),
+                                [&](const Sample& sample) { return is_outwards(sample) == first; });
+  return !same ? Facing::unknown : first ? Facing::outwards : Facing::inwards;
 }
 
 /// Returns points of the part of a patch that no ball touches: the middle of the largest triangle

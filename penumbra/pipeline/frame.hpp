@@ -6,94 +6,30 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/pipeline/target.hpp>
-#include <penumbra/time/attachments.hpp>
-#include <penumbra/time/joint_buffer.hpp>
+#include <penumbra/poses/robot_pose.hpp>
+#include <penumbra/targets/target.hpp>
 
 namespace penumbra {
 
-/// Whether a frame is reliable and, if not, why. Of several faults the status is the first in this
-/// order: `missing_joints`, `stale_joints`, `missing_transform`, `stale_transform`,
-/// `poses_disagree`, `missing_depth`, `bad_depth`, `missing_link`.
-enum class FrameStatus {
-  ok,
-  missing_joints,     ///< a joint has no (finite) position: the robot's pose is unknown
-  stale_joints,       ///< a joint has no state near the stamp: the robot's pose is unknown
-  missing_link,       ///< rendered without a link whose mesh could not be read or whose pose is
-                      ///< not known, or without an attached body
-  missing_depth,      ///< no depth image: every robot pixel is unknown
-  bad_depth,          ///< an unusable depth image, or one without any measurement within the
-                      ///< sensor's range: every robot pixel is unknown
-  missing_transform,  ///< the pose of the camera, or of a link in TF, is unknown or impossible: not
-                      ///< rigid, or the camera is inside a link
-  stale_transform,    ///< a transform has no state near the stamp: the robot's pose is unknown
-  poses_disagree,     ///< joint states and TF differ, or two publishers of one joint or transform:
-                      ///< the robot's pose is unknown
-};
-
-/// The status's name in report.json.
-[[nodiscard]] std::string_view to_string(FrameStatus status);
-
-/// Returns whether the robot's pose is known in a frame of this status.
-[[nodiscard]] bool has_pose(FrameStatus status);
-
-/// Returns whether the depth image of a frame of this status can be compared.
-[[nodiscard]] constexpr bool has_depth(FrameStatus status) {
-  return status == FrameStatus::ok || status == FrameStatus::missing_link;
-}
-
-/// The joint positions at the stamp of the depth image. Refers to the caller's memory.
-struct JointInput {
-  std::span<const double> positions;  ///< order of Robot::variables(), rad and m
-  JointStatus status = JointStatus::missing;
-  std::optional<std::int64_t> age;         ///< nanoseconds; null if the positions have no stamp
-  std::span<const JointGap> gaps;          ///< missing or stale variables, for the message
-  std::span<const JointDispute> disputes;  ///< disputed variables, for the message
-
-  JointInput() = default;
-  JointInput(std::span<const double> all)  // NOLINT(google-explicit-constructor)
-      : positions(all), status(JointStatus::ok) {}
-  JointInput(const std::vector<double>& all)  // NOLINT(google-explicit-constructor)
-      : JointInput(std::span<const double>(all)) {}
-  JointInput(std::vector<double>&&) = delete;  ///< a temporary would dangle
-  JointInput(const JointAnswer& answer);       // NOLINT(google-explicit-constructor)
-};
-
-/// Bodies that may be attached at once.
-inline constexpr std::size_t max_attached = 128;
-
-/// The input of Pipeline::process. Refers to the caller's memory, which must live during the call.
+/// An image, and all that is needed to judge it. A source's images without an owner are valid until
+/// its next frame.
 struct Frame {
+  std::optional<std::size_t> index = {};   ///< in its source; null: the number of the call
   std::optional<std::int64_t> stamp = {};  ///< of the depth image, nanoseconds
-  DepthView depth = {};                    ///< of the camera's size; empty: missing_depth
-  JointInput joints = {};
-  /// Poses of all links from another source than joints (TF); the root's is the identity. Empty:
-  /// poses follow from `joints`. Otherwise only the age of `joints` is used.
-  std::span<const Eigen::Isometry3d> T_root_link = {};
-  /// The camera's pose in its parent link in this frame; null: the configuration's.
-  std::optional<Eigen::Isometry3d> T_parent_camera = {};
-  std::span<const Target> targets = {};
-  /// What the robot's links carry, at most max_attached bodies. One that cannot be drawn, because
-  /// it has no mesh or its link's pose is not known, is a `missing_link`.
-  std::span<const AttachedBody> attached = {};
-
-  /// Links whose pose is unknown although the robot's is known. Targets and estimates given in them
-  /// are not judged. Those with geometry are a `missing_link`: pixels are unknown wherever they or
-  /// what they carry could be within the limits of their joints, in front of what is measured.
-  /// Indices into Robot::links(); process() throws for other values.
-  std::span<const std::size_t> uncertain_links = {};
-  std::string_view uncertain_reason = {};  ///< one line
-
-  /// A fault that the frame's source reports, and one line about it. The pipeline adds its own.
+  SharedDepth depth = {};                  ///< of the camera's size; empty: missing_depth
+  RobotPose pose = {};                     ///< at the stamp
+  std::vector<Target> targets = {};
+  SharedColor color = {};          ///< for pictures; empty: none
+  std::string color_message = {};  ///< why a recorded colour image is not usable; empty if it is
+  /// A fault of the depth image that the source reports, and one line about it. The pipeline adds
+  /// its own.
   FrameStatus source_status = FrameStatus::ok;
-  std::string_view source_message = {};
-  std::optional<std::size_t> index = {};  ///< in its source; null: the number of the call
+  std::string source_message = {};
 };
 
 /// Numbers of pixels by label. If the robot's pose is known,

@@ -13,13 +13,13 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
+#include <penumbra/labels/image_space-inl.hpp>
 #include <penumbra/labels/label_work-inl.hpp>
 #include <penumbra/labels/labels.hpp>
-#include <penumbra/pipeline/attached_bodies-inl.hpp>
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/pipeline/image_space-inl.hpp>
 #include <penumbra/pipeline/labelled_frame-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/poses/attached_bodies-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/targets/target_judge.hpp>

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
-#include <penumbra/pipeline/pose_stage-inl.hpp>
+#include <penumbra/poses/pose_stage-inl.hpp>
 #include <penumbra/targets/extent_tally-inl.hpp>
 
 namespace penumbra {
@@ -49,7 +49,7 @@ FrameLabeller::FrameLabeller(const Robot& robot, const Camera& camera,
       intrinsics_(config.image == ImageSpace::raw ? camera.intrinsics : render_intrinsics_),
       renderer_(make_depth_renderer(config.backend, render_intrinsics_, bodies_of(robot),
                                     config.renderer)),
-      attached_(render_intrinsics_, config),
+      attached_(render_intrinsics_, config.backend, config.renderer),
       classifier_(intrinsics_.width(), intrinsics_.height(), rule_of(camera, config),
                   config.renderer.isa),
       depth_size_(camera.intrinsics.width(), camera.intrinsics.height()),
@@ -135,11 +135,10 @@ VirtualDepthView FrameLabeller::draw(const PoseResult& poses) {
 
 LabelView FrameLabeller::classify(const VirtualDepthView& virtual_depth,
                                   const DepthView& measured) {
-  const bool is_empty = std::visit([](const auto& view) { return view.empty(); }, measured);
   const ImageView<const std::uint16_t> no_depth{no_depth_row_.data(), intrinsics_.width(),
                                                 intrinsics_.height(), 0};
   const LabelView labels =
-      classifier_.classify(virtual_depth, is_empty ? DepthView(no_depth) : measured);
+      classifier_.classify(virtual_depth, is_empty(measured) ? DepthView(no_depth) : measured);
   return uncovered_ ? uncovered_->mark(labels) : labels;
 }
 

@@ -16,27 +16,10 @@ constexpr std::uint64_t never_tried = std::numeric_limits<std::uint64_t>::max();
 }  // namespace
 
 std::string_view to_string(DropReason reason) {
-  constexpr std::array<std::string_view, 5> names = {"superseded", "late", "overflow", "clock_jump",
-                                                     "no_stamp"};
+  constexpr std::array<std::string_view, drop_reasons> names = {
+      "superseded", "late",      "overflow", "clock_jump",    "no_stamp",
+      "unreadable", "not_ready", "changed",  "no_camera_info"};
   return names[static_cast<std::size_t>(reason)];
-}
-
-Frame QueuedFrame::frame() const {
-  Frame frame;
-  frame.stamp = stamp;
-  frame.source_status = pose.status;
-  frame.source_message = pose.message;
-  if (pose.status != FrameStatus::ok) return frame;
-  if (pose.by_joints)
-    frame.joints = pose.joints;
-  else
-    frame.T_root_link = pose.T_root_link;
-  frame.joints.age = pose.age;
-  frame.T_parent_camera = pose.T_parent_camera;
-  frame.uncertain_links = pose.uncertain_links;
-  frame.uncertain_reason = pose.uncertain_reason;
-  frame.attached = pose.attached;
-  return frame;
 }
 
 FrameQueue::FrameQueue(const Robot& robot, PoseHistory& history, const FrameQueueOptions& options,
@@ -59,7 +42,7 @@ void FrameQueue::push(std::uint64_t key, std::int64_t stamp, std::int64_t now) {
   if (stamp <= 0) return drop(frame, DropReason::no_stamp);
   if (newest_ && history_.note_stamp(stamp, *newest_, "depth images")) follow(now);
   newest_ = std::max(newest_.value_or(stamp), stamp);
-  if (!first_) first_ = stamp_after(stamp, time_offset_);
+  if (!first_) first_ = pose_stamp(stamp);
   if (options_.policy == DropPolicy::every) {
     if (waiting_.size() == options_.max_frames) return drop(frame, DropReason::overflow);
     waiting_.push_back(frame);
@@ -90,32 +73,37 @@ void FrameQueue::drop(const Waiting& frame, DropReason reason) {
   if (on_drop_) on_drop_({frame.key, frame.stamp, reason});
 }
 
-bool FrameQueue::next(std::int64_t now, QueuedFrame& frame) {
+std::int64_t FrameQueue::pose_stamp(std::int64_t stamp) const {
+  return stamp_after(stamp, time_offset_);
+}
+
+std::optional<std::uint64_t> FrameQueue::next(std::int64_t now, Frame& frame) {
   follow(now);
-  const bool found =
-      options_.policy == DropPolicy::every ? next_in_order(frame) : next_newest(frame);
-  if (!found) return false;
+  const auto key = options_.policy == DropPolicy::every ? next_in_order(frame) : next_newest(frame);
+  if (!key) return key;
   ++counts_.given_out;
   if (!has_pose(frame.pose.status)) ++counts_.without_pose;
-  given_out_ = std::max(given_out_.value_or(frame.stamp), frame.stamp);
-  return true;
+  given_out_ = std::max(given_out_.value_or(*frame.stamp), *frame.stamp);
+  return key;
 }
 
-bool FrameQueue::next_in_order(QueuedFrame& out) {
-  if (waiting_.empty() || !decide(waiting_.front(), out)) return false;
+std::optional<std::uint64_t> FrameQueue::next_in_order(Frame& out) {
+  if (waiting_.empty() || !decide(waiting_.front(), out)) return std::nullopt;
+  const std::uint64_t key = waiting_.front().key;
   waiting_.erase(waiting_.begin());
-  return true;
+  return key;
 }
 
-bool FrameQueue::next_newest(QueuedFrame& out) {
+std::optional<std::uint64_t> FrameQueue::next_newest(Frame& out) {
   for (auto frame = waiting_.end(); frame != waiting_.begin();) {
     if (!decide(*--frame, out)) continue;
     for (auto before = waiting_.begin(); before != frame; ++before)
       drop(*before, DropReason::superseded);
+    const std::uint64_t key = frame->key;
     waiting_.erase(waiting_.begin(), frame + 1);
-    return true;
+    return key;
   }
-  return false;
+  return std::nullopt;
 }
 
 bool FrameQueue::is_over(const Waiting& frame) const {
@@ -126,25 +114,22 @@ bool FrameQueue::is_over(const Waiting& frame) const {
 
 /// Whether states of an uncertain robot may still come in time. A robot that has been silent for
 /// max_wait does not delay the others.
-bool FrameQueue::awaits_robot(const QueuedFrame& frame) const {
-  const auto& since = frame.pose.late_since;
-  return since && stamp_distance(std::max(*since, *first_), frame.pose_stamp) <=
-                      static_cast<std::uint64_t>(max_wait_);
+bool FrameQueue::awaits_robot(std::int64_t at) const {
+  const auto since = lookup_.late_since();
+  return since &&
+         stamp_distance(std::max(*since, *first_), at) <= static_cast<std::uint64_t>(max_wait_);
 }
 
-bool FrameQueue::decide(Waiting& frame, QueuedFrame& out) {
+bool FrameQueue::decide(Waiting& frame, Frame& out) {
   const bool over = is_over(frame);
   if (frame.revision == history_.revision() && !over) return false;
   frame.revision = history_.revision();
-  out.pose_stamp = stamp_after(frame.stamp, time_offset_);
-  lookup_.at(history_, out.pose_stamp, out.pose);
+  const std::int64_t at = pose_stamp(frame.stamp);
+  lookup_.at(history_, at, out.pose);
   const bool known = out.pose.status == FrameStatus::poses_disagree ||
-                     (has_pose(out.pose.status) && !awaits_robot(out));
+                     (has_pose(out.pose.status) && !awaits_robot(at));
   if (!known && !over) return false;
-  out.key = frame.key;
   out.stamp = frame.stamp;
-  out.waited = static_cast<std::int64_t>(std::min<std::uint64_t>(
-      stamp_distance(frame.arrived, now_), std::numeric_limits<std::int64_t>::max()));
   return true;
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/pipeline/pose_lookup.hpp>
+#include <penumbra/poses/pose_lookup.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/time/pose_history.hpp>
 
@@ -22,15 +22,19 @@ enum class DropPolicy {
   every    ///< all, in the order of arrival. For bags
 };
 
-/// The reason why a frame was dropped.
+/// The reason why an image was dropped: the first five by a FrameQueue, the others before or after.
 enum class DropReason {
-  superseded,  ///< a newer one was returned instead (newest)
-  late,        ///< it came after one of its stamp or later was returned (newest)
-  overflow,    ///< max_frames were waiting; drops the oldest (newest) or the new one (every)
-  clock_jump,  ///< it is from before the clock jumped back
-  no_stamp     ///< its stamp is 0 or negative
+  superseded,     ///< a newer one was returned instead (newest)
+  late,           ///< it came after one of its stamp or later was returned (newest)
+  overflow,       ///< max_frames were waiting; drops the oldest (newest) or the new one (every)
+  clock_jump,     ///< it is from before the clock jumped back
+  no_stamp,       ///< its stamp is 0 or negative
+  unreadable,     ///< its message cannot be decoded
+  not_ready,      ///< no robot or no camera_info was known yet
+  changed,        ///< robot, camera_info or mount changed while it waited, or it is older than that
+  no_camera_info  ///< its own camera_info is missing, other images have one
 };
-inline constexpr std::size_t drop_reasons = 5;
+inline constexpr std::size_t drop_reasons = 9;
 [[nodiscard]] std::string_view to_string(DropReason reason);
 
 struct FrameQueueOptions {
@@ -47,18 +51,6 @@ struct DroppedFrame {
   std::uint64_t key = 0;
   std::int64_t stamp = 0;  ///< nanoseconds
   DropReason reason = DropReason::superseded;
-};
-
-/// A frame with its pose, or with the status after max_wait.
-struct QueuedFrame {
-  std::uint64_t key = 0;        ///< as pushed
-  std::int64_t stamp = 0;       ///< the image's own, nanoseconds
-  std::int64_t pose_stamp = 0;  ///< with time_offset: the stamp of `pose`
-  std::int64_t waited = 0;      ///< nanoseconds on the caller's clock
-  PoseAnswer pose;              ///< ok, or a status without a pose
-
-  /// Returns the pipeline's input without depth and targets. Refers to this.
-  [[nodiscard]] Frame frame() const;
 };
 
 /// Counts frames by result: pushed = given_out + dropped + waiting.
@@ -96,10 +88,13 @@ class FrameQueue {
   /// waiting frames.
   void push(std::uint64_t key, std::int64_t stamp, std::int64_t now);
 
-  /// Returns the next frame to process, or false if there is none yet. Call it until false after
-  /// each push, after adding states to the history, and at wake_at(). Allocates nothing for a frame
-  /// that is ok, once `frame` has been used.
-  bool next(std::int64_t now, QueuedFrame& frame);
+  /// Sets stamp and pose of the next frame to process, and returns its key; null if there is none
+  /// yet. Call it until null after each push, after adding states to the history, and at wake_at().
+  /// Allocates nothing for a frame that is ok, once `frame` has been used.
+  std::optional<std::uint64_t> next(std::int64_t now, Frame& frame);
+
+  /// Returns the stamp, with time_offset, of the pose of an image with this stamp.
+  [[nodiscard]] std::int64_t pose_stamp(std::int64_t stamp) const;
 
   /// Tells the queue that the history is complete: no frame waits any longer.
   void finish() { finished_ = true; }
@@ -119,11 +114,11 @@ class FrameQueue {
 
   void follow(std::int64_t now);
   void drop(const Waiting& frame, DropReason reason);
-  bool next_in_order(QueuedFrame& out);
-  bool next_newest(QueuedFrame& out);
-  bool decide(Waiting& frame, QueuedFrame& out);
+  std::optional<std::uint64_t> next_in_order(Frame& out);
+  std::optional<std::uint64_t> next_newest(Frame& out);
+  bool decide(Waiting& frame, Frame& out);
   [[nodiscard]] bool is_over(const Waiting& frame) const;
-  [[nodiscard]] bool awaits_robot(const QueuedFrame& frame) const;
+  [[nodiscard]] bool awaits_robot(std::int64_t at) const;
 
   PoseHistory& history_;
   FrameQueueOptions options_;

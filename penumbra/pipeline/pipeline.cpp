@@ -7,12 +7,12 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/pipeline/attach_target-inl.hpp>
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/pose_stage-inl.hpp>
 #include <penumbra/pipeline/target_stage-inl.hpp>
+#include <penumbra/poses/pose_stage-inl.hpp>
 #include <penumbra/render/near_plane_check.hpp>
+#include <penumbra/targets/attach_target-inl.hpp>
 
 namespace penumbra {
 namespace {
@@ -84,7 +84,7 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
       camera(camera_.check()),
       rectification(rectification_of(camera)),
       missing_links(missing_links_of(robot)),
-      poses(robot, config, missing_links),
+      poses(robot, config.camera_parent, config.T_parent_camera, missing_links),
       labeller(robot, camera, pointer_to(rectification), config),
       near_plane(labeller.render_intrinsics(), bodies_of(robot)),
       targets(robot, camera, pointer_to(rectification), labeller, config) {}
@@ -102,6 +102,14 @@ std::size_t Pipeline::triangle_count() const {
 }
 const LabelRule& Pipeline::rule() const { return state_->labeller.rule(); }
 const Intrinsics& Pipeline::intrinsics() const { return state_->labeller.intrinsics(); }
+Camera Pipeline::report_camera() const {
+  const Camera& camera = state_->camera;
+  if (!state_->labeller.rectifies()) return camera;
+  return {.intrinsics = intrinsics(),
+          .distortion = {},
+          .range = camera.range,
+          .frame_id = camera.frame_id};
+}
 const Rectification* Pipeline::rectification() const {
   return state_->labeller.rectifies() ? &*state_->rectification : nullptr;
 }
@@ -110,8 +118,9 @@ std::span<const std::string> Pipeline::missing_links() const { return state_->mi
 const FrameReport& Pipeline::process(const Frame& frame) {
   State& s = *state_;
   s.last_poses = nullptr;
-  const PoseResult& poses = s.poses.pose_of(frame);
-  const LabelledFrame labelled = s.labeller.label(frame.depth, poses);
+  const PoseResult& poses =
+      s.poses.place(frame.pose, frame.stamp, frame.source_status, frame.source_message);
+  const LabelledFrame labelled = s.labeller.label(frame.depth.view, poses);
   s.targets.judge(frame.targets, labelled);
   s.targets.track(frame.targets, labelled);
   s.last_poses = &poses;
@@ -124,7 +133,7 @@ AttachedBody Pipeline::attach_target(const Target& target, std::string_view link
     for (const TargetReport& report : s.targets.reports())
       if (report.name == target.name)
         return penumbra::attach_target(target, link, *s.last_poses, report, s.robot);
-  throw InputError("target '" + std::string(target.name) + "' was not in the last frame");
+  throw InputError("target '" + target.name + "' was not in the last frame");
 }
 
 void Pipeline::forget_target(std::string_view name) { state_->targets.forget(name); }
@@ -135,7 +144,7 @@ const FrameReport& Pipeline::State::report_of(const Frame& frame, const Labelled
   report.index = frame.index.value_or(calls);
   ++calls;
   report.stamp = frame.stamp;
-  report.joint_age = frame.joints.age;
+  report.joint_age = frame.pose.age;
   report.status = labelled.status;
   report.message = labelled.message;
   report.nothing_measured = labelled.nothing_measured;

@@ -39,11 +39,9 @@ struct PipelineConfig {
   static constexpr double max_target_history = 60.0;
 };
 
-/// Returns the links' names and meshes, which refer to the robot, for make_depth_renderer.
-[[nodiscard]] std::vector<Body> bodies_of(const Robot& robot);
-
-/// The whole method, one call per frame: poses, virtual depth, labels, targets. Allocates nothing
-/// per frame after the first of its kind. One instance serves one thread at a time.
+/// The whole method, one call per frame: poses, virtual depth, labels, targets. After the first of
+/// its kind, a frame allocates only the names and reasons of its targets' reports. One instance
+/// serves one thread at a time.
 class Pipeline {
  public:
   /// Throws InputError for a robot without geometry, an unknown camera parent, a camera pose that
@@ -60,10 +58,10 @@ class Pipeline {
 
   /// Returns a target of the last frame as a body that `link` carries from that frame on: a 3-D box
   /// or mesh, or the ball of a point. To be called when the gripper closes; put the body into
-  /// Frame::attached of the following frames or into Attachments. Its pose is the target's handled
-  /// pose or, without handling, the pose of its shape. Throws InputError if that pose, the link's
-  /// or the robot's is not known, and for a target that was not in the last frame or is no 3-D
-  /// shape.
+  /// RobotPose::attached of the following frames or into Attachments. Its pose is the target's
+  /// handled pose or, without handling, the pose of its shape. Throws InputError if that pose, the
+  /// link's or the robot's is not known, and for a target that was not in the last frame or is no
+  /// 3-D shape.
   [[nodiscard]] AttachedBody attach_target(const Target& target, std::string_view link) const;
 
   /// Forgets a target's verdict, extent and track, for a name that now means another object; or all
@@ -78,6 +76,9 @@ class Pipeline {
 
   /// The configured rule with its range cut to the camera's.
   [[nodiscard]] const LabelRule& rule() const;
+
+  /// Returns the camera of the report's images: without distortion if they are rectified.
+  [[nodiscard]] Camera report_camera() const;
 
   /// Size and projection of the report's images; for a raw image with distortion, the projection of
   /// the lens's pinhole part.

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,11 +12,11 @@
 #include <vector>
 
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
-#include <penumbra/pipeline/recent_frames-inl.hpp>
-#include <penumbra/pipeline/target.hpp>
-#include <penumbra/pipeline/target_track-inl.hpp>
-#include <penumbra/pipeline/target_views-inl.hpp>
+#include <penumbra/pipeline/recent_depth-inl.hpp>
+#include <penumbra/targets/target.hpp>
 #include <penumbra/targets/target_judge.hpp>
+#include <penumbra/targets/target_track-inl.hpp>
+#include <penumbra/targets/target_views-inl.hpp>
 
 namespace penumbra {
 
@@ -46,7 +46,7 @@ class TargetStage {
   void forget_all();
 
  private:
-  /// What is remembered of a target from frame to frame, and what its report refers to.
+  /// What is remembered of a target from frame to frame.
   struct Record {
     TargetMemory memory;
     std::size_t call = 0;                    ///< the last call with it
@@ -57,26 +57,14 @@ class TargetStage {
     std::optional<TargetTrack> track;
     const PoseResult* judged_poses = nullptr;   ///< of the frame it was judged on, if in order
     std::optional<Eigen::Vector2d> good_pixel;  ///< of the track when last visible
-    std::vector<Blame> blame;
-    std::string reason;
 
     /// Whether a frame is older than one that was judged.
     [[nodiscard]] bool is_late(const LabelledFrame& frame) const {
       return frame.stamp() && last_stamp && *frame.stamp() < *last_stamp;
     }
   };
-  /// Allows lookup by string_view.
-  struct NameHash {
-    using is_transparent = void;
-    std::size_t operator()(std::string_view name) const {
-      return std::hash<std::string_view>{}(name);
-    }
-  };
-  using Records = std::unordered_map<std::string, Record, NameHash, std::equal_to<>>;
-
   void begin(std::span<const Target> targets, const LabelledFrame& frame);
-  Records::value_type& record_of(const Target& target);
-  void judge(const Target& target, const LabelledFrame& frame, Records::value_type& known,
+  void judge(const Target& target, const LabelledFrame& frame, Record& record,
              TargetReport& report);
   void check(const Target& target, Record& record) const;
   const LabelledFrame& frame_of(const Target& target, const LabelledFrame& frame);
@@ -84,7 +72,7 @@ class TargetStage {
   static void hold(const PlacedBody& body, const LabelledFrame& frame, Record& record,
                    TargetReport& report);
   Judgement judge_on(const LabelledFrame& frame, const Target& target, Record& record);
-  static void lower_trust(const LabelledFrame& frame, Record& record, TargetReport& report);
+  static void lower_trust(const LabelledFrame& frame, TargetReport& report);
   [[nodiscard]] std::optional<Eigen::Vector2d> track_pixel(const PoseResult& poses,
                                                            const Record& record) const;
   void track(const Target& target, const PoseResult& poses, Record& record, TargetReport& report);
@@ -97,13 +85,14 @@ class TargetStage {
   TargetViews views_;
   RecentValues<PoseResult> recent_poses_;
   RecentDepth recent_depth_;
-  std::optional<FrameLabeller> late_labeller_;  // if target_history > 0
-  std::optional<LabelledFrame> late_;           // the last late frame labelled in this call
-  Records records_;
+  std::optional<FrameLabeller> late_labeller_;       // if target_history > 0
+  std::optional<LabelledFrame> late_;                // the last late frame labelled in this call
+  std::unordered_map<std::string, Record> records_;  // by name
+  std::deque<Record> nameless_;                      // of this call's targets without identity
   std::size_t calls_ = 0;
   std::optional<std::int64_t> newest_stamp_;
-  const LabelledFrame* judged_ = nullptr;    // the frame of the judge's begin()
-  std::vector<Records::value_type*> given_;  // of this call's targets
+  const LabelledFrame* judged_ = nullptr;  // the frame of the judge's begin()
+  std::vector<Record*> given_;             // of this call's targets
   std::vector<TargetReport> reports_;
   std::optional<double> judge_ms_, track_ms_;
 };

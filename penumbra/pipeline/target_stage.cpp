@@ -5,17 +5,14 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/stamps.hpp>
-#include <penumbra/pipeline/attach_target-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/target_stage-inl.hpp>
+#include <penumbra/targets/attach_target-inl.hpp>
 
 namespace penumbra {
 namespace {
 
-/// Prefix of the names of targets without identity, which are remembered for one call.
-constexpr char without_identity = '\1';
-
-std::int64_t nanoseconds(double seconds) {
+std::int64_t history_span(double seconds) {
   if (seconds >= 0.0 && seconds <= PipelineConfig::max_target_history)
     return static_cast<std::int64_t>(std::llround(seconds * 1e9));
   throw InputError("target_history is " + std::to_string(seconds) + " s; expected 0 to " +
@@ -79,6 +76,14 @@ bool lacks_depth(const Judgement& judged, const TargetThresholds& thresholds) {
   return judged.measured.value_or(0.0) < thresholds.min_measured * (judged.clear + judged.front);
 }
 
+/// The name of a link, or of an attached body, by its value in the link image - 1.
+std::string blamed_name(std::size_t link, const PoseResult& poses, const Robot& robot) {
+  if (link < robot.links().size()) return robot.links()[link];
+  for (const PlacedBody& body : poses.attached)
+    if (body.link == link) return body.name;
+  return {};
+}
+
 double seen_fraction(const std::optional<Judgement>& judgement) {
   return judgement ? judgement->clear + judgement->front : 0.0;
 }
@@ -103,12 +108,12 @@ TargetStage::TargetStage(const Robot& robot, const Camera& camera,
       camera_(labeller.rectifies() ? without_distortion(camera, labeller.intrinsics()) : camera),
       judge_(camera_, labeller.rule(), robot.links().size() + max_attached,
              unseen_pixels(labeller)),
-      renderers_(labeller.render_intrinsics(), config,
+      renderers_(labeller.render_intrinsics(), config.backend, config.renderer,
                  labeller.rectifies() ? nullptr : rectification, camera),
       views_(robot_, camera_, renderers_, labeller.rule(),
              labeller.rectifies() ? nullptr : rectification),
       recent_poses_(poses_of_size(robot.links().size())),
-      recent_depth_(nanoseconds(config.target_history)) {
+      recent_depth_(history_span(config.target_history)) {
   if (recent_depth_.is_enabled()) late_labeller_.emplace(robot, camera, rectification, config);
 }
 
@@ -122,7 +127,7 @@ void TargetStage::judge(std::span<const Target> targets, const LabelledFrame& fr
 void TargetStage::track(std::span<const Target> targets, const LabelledFrame& frame) {
   const StageTimer timer(track_ms_);
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    Record& record = given_[i]->second;
+    Record& record = *given_[i];
     if (!record.track) continue;
     reports_[i].wants_stamp = !frame.stamp();
     if (frame.stamp()) track(targets[i], *frame.poses, record, reports_[i]);
@@ -138,34 +143,23 @@ void TargetStage::begin(std::span<const Target> targets, const LabelledFrame& fr
     recent_poses_.at(*stamp) = *frame.poses;
     recent_depth_.keep(*stamp, frame.depth);
   }
-  for (auto known = records_.begin(); known != records_.end();) {
-    const bool is_unused = calls_ - known->second.call > forgotten_after;
-    const bool is_gone = is_unused || known->first.starts_with(without_identity);
-    known = is_gone ? records_.erase(known) : std::next(known);
-  }
+  std::erase_if(records_,
+                [&](const auto& known) { return calls_ - known.second.call > forgotten_after; });
+  nameless_.clear();
   ++calls_;
   given_.clear();
   reports_.assign(targets.size(), {});
   for (std::size_t i = 0; i < targets.size(); ++i) {
-    Records::value_type& known = record_of(targets[i]);
-    Record& record = known.second;
+    Record& record = targets[i].has_identity ? records_[targets[i].name] : nameless_.emplace_back();
     record.times = record.call == calls_ ? record.times + 1 : 1;
     record.call = calls_;
-    given_.push_back(&known);
-    reports_[i].name = std::string_view(known.first).substr(targets[i].has_identity ? 0 : 1);
+    given_.push_back(&record);
+    reports_[i].name = targets[i].name;
   }
 }
 
-TargetStage::Records::value_type& TargetStage::record_of(const Target& target) {
-  if (!target.has_identity)
-    return *records_.try_emplace(without_identity + std::string(target.name)).first;
-  const auto found = records_.find(target.name);
-  return found != records_.end() ? *found : *records_.try_emplace(std::string(target.name)).first;
-}
-
-void TargetStage::judge(const Target& target, const LabelledFrame& frame,
-                        Records::value_type& known, TargetReport& report) {
-  Record& record = known.second;
+void TargetStage::judge(const Target& target, const LabelledFrame& frame, Record& record,
+                        TargetReport& report) {
   record.judged_poses = nullptr;
   report.stamp = target.stamp ? target.stamp : frame.stamp();
   bool is_reliable = false;
@@ -176,23 +170,22 @@ void TargetStage::judge(const Target& target, const LabelledFrame& frame,
       hold(*body, seen, record, report);
     } else {
       Judgement judgement = judge_on(seen, target, record);
-      record.blame.assign(judgement.blame.begin(), judgement.blame.end());
-      judgement.blame = record.blame;
-      record.reason = judgement.reason;
+      for (Blame& link : judgement.blame) link.name = blamed_name(link.link, *seen.poses, robot_);
+      report.reason = judgement.reason;
       report.verdict = judgement.verdict;
       if (judgement.point) report.point = seen.poses->T_root_camera * *judgement.point;
-      report.judgement = judgement;
       is_reliable = seen.status == FrameStatus::ok && !lacks_depth(judgement, target.thresholds);
-      lower_trust(seen, record, report);
+      report.judgement = std::move(judgement);
+      lower_trust(seen, report);
     }
   } catch (const InputError& fault) {
     report.verdict = Verdict::unknown;
     report.judgement.reset();
     report.point.reset();
-    record.reason = fault.what();
+    report.reason = fault.what();
   }
   const bool has_reason = report.verdict == Verdict::unknown || report.verdict == Verdict::held;
-  report.reason = has_reason ? std::string_view(record.reason) : "";
+  if (!has_reason) report.reason.clear();
   if (report.judgement) report.judgement->reason = report.reason;
   if (report.stamp && record.track)
     record.track->add(*report.stamp,
@@ -212,8 +205,8 @@ void TargetStage::check(const Target& target, Record& record) const {
   if (!target.estimate) return;
   const ReferenceFrame& frame = target.estimate->frame;
   if (frame.kind == ReferenceFrame::Kind::link && !robot_.find_link(frame.link))
-    throw InputError("estimate is given in '" + std::string(frame.link) +
-                     "', which is not a link of robot '" + robot_.name() + "'");
+    throw InputError("estimate is given in '" + frame.link + "', which is not a link of robot '" +
+                     robot_.name() + "'");
 }
 
 const LabelledFrame& TargetStage::frame_of(const Target& target, const LabelledFrame& frame) {
@@ -239,7 +232,7 @@ const LabelledFrame& TargetStage::late_frame(std::int64_t stamp) {
 void TargetStage::hold(const PlacedBody& body, const LabelledFrame& frame, Record& record,
                        TargetReport& report) {
   report.verdict = Verdict::held;
-  record.reason = "it is attached to link '" + body.carrier + "'";
+  report.reason = "it is attached to link '" + body.carrier + "'";
   if (record.is_late(frame)) return;
   record.last_stamp = frame.stamp();
   record.memory = {};
@@ -251,7 +244,7 @@ Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target
   const bool is_late = record.is_late(frame);
   if (is_late && is_modal(target))
     throw InputError("its stamp is before one that was judged: modal extents need stamps in order");
-  auto view = views_.view(target, frame);
+  auto view = views_.view(target, frame.images, *frame.poses);
   if (!view) {
     Judgement outside;
     outside.verdict = Verdict::out_of_view;
@@ -271,10 +264,10 @@ Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target
 /// With a missing link, anything that seems visible may be hidden by it, and any depth may be its
 /// own. Without depth, whatever the robot does not hide is unknown, and so is what a link of
 /// unknown pose could hide.
-void TargetStage::lower_trust(const LabelledFrame& frame, Record& record, TargetReport& report) {
+void TargetStage::lower_trust(const LabelledFrame& frame, TargetReport& report) {
   if ((frame.images.is_blind || !frame.poses->reaches.empty()) &&
       report.verdict == Verdict::unknown)
-    record.reason = fault_of(frame);
+    report.reason = fault_of(frame);
   if (frame.poses->missing_links.empty()) return;
   Judgement& judgement = *report.judgement;
   report.point.reset();
@@ -285,7 +278,7 @@ void TargetStage::lower_trust(const LabelledFrame& frame, Record& record, Target
   judgement.seen_past.reset();
   if (report.verdict != Verdict::visible && report.verdict != Verdict::partial) return;
   report.verdict = judgement.verdict = Verdict::unknown;
-  record.reason = frame.message;
+  report.reason = frame.message;
 }
 
 std::optional<Eigen::Vector2d> TargetStage::track_pixel(const PoseResult& poses,
@@ -334,10 +327,7 @@ Outcome TargetStage::feed(const TargetEstimate& estimate, std::int64_t stamp, Ta
   }
 }
 
-void TargetStage::forget(std::string_view name) {
-  const auto found = records_.find(name);
-  if (found != records_.end()) records_.erase(found);
-}
+void TargetStage::forget(std::string_view name) { records_.erase(std::string(name)); }
 
 void TargetStage::forget_all() {
   records_.clear();

@@ -242,4 +242,13 @@ void Robot::forward_kinematics(std::span<const double> positions,
         T_root_link[joint.parent] * (joint.origin * motion(joint, positions));
 }
 
+std::size_t find_camera_parent(const Robot& robot, const std::string& name) {
+  if (name.empty()) return 0;
+  if (const auto link = robot.find_link(name)) return *link;
+  std::string known;
+  for (const std::string& link : robot.links()) known += (known.empty() ? "" : ", ") + link;
+  throw InputError("camera parent '" + name + "' is not a link of robot '" + robot.name() +
+                   "'; its links: " + known);
+}
+
 }  // namespace penumbra

@@ -169,4 +169,8 @@ struct PlacedRobot {
   Eigen::Isometry3d T_world_root = Eigen::Isometry3d::Identity();
 };
 
+/// Returns the link that carries a camera; the root for an empty name. Throws InputError for an
+/// unknown name.
+[[nodiscard]] std::size_t find_camera_parent(const Robot& robot, const std::string& name);
+
 }  // namespace penumbra

@@ -15,7 +15,6 @@
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/targets/target.hpp>
 
 namespace penumbra {
 

@@ -54,19 +54,19 @@ class CandidateJudge {
     set_targets(motion.targets);
     Frame frame;
     frame.depth = depth_;
-    frame.T_root_link = motion.T_root_link;
-    frame.T_parent_camera = motion.T_root_link[link] * candidate.T_link_camera;
+    frame.pose.T_root_link = motion.T_root_link;
+    frame.pose.T_parent_camera = motion.T_root_link[link] * candidate.T_link_camera;
     frame.targets = targets_;
-    frame.attached = motion.attached;
-    frame.uncertain_links = motion.uncertain_links;
-    frame.uncertain_reason = "not known in this frame";
+    frame.pose.attached = motion.attached;
+    frame.pose.uncertain_links = motion.uncertain_links;
+    frame.pose.uncertain_reason = "not known in this frame";
     const FrameReport& report = pipeline_.process(frame);
     std::string why;
     for (std::size_t i = 0; i < targets_.size(); ++i) {
       const auto [verdict, reason] = verdict_of(report, motion, i);
       write(i, verdict);
       if (verdict == Verdict::unknown && why.empty())
-        why = std::string(targets_[i].name) + ": " + std::string(reason);
+        why = targets_[i].name + ": " + std::string(reason);
     }
     return why;
   }

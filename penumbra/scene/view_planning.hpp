@@ -12,8 +12,8 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/labels/labels.hpp>
-#include <penumbra/pipeline/target.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/targets/target.hpp>
 #include <penumbra/time/attachments.hpp>
 
 namespace penumbra {

@@ -43,50 +43,24 @@ struct LimitRule {
 
 /// An image's measurements in metres; 0 where there is none.
 template <typename T>
-class Measured {
- public:
-  Measured(ImageView<const T> image, const labelling::Rule& rule)
-      : image_(image), range_(std::is_same_v<T, float> ? rule.metres : rule.millimetres) {}
+struct Measured {
+  Measured(ImageView<const T> of, const labelling::Rule& rule) : image(of), range(rule.range) {}
 
-  class Row {
-   public:
-    Row(const T* row, labelling::MeasuredRange in_range) : depth_(row), range_(in_range) {}
-
-    [[nodiscard]] float operator[](int u) const {
-      const float d = metres(u);
-      return is_measurement(d) ? d : 0.0f;
-    }
-    /// Returns whether a measurement is nearer than a limit. Without branches, so that loops
-    /// vectorise.
-    [[nodiscard]] bool is_before(int u, float limit) const {
-      const float d = metres(u);
-      return is_measurement(d) & (d < limit);
-    }
-    [[nodiscard]] bool is_past(int u, float limit) const {
-      const float d = metres(u);
-      return is_measurement(d) & (d > limit);
-    }
-    [[nodiscard]] bool is_measured(int u) const { return is_measurement(metres(u)); }
-
-   private:
-    [[nodiscard]] bool is_measurement(float d) const {
-      return (range_.near <= d) & (d <= range_.far);
-    }
-    [[nodiscard]] float metres(int u) const {
-      if constexpr (std::is_same_v<T, float>)
-        return depth_[u];
-      else
-        return static_cast<float>(depth_[u]) * labelling::metres_per_millimetre;
+  struct Row {
+    [[nodiscard]] float operator[](int u) const { return metres_of(depth[u], range); }
+    [[nodiscard]] bool is_measured(int u) const { return range.holds(depth[u]); }
+    /// The value in metres, measured or not: loops that compare it vectorise.
+    [[nodiscard]] float raw(int u) const {
+      return std::is_same_v<T, float> ? depth[u] : metres_per_millimetre * depth[u];
     }
 
-    const T* depth_;
-    labelling::MeasuredRange range_;
+    const T* depth;
+    MeasuredRange range;
   };
-  [[nodiscard]] Row row(int v) const { return {image_.row(v), range_}; }
+  [[nodiscard]] Row row(int v) const { return {image.row(v), range}; }
 
- private:
-  ImageView<const T> image_;
-  labelling::MeasuredRange range_;
+  ImageView<const T> image;
+  MeasuredRange range;
 };
 
 /// A frame to judge targets on.
@@ -123,8 +97,8 @@ class LinkCounts {
     if (counts_[value - 1] == 0) touched_.push_back(value - 1);
     counts_[value - 1] += pixels;
   }
-  /// Writes the links with pixels, as fractions of `pixels`, largest first.
-  std::span<const Blame> write(std::size_t pixels, std::vector<Blame>& blame) const;
+  /// Returns the links with pixels, as fractions of `pixels`, largest first.
+  [[nodiscard]] std::vector<Blame> blame(std::size_t pixels) const;
 
  private:
   std::vector<std::size_t> counts_;

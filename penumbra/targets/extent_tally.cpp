@@ -134,8 +134,9 @@ class ExtentReader {
     std::int32_t all = 0, nearer = 0, farther = 0;  // as wide as a depth, to vectorise
     for (int u = u0; u < u1; ++u) all += depths.is_measured(u) ? 1 : 0;
     for (int u = u0; u < u1 && has_depth_; ++u) {
-      nearer += depths.is_before(u, limits(u).near) ? 1 : 0;
-      farther += depths.is_past(u, limits(u).far) ? 1 : 0;
+      const bool is_measured = depths.is_measured(u);  // without branches, to vectorise
+      nearer += is_measured & (depths.raw(u) < limits(u).near);
+      farther += is_measured & (depths.raw(u) > limits(u).far);
     }
     const auto before = static_cast<std::size_t>(nearer);
     tally_.measured += static_cast<std::size_t>(all - nearer);
@@ -181,11 +182,11 @@ class ExtentReader {
     Run run;  // of equal pixels: faster than counting them one by one in memory
     for (int u = u0; u < u1; ++u) {
       const DepthLimits target = limits(u);
-      const PixelState state =
-          state_at_depth(labels[u], robot[u], depths[u], target, beyond_hides_);
+      const float d = depths[u];
+      const PixelState state = state_at_depth(labels[u], robot[u], d, target, beyond_hides_);
       const bool counts = is_seen(state) && !is_fringe(labels[u]);
-      measured += counts && depths.is_measured(u);
-      past += counts && depths.is_past(u, target.far);
+      measured += counts && d > 0.0f;
+      past += counts && d > target.far;
       const std::uint16_t link = state == PixelState::occluded && has_links ? links[u] : 0;
       if (state != run.state || link != run.link) {
         add(run);
@@ -229,8 +230,7 @@ void with_limits(const labelling::Rule& label_rule, const ExpectedDepth& expecte
 
 struct NoDepths {
   float operator[](int /*u*/) const { return 0.0f; }
-  [[nodiscard]] bool is_before(int /*u*/, float /*limit*/) const { return false; }
-  [[nodiscard]] bool is_past(int /*u*/, float /*limit*/) const { return false; }
+  [[nodiscard]] float raw(int /*u*/) const { return 0.0f; }
   [[nodiscard]] bool is_measured(int /*u*/) const { return false; }
 };
 
@@ -285,8 +285,8 @@ void LinkCounts::clear() {
   touched_.clear();
 }
 
-std::span<const Blame> LinkCounts::write(std::size_t pixels, std::vector<Blame>& blame) const {
-  blame.clear();
+std::vector<Blame> LinkCounts::blame(std::size_t pixels) const {
+  std::vector<Blame> blame;
   for (const std::size_t link : touched_)
     blame.push_back({link, static_cast<double>(counts_[link]) / static_cast<double>(pixels)});
   std::sort(blame.begin(), blame.end(), [](const Blame& a, const Blame& b) {

@@ -59,8 +59,8 @@ class RegionSpans {
   /// Sets the region. Throws InputError if it is invalid.
   void fill(const Region& region);
 
-  /// Sets spans of the image, moved by whole pixels.
-  void fill_moved(std::span<const RowSpan> spans, const Eigen::Vector2d& by);
+  /// Sets spans of an image of this size, scaled about its first corner and then moved.
+  void fill_scaled(std::span<const RowSpan> spans, double scale, const Eigen::Array2d& by);
 
   /// Moves pixels that the camera did not see to those outside the image.
   void keep(const SeenPixels& seen);

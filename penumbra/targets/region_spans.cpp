@@ -61,12 +61,16 @@ void RegionSpans::fill(const Region& region) {
   covered_ = std::max(std::round(covered_), static_cast<double>(inside_));
 }
 
-void RegionSpans::fill_moved(std::span<const RowSpan> spans, const Eigen::Vector2d& by) {
+void RegionSpans::fill_scaled(std::span<const RowSpan> spans, double scale,
+                              const Eigen::Array2d& by) {
   clear();
-  const double du = std::round(by.x()), dv = std::round(by.y());
   for (const RowSpan& span : spans) {
-    add_row(span.v + dv, span.u0 + du, span.u1 + du);
-    covered_ += span.u1 - span.u0;
+    // The first pixels whose centres lie at the scaled edges or after them.
+    const Eigen::Array2d from = (scale * Eigen::Array2d(span.u0, span.v) + by - 0.5).ceil();
+    const Eigen::Array2d end = (scale * Eigen::Array2d(span.u1, span.v + 1) + by - 0.5).ceil();
+    const double below = std::min(end.y(), static_cast<double>(height_));
+    for (double v = std::max(from.y(), 0.0); v < below; ++v) add_row(v, from.x(), end.x());
+    covered_ += (end - from).prod();
   }
 }
 
@@ -177,8 +181,8 @@ void RegionSpans::check_size(const char* what, int width, int height) const {
 }
 
 void RegionSpans::take(const PixelMask& mask) {
-  check_size("mask", mask.mask.width, mask.mask.height);
-  for (int v = 0; v < height_; ++v) add_bytes(mask.mask.row(v), v, 0, width_);
+  check_size("mask", mask.mask.view.width, mask.mask.view.height);
+  for (int v = 0; v < height_; ++v) add_bytes(mask.mask.view.row(v), v, 0, width_);
   if (inside_ == 0) region_fault("mask without any pixel");
 }
 
@@ -223,7 +227,7 @@ void RegionSpans::take(const RunLengthMask& mask) {
 }
 
 void RegionSpans::add_depths(const RenderedRegion& region, int v, int u0, int u1) {
-  const float* const row = region.depth.row(v);
+  const float* const row = region.depth.view.row(v);
   for (int u = u0; u < u1;) {
     const int first = u;
     while (u < u1 && row[u] > 0.0f && row[u] <= RenderedRegion::max_depth) ++u;
@@ -236,7 +240,7 @@ void RegionSpans::add_depths(const RenderedRegion& region, int v, int u0, int u1
 }
 
 void RegionSpans::take(const RenderedRegion& region) {
-  check_size("rendered region", region.depth.width, region.depth.height);
+  check_size("rendered region", region.depth.view.width, region.depth.view.height);
   if (region.touched == nullptr) {
     for (int v = 0; v < height_; ++v) add_depths(region, v, 0, width_);
     return;

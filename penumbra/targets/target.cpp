@@ -1,38 +1,126 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
+#include <cmath>
 
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/targets/region_spans-inl.hpp>
 #include <penumbra/targets/target.hpp>
 
 namespace penumbra {
+namespace {
 
-void TargetThresholds::check() const {
-  const auto check_share = [](const char* name, double value) {
-    if (!(value >= 0 && value <= 1)) region_fault(name, ' ', value, ": must be 0 to 1");
-  };
-  check_share("partial_enter", partial_enter);
-  check_share("partial_leave", partial_leave);
-  check_share("hidden_enter", hidden_enter);
-  check_share("hidden_leave", hidden_leave);
-  if (unknown_limit) check_share("unknown_limit", *unknown_limit);
-  check_share("past_limit", past_limit);
-  check_share("min_measured", min_measured);
-  check_share("min_inside", min_inside);
-  check_share("point_min_fraction", point_min_fraction);
-  const auto check_order = [](const char* low_name, double low, const char* high_name,
-                              double high) {
-    if (low > high) region_fault(low_name, ' ', low, ": must not exceed ", high_name, ' ', high);
-  };
-  check_order("partial_leave", partial_leave, "partial_enter", partial_enter);
-  check_order("hidden_leave", hidden_leave, "hidden_enter", hidden_enter);
-  check_order("partial_enter", partial_enter, "hidden_enter", hidden_enter);
-  check_order("partial_leave", partial_leave, "hidden_leave", hidden_leave);
+void check_length(double value, const char* what, double most, const char* unit) {
+  if (!(value > 0.0 && value <= most))
+    region_fault(what, " is ", value, "; expected ", unit, " above 0 and up to ", most);
 }
 
-std::string_view to_string(Verdict verdict) {
-  constexpr std::array<std::string_view, 6> names = {"visible", "partial",     "hidden",
-                                                     "unknown", "out_of_view", "held"};
-  return names[static_cast<std::size_t>(verdict)];
+void check_metres(double value, const char* what) {
+  check_length(value, what, max_target_distance, "metres");
+}
+
+void check_position(const Eigen::Vector3d& p) {
+  if (p.allFinite() && p.cwiseAbs().maxCoeff() <= max_target_distance) return;
+  throw InputError("position is not finite, or more than 1000 km away; expected metres");
+}
+
+void check_pose(const Eigen::Isometry3d& T) {
+  if (!is_rigid(T))
+    throw InputError(
+        "pose is not a rigid transform: expected a rotation (a unit quaternion) and a finite "
+        "position in metres");
+  check_position(T.translation());
+}
+
+struct ShapeCheck {
+  void operator()(const std::monostate&) const {}
+
+  void operator()(const RegionTarget& target) const {
+    if (target.expected_depth) check_metres(*target.expected_depth, "expected depth");
+  }
+
+  void operator()(const KeypointTarget& target) const {
+    if (target.expected_depth) check_metres(*target.expected_depth, "expected depth");
+    for (const double at : target.pixel)
+      if (!(std::abs(at) <= max_coordinate))
+        region_fault("pixel is ", at, "; expected at most ", max_coordinate);
+    for (const double semi_axis : target.semi_axes)
+      if (target.in_metres)
+        check_metres(semi_axis, "semi-axis");
+      else
+        check_length(semi_axis, "semi-axis", max_coordinate, "pixels");
+    constexpr double most_radians = 1e6;  // radians; a double's rounding is 1e-10 there
+    if (!(std::abs(target.angle) <= most_radians))
+      region_fault("angle is ", target.angle, " rad; expected at most ", most_radians);
+  }
+
+  void operator()(const PointTarget& target) const {
+    check_position(target.position);
+    check_metres(target.radius, "radius");
+  }
+
+  void operator()(const BoxTarget& target) const {
+    check_pose(target.pose);
+    for (const double edge : target.size) check_metres(edge, "edge of the box");
+  }
+
+  void operator()(const MeshTarget& target) const { check_pose(target.pose); }
+};
+
+struct EstimateCheck {
+  bool is_in_camera;  ///< given in the camera's frame
+
+  void operator()(const std::monostate&) const {}
+  void operator()(const Eigen::Vector3d& position) const {
+    check_position(position);
+    check_distance(position);
+  }
+  void operator()(const Eigen::Isometry3d& pose) const {
+    check_pose(pose);
+    check_distance(pose.translation());
+  }
+  /// An estimate computed from depth 0 (no measurement) lies in the camera's centre.
+  void check_distance(const Eigen::Vector3d& position) const {
+    constexpr double least = DepthRenderer::near_plane;
+    if (!is_in_camera || position.norm() >= least) return;
+    region_fault("position is ", position.norm(), " m from the camera; expected at least ", least,
+                 " m: depth 0 is not a measurement");
+  }
+};
+
+}  // namespace
+
+std::optional<ShapePlacement> placement_of(const TargetShape& shape) {
+  if (const auto* point = std::get_if<PointTarget>(&shape))
+    return {{Eigen::Isometry3d(Eigen::Translation3d(point->position)), point->frame}};
+  if (const auto* box = std::get_if<BoxTarget>(&shape)) return {{box->pose, box->frame}};
+  if (const auto* mesh = std::get_if<MeshTarget>(&shape)) return {{mesh->pose, mesh->frame}};
+  return std::nullopt;
+}
+
+bool is_rendered(const TargetShape& shape) {
+  return std::holds_alternative<BoxTarget>(shape) || std::holds_alternative<MeshTarget>(shape);
+}
+
+void check_shape(const TargetShape& shape) { std::visit(ShapeCheck{}, shape); }
+
+void check_target(const Target& target) {
+  if (target.name.empty()) throw InputError("has no name");
+  if (!target.has_identity && !std::holds_alternative<std::monostate>(target.handling))
+    throw InputError("handling needs a name that stays with its object (has_identity)");
+  target.thresholds.check();
+  if (is_rendered(target.shape) && target.thresholds.min_inside > 0)
+    throw InputError(
+        "min_inside cannot be used with 3-D boxes and meshes, whose part outside the image is "
+        "unknown: leave it out");
+  if (!(target.depth_margin >= 0.0 && target.depth_margin <= max_target_distance))
+    region_fault("depth margin is ", target.depth_margin, "; expected metres from 0 to ",
+                 max_target_distance);
+  check_shape(target.shape);
+}
+
+void check_estimate(const TargetEstimate& estimate) {
+  std::visit(EstimateCheck{estimate.frame.kind == ReferenceFrame::Kind::camera}, estimate.value);
 }
 
 }  // namespace penumbra

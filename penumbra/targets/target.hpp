@@ -1,123 +1,168 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
-#include <penumbra/base/image.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
+#include <penumbra/targets/region.hpp>
+#include <penumbra/targets/target_judge.hpp>
+#include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra {
 
-// Regions: the pixels of a target, also outside the image. A box or polygon that contains no pixel
-// centre covers the pixel nearest to its own centre; so does an ellipse without a pixel centre in
-// the image.
+/// Largest distance and size of a target, metres. Float32 depths are too coarse beyond.
+inline constexpr double max_target_distance = 1e6;
 
-/// Largest coordinate or length of a region, pixels.
-inline constexpr double max_coordinate = 1e9;
+/// The frame in which a position or pose is given; by default the camera's optical frame.
+struct ReferenceFrame {
+  enum class Kind { camera, root, link };
 
-/// The pixels whose centres lie in [u, u + width) x [v, v + height).
-struct PixelBox {
-  double u = 0, v = 0, width = 0, height = 0;
+  static ReferenceFrame root() { return {Kind::root, {}}; }
+  static ReferenceFrame of_link(std::string name) { return {Kind::link, std::move(name)}; }
+
+  Kind kind = Kind::camera;
+  std::string link = {};  ///< name, for Kind::link
 };
 
-/// The pixels whose centres lie inside the outline by the non-zero winding rule. The outline may
-/// touch and cross itself. A centre on the outline counts if the inside is to its right or, on a
-/// horizontal edge, below it.
-struct PixelPolygon {
-  static constexpr std::size_t max_corners = 10000;
-  std::span<const Eigen::Vector2d> corners;
+/// Pixels of the report's images (PipelineConfig::image).
+struct RegionTarget {
+  Region region;
+  Extent extent = Extent::amodal;
+  std::optional<double> expected_depth = {};  ///< metres, > 0
 };
 
-/// The non-zero pixels of an image of the label image's size.
-struct PixelMask {
-  ImageView<const std::uint8_t> mask;
+/// A network's key point; judged as an ellipse around it.
+struct KeypointTarget {
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< of the report's images
+  double score = 1.0;                               ///< of the network; below min_score: unknown
+  double min_score = 0.0;
+  Eigen::Vector2d semi_axes = Eigen::Vector2d(5, 5);  ///< pixels, or metres if in_metres; > 0
+  double angle = 0.0;  ///< radians from +u to +v: of the first semi-axis
+  /// True: lengths are metres at the expected depth or, without it, at the depth measured at the
+  /// pixel. That pixel must be labelled clear or front, else the verdict is unknown.
+  bool in_metres = false;
+  std::optional<double> expected_depth = {};  ///< metres, > 0
 };
 
-/// COCO's run-length mask, column by column from the left, each from the top: alternating runs of
-/// pixels outside and inside, starting outside.
-struct RunLengthMask {
-  int width = 0, height = 0;  ///< of the label image
-  std::span<const std::uint32_t> counts;
+/// A sphere around a point; judged as its elliptical outline at the point's depth.
+struct PointTarget {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< metres
+  double radius = 0.02;                                ///< metres, > 0
+  ReferenceFrame frame = {};
 };
 
-/// The pixels whose centres lie inside an ellipse or on it.
-struct PixelEllipse {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-  Eigen::Vector2d semi_axes = Eigen::Vector2d::Ones();  ///< pixels, > 0
-  double angle = 0;  ///< radians from +u to +v, of the first semi-axis
+/// A box; it is rendered alone, which gives each pixel's expected depth.
+struct BoxTarget {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of the centre; axes along the edges
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();          ///< full edge lengths, metres, > 0
+  ReferenceFrame frame = {};
 };
 
-/// An object that was rendered alone: the pixels with depth > 0, metres, which is also the expected
-/// depth. Nothing outside the image; always amodal.
-struct RenderedRegion {
-  static constexpr float max_depth = 1e6f;  ///< metres
-
-  ImageView<const float> depth;       ///< of the label image's size
-  const TileMask* touched = nullptr;  ///< depth is 0 outside these tiles; null: all are read
+/// A mesh; it is rendered alone. Pass the same pointer for the same mesh: its renderer is kept.
+struct MeshTarget {
+  std::shared_ptr<const PreparedMesh> mesh;  ///< in the object's frame
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  ReferenceFrame frame = {};
 };
 
-using Region =
-    std::variant<PixelBox, PixelPolygon, PixelMask, RunLengthMask, PixelEllipse, RenderedRegion>;
+/// std::monostate: not found in this frame; the verdict is unknown and handling continues.
+using TargetShape =
+    std::variant<std::monostate, RegionTarget, KeypointTarget, PointTarget, BoxTarget, MeshTarget>;
 
-/// Throws InputError for a region that is invalid in an image of that size.
-void check_region(const Region& region, int width, int height);
-
-/// The part of a target that a region covers.
-enum class Extent {
-  amodal,  ///< all of it, including hidden parts
-  modal    ///< the visible part; compared with the whole target as seen before
+/// A pose or position of a target from the perception system.
+struct TargetEstimate {
+  /// std::monostate: not found in this frame, and the shape's own pose is not used either.
+  std::variant<Eigen::Isometry3d, Eigen::Vector3d, std::monostate> value =
+      Eigen::Isometry3d::Identity();
+  std::optional<std::int64_t> stamp = {};  ///< of its image, nanoseconds; null: the target's
+  ReferenceFrame frame = {};               ///< at that stamp
+  /// Of position and rotation vector along the axes of `frame`; a point uses the first 3 x 3.
+  std::optional<Matrix6d> covariance = {};
 };
 
-/// The thresholds of verdicts, as fractions of the pixels inside the image.
-struct TargetThresholds {
-  double partial_enter =
-      0.05;  ///< hidden fraction above which `visible` becomes `partial` (the paper)
-  double partial_leave = 0.04;          ///< hidden fraction up to which it becomes `visible` again
-  double hidden_enter = 0.90;           ///< hidden fraction above which it becomes `hidden`
-  double hidden_leave = 0.80;           ///< hidden fraction up to which it becomes `partial` again
-  std::optional<double> unknown_limit;  ///< unknown fraction above which it becomes `unknown`,
-                                        ///< unless the verdict would be the same if all of that
-                                        ///< were hidden; null: partial_enter
-  /// It becomes `unknown` if the sensor measures behind its expected depth in this fraction of its
-  /// measured clear and front pixels: it is not there, or transparent. 1 disables the rule.
-  double past_limit = 0.5;
-  /// The fraction of its clear and front pixels that must be measured. Below it, a target with an
-  /// expected depth is `unknown`, and estimates of one without are refused. 0 disables the rule,
-  /// for dark or transparent objects.
-  double min_measured = 0.2;
-  double min_inside = 0.0;           ///< out_of_view if at most this fraction of the extent is in
-                                     ///< the image; 0 for rendered regions, 3-D boxes and meshes
-  bool beyond_hides = true;          ///< `beyond` counts as occluded; else it counts as clear
-  bool others_hide = true;           ///< occlusion by other objects counts in verdicts
-  std::size_t point_min_pixels = 5;  ///< trusted depths needed for a point
-  double point_min_fraction = 0.2;   ///< and their fraction of the pixels inside the image
+/// How a target is followed while hidden: not at all, as a pose, or as a point.
+using TargetHandling = std::variant<std::monostate, PoseTrackerConfig, PointTrackerConfig>;
 
-  /// Throws InputError with the invalid value unless all fractions are in 0..1, each `leave` is at
-  /// most its `enter`, and each `partial` is at most its `hidden`.
-  void check() const;
+/// A target to judge in a frame. Any fault of a target makes its verdict unknown and is the
+/// report's reason.
+struct Target {
+  std::string name;  ///< not empty, unique in a frame; verdicts and tracks are stored by it
+  /// False: the name may belong to another object in the next frame (for example, the index of a
+  /// detection). Each frame judges the target as new, and it cannot be handled.
+  bool has_identity = true;
+  TargetShape shape = {};
+  std::string frame_id = {};               ///< of its image; empty, or the camera's
+  std::optional<std::int64_t> stamp = {};  ///< of its image, nanoseconds; null: the frame's
+  /// Metres between its surface and its expected depth at most: half its thickness plus its pose's
+  /// uncertainty. A PointTarget's radius is added.
+  double depth_margin = 0.0;
+  TargetThresholds thresholds = {};
+  /// Read at the first frame with this name, and again after Pipeline::forget_target.
+  TargetHandling handling = {};
+  /// What tracking takes as its measurement. Null: the pose or position of a 3-D shape or, for
+  /// handling as a point, the point measured in the region or at the key point.
+  std::optional<TargetEstimate> estimate = {};
+  std::string fault = {};  ///< a fault that its source reports; empty: none
 };
 
-enum class Verdict {
-  visible,
-  partial,
-  hidden,
-  unknown,
-  out_of_view,
-  held  ///< a link carries it: an attached body has its name, and no pixels are judged
+/// The place of a 3-D shape.
+struct ShapePlacement {
+  Eigen::Isometry3d pose;  ///< in `frame`; of a point: without rotation
+  ReferenceFrame frame;
 };
 
-/// In their order.
-inline constexpr std::array all_verdicts = {Verdict::visible, Verdict::partial,     Verdict::hidden,
-                                            Verdict::unknown, Verdict::out_of_view, Verdict::held};
+/// Returns the place of a point, 3-D box or mesh; null for other shapes.
+[[nodiscard]] std::optional<ShapePlacement> placement_of(const TargetShape& shape);
 
-/// The verdict's name in report.json.
-[[nodiscard]] std::string_view to_string(Verdict verdict);
+/// Returns whether a shape is rendered alone.
+[[nodiscard]] bool is_rendered(const TargetShape& shape);
+
+/// Throw InputError for a shape, name or settings that are invalid in every frame. The pixels of a
+/// region are checked only together with an image.
+void check_shape(const TargetShape& shape);
+void check_target(const Target& target);
+
+/// Throws InputError for a pose that is not rigid or more than max_target_distance away, and for
+/// one in the camera's frame that is nearer than DepthRenderer::near_plane.
+void check_estimate(const TargetEstimate& estimate);
+
+/// A handled target at the frame's stamp, in the root link's frame. While a link carries the
+/// target, its pose is that of the attached body, and estimates are refused. Then tracking starts
+/// from the last such pose.
+struct HandledTarget {
+  Source source = Source::lost;
+  double age = 0;  ///< seconds since the last accepted estimate; infinite before the first
+  std::optional<Eigen::Vector3d> position;        ///< metres; null if lost
+  std::optional<Eigen::Quaterniond> orientation;  ///< null if lost, or handled as a point
+  double sigma = 0;  ///< metres, along the position's most uncertain direction
+};
+
+/// The result for one target.
+struct TargetReport {
+  std::string name;
+  std::optional<std::int64_t> stamp;  ///< of the frame on which it was judged, nanoseconds
+  Verdict verdict = Verdict::unknown;
+  std::string reason;  ///< one line if the verdict is unknown or held, else empty
+
+  /// Null if no pixels were judged. The judge's values except `point`.
+  std::optional<Judgement> judgement;
+  std::optional<Eigen::Vector3d> point;  ///< from trusted depths only; root link's frame, metres
+
+  std::optional<HandledTarget> handled;  ///< null without handling, or without stamps
+  std::optional<Outcome> estimate;       ///< whether the target's estimate was accepted, or why
+                                         ///< not; null without an estimate
+  bool wants_stamp = false;              ///< not handled because the frame has no stamp
+};
 
 }  // namespace penumbra

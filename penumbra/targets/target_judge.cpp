@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/targets/target_judge.hpp>
 #include <penumbra/targets/target_visibility-inl.hpp>
 #include <penumbra/targets/trusted_depth-inl.hpp>
@@ -45,7 +46,7 @@ ExpectedDepth expected_of(const TargetView& target) {
   ExpectedDepth expected;
   expected.margin = target.depth_margin;
   if (const auto* rendered = std::get_if<RenderedRegion>(&target.region))
-    expected.image = rendered->depth;
+    expected.image = rendered->depth.view;
   else if (target.expected_depth)
     expected.constant = static_cast<float>(*target.expected_depth);
   return expected;
@@ -67,17 +68,8 @@ bool is_uncovered(const TalliedFrame& frame, std::span<const RowSpan> extent, st
 std::string_view reason_for_unknown(const Visibility& visibility,
                                     const TargetThresholds& thresholds, bool is_uncovered) {
   if (!visibility.has_pose) return "the robot's pose is not known in this frame";
-  switch (visibility.size_unknown) {
-    case SizeUnknown::none:
-      break;
-    case SizeUnknown::cut:
-      return "the image's border cuts it: how much of it the robot next to it hides is not known";
-    case SizeUnknown::first_near_robot:
-      return "first seen next to the robot: how much of it the robot hides is not known";
-    case SizeUnknown::moved:
-      return "it moved next to the robot, and how large it is there is not known without an "
-             "expected depth";
-  }
+  if (!visibility.has_whole)
+    return "it was not seen whole away from the robot: how much of it the robot hides is not known";
   if (visibility.is_missing)
     return "its mask is smaller than the whole target, and the robot is next to it";
   if (visibility.is_expected && visibility.is_passed(thresholds.past_limit))
@@ -92,6 +84,18 @@ std::string_view reason_for_unknown(const Visibility& visibility,
 
 }  // namespace
 
+void TargetThresholds::check() const {
+  check_settings(*this);
+  const auto check_order = [](const char* low_name, double low, const char* high_name,
+                              double high) {
+    if (low > high) region_fault(low_name, ' ', low, ": must not exceed ", high_name, ' ', high);
+  };
+  check_order("partial_leave", partial_leave, "partial_enter", partial_enter);
+  check_order("hidden_leave", hidden_leave, "hidden_enter", hidden_enter);
+  check_order("partial_enter", partial_enter, "hidden_enter", hidden_enter);
+  check_order("partial_leave", partial_leave, "hidden_leave", hidden_leave);
+}
+
 struct TargetJudge::State {
   State(const Camera& camera_, const LabelRule& rule, std::size_t links,
         ImageView<const std::uint8_t> unseen);
@@ -105,7 +109,6 @@ struct TargetJudge::State {
   bool has_frame = false;
   RobotSurroundings robot;
   ExtentObserver observer;
-  std::vector<Blame> blame;
 };
 
 TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, std::size_t links,
@@ -114,9 +117,7 @@ TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, st
       rule(checked_rule(label_rule)),
       frame({}, rule, !unseen.empty()),
       robot(camera.intrinsics.width(), camera.intrinsics.height(), label_rule),
-      observer(camera.intrinsics.width(), camera.intrinsics.height(), links, SeenPixels(unseen)) {
-  blame.reserve(links);
-}
+      observer(camera.intrinsics.width(), camera.intrinsics.height(), links, SeenPixels(unseen)) {}
 
 TargetJudge::TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links,
                          ImageView<const std::uint8_t> unseen)
@@ -173,7 +174,7 @@ Judgement TargetJudge::State::judge(const TargetView& target, TargetMemory& memo
     if (expected.known()) judgement.hidden_by_other = visibility.fraction(PixelState::other);
     if (expected.known()) judgement.seen_past = visibility.share(visibility.past);
   }
-  judgement.blame = visibility.links->write(visibility.inside, blame);
+  judgement.blame = visibility.links->blame(visibility.inside);
   if (judgement.verdict == Verdict::unknown) {
     const bool has_lens = !camera.distortion.is_none();
     judgement.reason =
@@ -202,10 +203,11 @@ void TargetJudge::State::add_point(const TargetView& target, Judgement& judgemen
   const Eigen::Vector2d distorted = pinhole.ray(pixel.x(), pixel.y()).head<2>();
   const auto ray = camera.distortion.undistort(distorted);
   if (!ray) return;
-  const RobustDepth depth = robust_depth(tally.depths);
-  judgement.point = depth.median * Eigen::Vector3d(ray->x(), ray->y(), 1.0);
+  const float median = detail::median(tally.depths);
+  for (float& depth : tally.depths) depth = std::abs(depth - median);
+  judgement.point = static_cast<double>(median) * Eigen::Vector3d(ray->x(), ray->y(), 1.0);
   judgement.point_pixels = trusted;
-  judgement.point_spread = depth.spread;
+  judgement.point_spread = detail::robust_sigma(tally.depths);
 }
 
 }  // namespace penumbra

@@ -5,16 +5,18 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
+#include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/base/setting.hpp>
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/labels/labels.hpp>
-#include <penumbra/targets/target.hpp>
+#include <penumbra/targets/region.hpp>
 
 namespace penumbra {
 
@@ -24,6 +26,55 @@ struct LabelledImages {
   VirtualDepthView virtual_depth;  ///< empty if the robot's pose is unknown: all is unknown
   DepthView measured;              ///< empty: no points, and nothing is hidden by other objects
   bool is_blind = false;           ///< no usable depth: whatever the robot does not hide is unknown
+};
+
+/// The thresholds of verdicts, as fractions of the pixels inside the image.
+struct TargetThresholds {
+  double partial_enter = 0.05;  ///< as in the paper
+  double partial_leave = 0.04;
+  double hidden_enter = 0.90;
+  double hidden_leave = 0.80;
+  std::optional<double> unknown_limit;
+  double past_limit = 0.5;
+  double min_measured = 0.2;
+  double min_inside = 0.0;
+  bool beyond_hides = true;
+  bool others_hide = true;
+  std::size_t point_min_pixels = 5;
+  double point_min_fraction = 0.2;
+
+  static constexpr auto settings() {
+    using T = TargetThresholds;
+    return std::tuple(
+        Setting("partial_enter", &T::partial_enter, {0, 1}, "",
+                "hidden fraction above which visible becomes partial"),
+        Setting("partial_leave", &T::partial_leave, {0, 1}, "",
+                "hidden fraction up to which it becomes visible again"),
+        Setting("hidden_enter", &T::hidden_enter, {0, 1}, "",
+                "hidden fraction above which it becomes hidden"),
+        Setting("hidden_leave", &T::hidden_leave, {0, 1}, "",
+                "hidden fraction up to which it becomes partial again"),
+        Setting("unknown_limit", &T::unknown_limit, {0, 1}, "",
+                "unknown fraction above which it is unknown, if it decides; none: partial_enter"),
+        Setting("past_limit", &T::past_limit, {0, 1}, "",
+                "fraction of what is measured that is behind it, from which on it is unknown"),
+        Setting("min_measured", &T::min_measured, {0, 1}, "",
+                "fraction of its clear and front pixels that must be measured; 0: off"),
+        Setting("min_inside", &T::min_inside, {0, 1}, "",
+                "out_of_view if at most this fraction of the extent is in the image"),
+        Setting("beyond_hides", &T::beyond_hides, {}, "",
+                "beyond counts as occluded; else it counts as clear"),
+        Setting("others_hide", &T::others_hide, {}, "",
+                "occlusion by other objects counts in verdicts"),
+        Setting("point_min_pixels", &T::point_min_pixels, {0, 1e9}, "px",
+                "trusted depths needed for a point"),
+        Setting("point_min_fraction", &T::point_min_fraction, {0, 1}, "",
+                "and their fraction of the pixels inside the image"));
+  }
+
+  /// Throws InputError with the invalid value unless all fractions are in 0..1, each `leave` is at
+  /// most its `enter`, and each `partial` is at most its `hidden`.
+  void check() const;
 };
 
 /// A target in one frame, in pixels.
@@ -55,19 +106,16 @@ struct RowSpan {
 /// one for another object.
 struct TargetMemory {
   Verdict level = Verdict::visible;  ///< visible, partial or hidden: the last of these
-  std::vector<RowSpan> extent;       ///< modal: the last full extent; empty: none
+  std::vector<RowSpan> whole;        ///< modal: the last whole extent; empty: none
   Eigen::Vector2d moved{0, 0};       ///< motion from then until the last verdict visible
-  double size = 0;                   ///< modal: pixels of the whole target, average
-  int sizes = 0;                     ///< in that average
-  double size_noise = 0;             ///< of a single size: standard deviation / size
-  std::optional<double> depth;       ///< expected depth of the size, metres
-  bool is_cut = false;               ///< the extent reaches the image's border, so there is more
+  std::optional<double> depth;       ///< its expected depth, metres
 };
 
 /// A link that hides a target.
 struct Blame {
-  std::size_t link = 0;  ///< value in the link image - 1
-  double fraction = 0;   ///< of the pixels inside the image
+  std::size_t link = 0;   ///< value in the link image - 1
+  double fraction = 0;    ///< of the pixels inside the image
+  std::string name = {};  ///< of the link or attached body, in reports of the pipeline
 };
 
 /// The result for one target. Fractions are of the pixels inside the image; occluded, front,
@@ -87,15 +135,14 @@ struct Judgement {
   /// Clear or front, with a measurement behind the expected depth, so that the target is not there.
   /// Null as hidden_by_other.
   std::optional<double> seen_past;
-  std::span<const Blame> blame;          ///< largest first; valid until the judge's next call
+  std::vector<Blame> blame;              ///< largest first
   std::optional<Eigen::Vector3d> point;  ///< optical frame, metres; from trusted depths only
   std::size_t point_pixels = 0;          ///< trusted pixels, estimated if only some were sampled
   double point_spread = 0;               ///< metres: 1.4826 * median absolute deviation
-  std::string_view reason;  ///< one constant line if the verdict is unknown, else empty
+  std::string reason;                    ///< one line if the verdict is unknown, else empty
 };
 
-/// Judges targets on labelled images. Allocates nothing per target once extents of its size were
-/// seen.
+/// Judges targets on labelled images.
 ///
 /// docs/targets.md has the rules: "Pixels" the state of each pixel (clear, front, occluded, hidden
 /// by another object, unknown), "Modal extents" what is missing from a detector's mask, "Points"
@@ -109,8 +156,8 @@ struct Judgement {
 ///   become unknown if nothing is seen or, with an expected depth, if less than min_measured of
 ///   what is seen is measured, or at least past_limit of what is measured is behind the target.
 ///
-/// For a modal extent, the memory holds the last extent and the mean size over about 100 frames in
-/// which the robot did not touch the target. Only the verdicts visible and partial have a point.
+/// For a modal extent, the memory holds the last extent that was seen away from the robot. Only the
+/// verdicts visible and partial have a point.
 class TargetJudge {
  public:
   /// `camera`: of the raw images (with distortion) or of the rectified ones. `rule`: of the labels.

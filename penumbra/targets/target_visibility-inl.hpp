@@ -15,9 +15,6 @@
 
 namespace penumbra {
 
-/// The reason why the size of a modal target is unknown.
-enum class SizeUnknown { none, first_near_robot, cut, moved };
-
 /// The visibility of an extent.
 struct Visibility {
   [[nodiscard]] double fraction(PixelState state) const;
@@ -49,7 +46,7 @@ struct Visibility {
   bool is_expected = false;            ///< its depth is known
   const LinkCounts* links = nullptr;
   bool has_pose = true;
-  SizeUnknown size_unknown = SizeUnknown::none;
+  bool has_whole = true;    ///< how much of it the robot may hide is known
   bool is_missing = false;  ///< its mask lacks pixels near the robot
 };
 
@@ -73,9 +70,9 @@ class ExtentObserver {
         height_(height),
         seen_pixels_(std::move(seen_pixels)),
         seen_(width, height),
-        last_(width, height),
+        whole_(width, height),
         seen_tally_(links),
-        last_tally_(links) {}
+        whole_tally_(links) {}
 
   void fill(const Region& region) {
     seen_.fill(region);
@@ -84,7 +81,8 @@ class ExtentObserver {
   [[nodiscard]] const RegionSpans& seen() const { return seen_; }
 
   /// Observes the region of fill(). The result is valid until the next call.
-  /// Forgets the remembered extent if it is another object's.
+  /// Forgets the remembered extent if the
+  /// region is of another object.
   [[nodiscard]] Visibility observe(const TargetInFrame& at, TargetMemory& memory);
 
   /// Returns the counts of the last call, with depths if requested.
@@ -98,25 +96,19 @@ class ExtentObserver {
                                                  RobotSurroundings* robot, ExtentTally& tally);
   [[nodiscard]] Visibility observe_modal(const TargetInFrame& at, TargetMemory& memory,
                                          const Visibility& now);
-  [[nodiscard]] bool is_elsewhere(const SpanBox& box) const;
-  [[nodiscard]] Visibility compare(const TargetInFrame& at, const TargetMemory& memory,
-                                   const Visibility& now, const SpanBox& box);
+  [[nodiscard]] bool place_whole(const TargetInFrame& at, const TargetMemory& memory,
+                                 const SpanBox& box);
+  [[nodiscard]] Visibility observe_whole(const TargetInFrame& at, std::size_t missing);
   [[nodiscard]] bool reaches_border() const;
-  [[nodiscard]] Visibility observe_last(const TargetInFrame& at, std::size_t missing);
-  void move_last(const TargetInFrame& at, const TargetMemory& memory);
-  [[nodiscard]] bool is_other_object(const TargetInFrame& at, const TargetMemory& memory,
-                                     const SpanBox& box) const;
-  [[nodiscard]] bool can_be_part_of_last(const TargetInFrame& at, const TargetMemory& memory,
-                                         const SpanBox& box) const;
-  [[nodiscard]] bool may_hide_missing(const TargetInFrame& at, const SpanBox& box,
-                                      const SpanBox& whole) const;
 
   int width_, height_;
   SeenPixels seen_pixels_;
-  RegionSpans seen_, last_;
-  ExtentTally seen_tally_, last_tally_;
-  bool touches_robot_ = false;  // the modal extent of the last call
-  bool may_be_hidden_ = false;  // by the robot, in part: likewise
+  RegionSpans seen_, whole_;
+  ExtentTally seen_tally_, whole_tally_;
+  // Of the last modal extent:
+  Eigen::Array2d whole_size_{0, 0};  // pixels, of the remembered extent; 0: none
+  Eigen::Vector2d moved_{0, 0};      // of that
+  bool is_near_robot_ = false;
 };
 
 /// Returns the verdict and updates `memory.level`.

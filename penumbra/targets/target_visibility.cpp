@@ -11,25 +11,11 @@ namespace {
 /// Accuracy of masks, pixels: networks produce them at a quarter of the image's size.
 constexpr int mask_error = 4;
 
-/// Number of frames over which the size of a modal target is averaged.
-constexpr int averaged_frames = 100;
+/// Rounding of widths and heights, pixels.
+constexpr int rounding = 1;
 
-/// Standard deviations by which a size may differ from the average.
-constexpr double size_deviations = 2.0;
-
-/// Factor by which another object is wider or higher than one that turns.
-constexpr double another_shape = 1.2;
-
-/// Number of differences over which the noise of sizes is averaged, and the standard deviation by
-/// the mean absolute difference of two sizes: sqrt(pi) / 2 of a normal distribution.
-constexpr double averaged_noise = 20.0, change_to_sigma = 0.8862;
-
-/// The largest standard deviation / size. Larger differences are not noise.
-constexpr double most_size_noise = 0.04;
-
-double bad_share(const Visibility& visibility, bool others_hide) {
-  return visibility.hidden(others_hide) + visibility.fraction(PixelState::unknown);
-}
+/// By which a remembered extent is scaled at most, to stay within integers.
+constexpr double largest_scale = 100.0;
 
 bool is_out_of_view(const Visibility& visibility, const TargetThresholds& thresholds) {
   return static_cast<double>(visibility.inside) <=
@@ -43,9 +29,6 @@ Verdict next_level(Verdict level, double hidden, const TargetThresholds& t) {
   return Verdict::visible;
 }
 
-int width_of(const SpanBox& box) { return box.u1 - box.u0 + 1; }
-int height_of(const SpanBox& box) { return box.v1 - box.v0 + 1; }
-
 /// Returns whether enough was seen for the verdicts visible and partial.
 bool is_seen_enough(const Visibility& visibility, Verdict level, const TargetThresholds& t) {
   if (level == Verdict::hidden) return true;
@@ -54,6 +37,10 @@ bool is_seen_enough(const Visibility& visibility, Verdict level, const TargetThr
   return !visibility.is_expected ||
          !(visibility.is_passed(t.past_limit) || visibility.is_unmeasured(t.min_measured));
 }
+
+Eigen::Array2d first_of(const SpanBox& box) { return {box.u0, box.v0}; }
+Eigen::Array2d end_of(const SpanBox& box) { return {box.u1 + 1, box.v1 + 1}; }
+Eigen::Array2d size_of(const SpanBox& box) { return end_of(box) - first_of(box); }
 
 SpanBox grown(const SpanBox& box, int du, int dv) {
   return {box.u0 - du, box.u1 + du, box.v0 - dv, box.v1 + dv};
@@ -73,51 +60,25 @@ bool holds_robot(const TargetInFrame& at, const SpanBox& box) {
   return false;
 }
 
-bool lies_in(const SpanBox& inner, const SpanBox& outer) {
-  return inner.u0 >= outer.u0 && inner.u1 <= outer.u1 && inner.v0 >= outer.v0 &&
-         inner.v1 <= outer.v1;
-}
-
-/// Returns the factor from pixels at the expected depth to pixels at the remembered depth; 1 if a
-/// depth is unknown. The area in the image is proportional to 1 / depth^2.
-double area_scale(const TargetMemory& memory, const TargetView& target) {
+/// Returns the factor from a remembered extent to its size at the target's depth; 1 if a depth is
+/// unknown.
+double scale_of(const TargetMemory& memory, const TargetView& target) {
   if (!memory.depth || !target.expected_depth) return 1.0;
-  return (*target.expected_depth * *target.expected_depth) / (*memory.depth * *memory.depth);
+  return std::clamp(*memory.depth / *target.expected_depth, 1 / largest_scale, largest_scale);
 }
 
-/// Returns whether the target has the proportions that are remembered, up to the masks' accuracy.
-bool has_proportions(const SpanBox& box, const SpanBox& whole) {
-  const double width = width_of(whole), height = height_of(whole);
-  return std::abs(width_of(box) / width - height_of(box) / height) <=
-         2 * mask_error / std::min(width, height);
+/// Returns whether a size exceeds that of the whole object in a direction, so that it is another's.
+bool outgrows(const Eigen::Array2d& size, const Eigen::Array2d& whole, const TargetThresholds& t) {
+  return (size > (1 + 0.5 * t.partial_enter) * whole + rounding).any();
 }
 
-bool outgrows(const SpanBox& a, const SpanBox& b, double factor) {
-  return width_of(a) > factor * width_of(b) || height_of(a) > factor * height_of(b);
-}
-
-/// Returns the relative difference of widths and heights that noise and tolerance of areas permit.
-double linear_tolerance(const TargetMemory& memory, const TargetThresholds& thresholds) {
-  return std::max(size_deviations * memory.size_noise / std::sqrt(2.0),
-                  0.5 * thresholds.partial_enter);
-}
-
-double pixels_of(std::span<const RowSpan> spans) {
-  double pixels = 0;
-  for (const RowSpan& span : spans) pixels += span.u1 - span.u0;
-  return pixels;
-}
-
-/// Adds a size to the average, which it replaces if the target `has_changed`. `scale`: from pixels
-/// now to those of the remembered extent.
-void add_size(double size, bool has_changed, double scale, TargetMemory& memory) {
-  memory.sizes = has_changed ? 1 : std::min(memory.sizes + 1, averaged_frames);
-  memory.size += (size - memory.size) / memory.sizes;
-  if (memory.extent.empty()) return;
-  // Of two successive sizes, because the average lags behind a size that changes.
-  const double change = std::abs(size * scale / pixels_of(memory.extent) - 1);
-  const double deviation = std::min(change * change_to_sigma, most_size_noise);
-  memory.size_noise += (deviation - memory.size_noise) / averaged_noise;
+/// Returns whether a size lacks more in one direction than in the other, so that something covers
+/// the object. One that moves away shrinks in both.
+bool is_covered(const Eigen::Array2d& size, const Eigen::Array2d& whole,
+                const TargetThresholds& t) {
+  const Eigen::Array2d ratio = size / whole;
+  return !outgrows(size, whole, t) &&
+         ratio.maxCoeff() - ratio.minCoeff() > 2 * mask_error / whole.minCoeff();
 }
 
 }  // namespace
@@ -172,125 +133,65 @@ Visibility ExtentObserver::observe(const TargetInFrame& at, TargetMemory& memory
   return at.target.extent == Extent::modal ? observe_modal(at, memory, now) : now;
 }
 
+/// What is missing of the last whole extent is unknown where the robot may hide it.
 Visibility ExtentObserver::observe_modal(const TargetInFrame& at, TargetMemory& memory,
                                          const Visibility& now) {
-  touches_robot_ = may_be_hidden_ = false;
+  is_near_robot_ = false;
   if (is_out_of_view(now, at.target.thresholds)) return now;
   const SpanBox box = box_of_spans(seen_.spans());
-  touches_robot_ = may_be_hidden_ = holds_robot(at, grown(box, at.reach(), at.reach()));
-  move_last(at, memory);
-  if (is_other_object(at, memory, box)) {
-    const Verdict level = memory.level;
-    memory = {};
-    memory.level = level;
+  const bool is_there = place_whole(at, memory, box);
+  // Masks may keep away from what hides their targets, and shrink before it touches them.
+  const int reach = memory.whole.empty() ? at.reach() : 2 * at.reach();
+  const Eigen::Array2d around = (whole_size_ - size_of(box)).max(0) + reach;
+  is_near_robot_ =
+      holds_robot(at, grown(box, static_cast<int>(around.x()), static_cast<int>(around.y())));
+  const bool is_other = outgrows(size_of(box), whole_size_, at.target.thresholds);
+  if (is_near_robot_ ? is_other : !is_there) memory.whole.clear();
+  if (!is_near_robot_) return now;
+  if (is_other || !is_there || reaches_border()) {
+    Visibility part = now;
+    part.has_whole = false;
+    return part;
   }
-  if (memory.extent.empty()) {
-    Visibility first = now;
-    if (may_be_hidden_) first.size_unknown = SizeUnknown::first_near_robot;
-    return first;
-  }
-  Visibility visibility = compare(at, memory, now, box);
-  if (memory.is_cut) {
-    // More of it exists than was ever seen: assume as much again.
-    const SpanBox last = box_of_spans(memory.extent);
-    const int more =
-        at.reach() + std::max({width_of(box), height_of(box), width_of(last), height_of(last)});
-    if (holds_robot(at, grown(box, more, more))) visibility.size_unknown = SizeUnknown::cut;
-  }
-  return visibility;
+  const auto whole = static_cast<double>(whole_.covered());
+  // What it exceeds the extent in one direction does not make up for what lacks in the other.
+  const double excess = (size_of(box) / whole_size_).max(1).prod();
+  const double missing = whole - static_cast<double>(now.inside) / excess;
+  if (missing <= at.target.thresholds.partial_enter * whole) return now;
+  return observe_whole(at, static_cast<std::size_t>(missing));
 }
 
-Visibility ExtentObserver::compare(const TargetInFrame& at, const TargetMemory& memory,
-                                   const Visibility& now, const SpanBox& box) {
-  const TargetThresholds& thresholds = at.target.thresholds;
-  const SpanBox last = box_of_spans(memory.extent);
-  const bool is_placed = can_be_part_of_last(at, memory, box);
-  const double whole = is_placed && reaches_border() ? static_cast<double>(last_.inside())
-                                                     : memory.size / area_scale(memory, at.target);
-  const double noise = size_deviations * memory.size_noise * whole;
-  const double lacking = std::max(whole - static_cast<double>(now.inside), 0.0);
-  const bool may_be_missing = lacking > noise && may_hide_missing(at, box, last);
-  const auto missing = may_be_missing ? static_cast<std::size_t>(lacking) : std::size_t{0};
-  const double tolerance = std::max(thresholds.partial_enter * whole, noise);
-  may_be_hidden_ = touches_robot_ || may_be_missing;
-  const bool has_depths = memory.depth && at.target.expected_depth;
-  Visibility moved = now;
-  const double same = 1 + linear_tolerance(memory, thresholds);
-  const bool is_changed = outgrows(box, last, same) || (!is_placed && outgrows(last, box, same));
-  if (lacking <= tolerance && touches_robot_ && !has_depths && is_changed) {
-    moved.size_unknown = SizeUnknown::moved;  // it may have come nearer and be partly hidden
-  } else if (is_placed) {
-    const Visibility whole_extent = observe_last(at, missing);
-    const bool is_worse =
-        bad_share(whole_extent, thresholds.others_hide) >= bad_share(now, thresholds.others_hide);
-    return is_worse ? whole_extent : now;
-  } else if (lacking > tolerance) {
-    moved.covered += missing;
-    moved.inside += missing;
-    moved.pixels[PixelState::unknown] += missing;
-    moved.is_missing = missing > 0;
-  }
-  return moved;
+/// Scales the last whole extent to the target's depth, moves it by the target's track, and then as
+/// little as lets it hold what is seen. Returns whether anything is seen where it is expected.
+bool ExtentObserver::place_whole(const TargetInFrame& at, const TargetMemory& memory,
+                                 const SpanBox& box) {
+  whole_size_.setZero();
+  if (memory.whole.empty()) return false;
+  const SpanBox last = box_of_spans(memory.whole);
+  const double scale = scale_of(memory, at.target);
+  whole_size_ = scale * size_of(last);
+  moved_ = memory.moved + at.target.motion.value_or(Eigen::Vector2d::Zero());
+  const Eigen::Array2d expected =
+      first_of(last) + 0.5 * (size_of(last) - whole_size_) + moved_.array();
+  const Eigen::Array2d a = first_of(box), b = end_of(box) - whole_size_;
+  const Eigen::Array2d first = expected.max(a.min(b)).min(a.max(b));
+  moved_ += (first - expected).matrix();
+  whole_.fill_scaled(memory.whole, scale, first - scale * first_of(last));
+  whole_.keep(seen_pixels_);
+  return (expected - mask_error <= end_of(box)).all() &&
+         (expected + whole_size_ + mask_error >= first_of(box)).all();
 }
 
-/// Moves the last full extent to its expected place.
-void ExtentObserver::move_last(const TargetInFrame& at, const TargetMemory& memory) {
-  last_.fill_moved(memory.extent,
-                   memory.moved + at.target.motion.value_or(Eigen::Vector2d::Zero()));
-  last_.keep(seen_pixels_);
-}
-
-/// Returns whether the mask is of another object than the memory, by its size at its depth or its
-/// place: a track id was used again.
-bool ExtentObserver::is_other_object(const TargetInFrame& at, const TargetMemory& memory,
-                                     const SpanBox& box) const {
-  if (memory.extent.empty() || memory.is_cut) return false;
-  if (is_elsewhere(box)) return true;
-  if (!touches_robot_ || !memory.depth || !at.target.expected_depth) return false;
-  const double scale = area_scale(memory, at.target);
-  const double most =
-      1 + std::max(size_deviations * memory.size_noise, at.target.thresholds.partial_enter);
-  return static_cast<double>(seen_.inside()) * scale > most * memory.size ||
-         outgrows(box, box_of_spans(memory.extent), another_shape / std::sqrt(scale));
-}
-
-bool ExtentObserver::is_elsewhere(const SpanBox& box) const {
-  if (last_.inside() == 0) return true;
-  const SpanBox last = grown(box_of_spans(last_.spans()), mask_error, mask_error);
-  return box.u0 > last.u1 || box.u1 < last.u0 || box.v0 > last.v1 || box.v1 < last.v0;
-}
-
-/// Returns whether the mask can be part of the last full extent: it has the same expected depth and
-/// lies within it.
-bool ExtentObserver::can_be_part_of_last(const TargetInFrame& at, const TargetMemory& memory,
-                                         const SpanBox& box) const {
-  if (last_.inside() == 0) return false;
-  const double change = std::abs(area_scale(memory, at.target) - 1.0);
-  return change <= at.target.thresholds.partial_enter &&
-         lies_in(box, grown(box_of_spans(last_.spans()), mask_error, mask_error));
-}
-
-/// Returns whether the robot may hide the missing pixels: it is near the last full extent, or near
-/// enough to the mask.
-bool ExtentObserver::may_hide_missing(const TargetInFrame& at, const SpanBox& box,
-                                      const SpanBox& whole) const {
-  const int du = std::max(width_of(whole) - width_of(box), 0);
-  const int dv = std::max(height_of(whole) - height_of(box), 0);
-  if (holds_robot(at, grown(box, at.reach() + du, at.reach() + dv))) return true;
-  return last_.inside() > 0 &&
-         holds_robot(at, grown(box_of_spans(last_.spans()), at.reach(), at.reach()));
-}
-
-Visibility ExtentObserver::observe_last(const TargetInFrame& at, std::size_t missing) {
-  Visibility last = observe_extent(at, last_, nullptr, last_tally_);
-  const StateCounts& pixels = last.pixels;
+Visibility ExtentObserver::observe_whole(const TargetInFrame& at, std::size_t missing) {
+  Visibility whole = observe_extent(at, whole_, nullptr, whole_tally_);
+  const StateCounts& pixels = whole.pixels;
   const std::size_t known =
       pixels[PixelState::occluded] + pixels[PixelState::other] + pixels[PixelState::unknown];
   std::size_t uncertain = missing - std::min(missing, known);
-  last.is_missing = missing > 0;
-  last.mark_unknown(PixelState::clear, uncertain);
-  last.mark_unknown(PixelState::front, uncertain);
-  return last;
+  whole.is_missing = true;
+  whole.mark_unknown(PixelState::clear, uncertain);
+  whole.mark_unknown(PixelState::front, uncertain);
+  return whole;
 }
 
 bool ExtentObserver::reaches_border() const {
@@ -305,32 +206,13 @@ bool ExtentObserver::reaches_border() const {
 }
 
 void ExtentObserver::remember(const TargetView& target, TargetMemory& memory) const {
-  const SpanBox box = box_of_spans(seen_.spans());
-  const bool has_depths = memory.depth && target.expected_depth;
-  const bool is_first = memory.extent.empty();
-  const double scale = area_scale(memory, target), whole = memory.size / scale;
-  const double size = static_cast<double>(seen_.inside());
-  const double noise = size_deviations * memory.size_noise;
-  const double tolerance = std::max(noise, target.thresholds.partial_enter);
-  const bool is_smaller = size<(1 - tolerance) * whole, is_larger = size>(1 + tolerance) * whole;
-  const bool is_whole =
-      is_first ||
-      (may_be_hidden_ ? has_depths && size >= (1 - noise) * whole
-                      : !is_smaller || has_proportions(box, box_of_spans(memory.extent)));
-  if (!is_whole) {
-    const SpanBox last = box_of_spans(memory.extent);
-    const double same = 1 + linear_tolerance(memory, target.thresholds);
-    if (may_be_hidden_ && !has_depths && !outgrows(box, last, same) && !outgrows(last, box, same))
-      memory.moved = Eigen::Vector2d(box.u0 - last.u0, box.v0 - last.v0);
-    else
-      memory.moved += target.motion.value_or(Eigen::Vector2d::Zero());
-    return;
-  }
-  memory.size = whole;
-  if (!may_be_hidden_) add_size(size, is_first || is_smaller || is_larger, scale, memory);
+  const bool has_whole = !memory.whole.empty();
+  const Eigen::Array2d size = size_of(box_of_spans(seen_.spans()));
+  if (has_whole) memory.moved = moved_;
+  if (is_near_robot_ || reaches_border()) return;
+  if (has_whole && is_covered(size, whole_size_, target.thresholds)) return;
+  memory.whole.assign(seen_.spans().begin(), seen_.spans().end());
   memory.depth = target.expected_depth;
-  memory.extent.assign(seen_.spans().begin(), seen_.spans().end());
-  memory.is_cut = reaches_border();
   memory.moved.setZero();
 }
 
@@ -339,10 +221,10 @@ Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
   if (is_out_of_view(visibility, thresholds)) return Verdict::out_of_view;
   if (!visibility.has_pose) return Verdict::unknown;
   const double hidden = visibility.hidden(thresholds.others_hide);
-  const bool has_size = visibility.size_unknown == SizeUnknown::none;
-  const double unknown = has_size ? visibility.fraction(PixelState::unknown) : 1 - hidden;
+  const double unknown =
+      visibility.has_whole ? visibility.fraction(PixelState::unknown) : 1 - hidden;
   // Missing pixels are not seen: unknown_limit does not apply then.
-  const bool is_uncertain = !has_size || visibility.is_missing;
+  const bool is_uncertain = !visibility.has_whole || visibility.is_missing;
   const double limit =
       is_uncertain ? 0 : thresholds.unknown_limit.value_or(thresholds.partial_enter);
   const Verdict level = next_level(memory.level, hidden, thresholds);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depths that cannot be the robot's, and their median.
+// Depths that cannot be the robot's.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include <penumbra/targets/extent_tally-inl.hpp>
 
@@ -49,14 +48,5 @@ class RobotSurroundings {
   Image<Cell> cell_;
   Image<Around> around_;
 };
-
-/// A median with its spread.
-struct RobustDepth {
-  double median = 0;  ///< metres
-  double spread = 0;  ///< metres: 1.4826 * median absolute deviation
-};
-
-/// Returns the median of one or more depths; changes them.
-[[nodiscard]] RobustDepth robust_depth(std::span<float> depths);
 
 }  // namespace penumbra

@@ -7,20 +7,10 @@
 namespace penumbra {
 namespace {
 
-constexpr double mad_to_sigma = 1.4826;  // of a normal distribution
-
 /// Depth of robot outside the lens model, which cannot be rendered.
 constexpr float any_depth = std::numeric_limits<float>::infinity();
 
 int cells_of(int pixels) { return (pixels + LabelRule::cell - 1) / LabelRule::cell; }
-
-/// Returns the mean of the middle one or two values.
-float median_of(std::span<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return 0.5f * (*middle + *std::min_element(middle + 1, values.end()));
-}
 
 }  // namespace
 
@@ -81,12 +71,6 @@ const RobotSurroundings::Depths& RobotSurroundings::around(int cell_u, int cell_
     result.depths.to = all.farthest + beyond_factor_ * (rule.at(all.farthest).far - all.farthest);
   }
   return result.depths;
-}
-
-RobustDepth robust_depth(std::span<float> depths) {
-  const float median = median_of(depths);
-  for (float& depth : depths) depth = std::abs(depth - median);
-  return {static_cast<double>(median), mad_to_sigma * static_cast<double>(median_of(depths))};
 }
 
 }  // namespace penumbra

@@ -7,6 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
+#include <penumbra/tracking/trackers.hpp>
+
 namespace penumbra::detail {
 
 /// Returns the squared Mahalanobis distance r^T S^-1 r; infinite if S is not positive definite.
@@ -43,10 +45,6 @@ template <int m, int n>
   return gain * residual;
 }
 
-/// Range of sigmas whose squares and their products with seconds stay within double's range.
-inline constexpr double least_sigma = 1e-9;
-inline constexpr double greatest_sigma = 1e9;
-
 /// Returns whether a matrix is finite, symmetric and positive definite.
 template <int n>
 [[nodiscard]] bool is_covariance(const Eigen::Matrix<double, n, n>& matrix) {
@@ -54,8 +52,8 @@ template <int n>
   constexpr double slack = 1 + 1e-9;
   if (!matrix.allFinite()) return false;
   const double size = matrix.cwiseAbs().maxCoeff();
-  return matrix.diagonal().minCoeff() * slack >= least_sigma * least_sigma &&
-         size <= slack * greatest_sigma * greatest_sigma &&
+  return matrix.diagonal().minCoeff() * slack >= positive.least * positive.least &&
+         size <= slack * positive.most * positive.most &&
          (matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= rounding * size &&
          matrix.llt().info() == Eigen::Success;
 }

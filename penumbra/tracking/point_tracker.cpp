@@ -5,7 +5,6 @@
 
 #include <penumbra/tracking/gaussian-inl.hpp>
 #include <penumbra/tracking/track_history-inl.hpp>
-#include <penumbra/tracking/track_rules-inl.hpp>
 #include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra {
@@ -89,21 +88,14 @@ void PointFilter::correct(State& state, const Measurement& measurement) const {
 
 using detail::PointFilter;
 
-void PointTrackerConfig::check() const {
-  constexpr const char* name = "PointTrackerConfig";
-  detail::require_positive(name, "sigma", sigma);
-  detail::require_not_negative(name, "acceleration", acceleration);
-  detail::require_not_negative(name, "speed_sigma", speed_sigma);
-  detail::require_not_negative(name, "held_speed", held_speed);
-  detail::check_rules(name, detail::rules_of(*this));
-}
+void PointTrackerConfig::check() const { check_settings(*this); }
 
 struct PointTracker::State {
   explicit State(const PointTrackerConfig& given)
-      : config(given), history(PointFilter(given), detail::rules_of(given)) {}
+      : config(given), history(PointFilter(given), given) {}
 
   PointTrackerConfig config;
-  detail::TrackHistory<PointFilter> history;
+  detail::TrackHistory<PointFilter, PointTrackerConfig> history;
 };
 
 PointTracker::PointTracker(const PointTrackerConfig& config) {

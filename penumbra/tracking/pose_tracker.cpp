@@ -10,7 +10,6 @@
 #include <penumbra/tracking/gaussian-inl.hpp>
 #include <penumbra/tracking/pose_filter-inl.hpp>
 #include <penumbra/tracking/track_history-inl.hpp>
-#include <penumbra/tracking/track_rules-inl.hpp>
 #include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra {
@@ -18,21 +17,17 @@ namespace {
 
 using detail::PoseFilter;
 
-constexpr const char* pose_config_name = "PoseTrackerConfig";
 constexpr double weight_power = 5.0;  // of the share that was seen
 constexpr double least_seen = 0.4;    // accepting less makes no error smaller (research/README.md)
 
 void check_direction(const PoseTrackerConfig& config) {
   std::ostringstream message;
-  message << pose_config_name << ": ";
   const Eigen::Vector3d& d = config.direction;
   const bool constrained = config.motion == Motion::along_direction;
   const bool given = !(d.array() == 0).all();
-  if (constrained && (!d.allFinite() || !(d.norm() > detail::least_sigma))) {
+  if (constrained && (!d.allFinite() || !(d.norm() > detail::positive.least))) {
     message << "direction is (" << d.x() << ", " << d.y() << ", " << d.z()
             << "); motion along_direction needs one that is finite and not zero";
-  } else if (constrained && config.speed && !(std::abs(*config.speed) <= detail::greatest_sigma)) {
-    message << "speed is " << *config.speed << "; it must be finite and at most 1e9 m/s";
   } else if (!constrained && (given || config.speed)) {
     message << (given ? "direction" : "speed")
             << " is given; it is for motion along_direction only";
@@ -68,27 +63,17 @@ std::optional<Eigen::Quaterniond> nearest_rotation(const Eigen::Matrix3d& matrix
 }  // namespace
 
 void PoseTrackerConfig::check() const {
-  detail::require_positive(pose_config_name, "position_sigma", position_sigma);
-  detail::require_positive(pose_config_name, "orientation_sigma", orientation_sigma);
-  detail::require_not_negative(pose_config_name, "acceleration", acceleration);
-  detail::require_not_negative(pose_config_name, "angular_acceleration", angular_acceleration);
-  detail::require_not_negative(pose_config_name, "drift", drift);
-  detail::require_not_negative(pose_config_name, "angular_drift", angular_drift);
-  detail::require_not_negative(pose_config_name, "speed_sigma", speed_sigma);
-  detail::require_not_negative(pose_config_name, "angular_speed_sigma", angular_speed_sigma);
+  check_settings(*this);
   check_direction(*this);
-  detail::check_rules(pose_config_name, detail::rules_of(*this));
 }
 
 struct PoseTracker::State {
   explicit State(const PoseTrackerConfig& given)
-      : config(given),
-        covariance(default_covariance(given)),
-        history(PoseFilter(given), detail::rules_of(given)) {}
+      : config(given), covariance(default_covariance(given)), history(PoseFilter(given), given) {}
 
   PoseTrackerConfig config;
   Matrix6d covariance;  // of an estimate without one
-  detail::TrackHistory<PoseFilter> history;
+  detail::TrackHistory<PoseFilter, PoseTrackerConfig> history;
 };
 
 PoseTracker::PoseTracker(const PoseTrackerConfig& config) {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include <penumbra/tracking/track_rules-inl.hpp>
 #include <penumbra/tracking/trackers.hpp>
 
 namespace penumbra::detail {
@@ -18,6 +17,12 @@ namespace penumbra::detail {
          1e9;
 }
 
+/// Returns whether estimates with this verdict are accepted. Others than visible, partial and
+/// hidden never are.
+[[nodiscard]] inline bool good_enough(Verdict verdict, Verdict worst) {
+  return verdict <= Verdict::hidden && verdict <= worst;
+}
+
 /// The estimates of the last seconds sorted by stamp, with the belief after each.
 ///
 /// Beliefs depend only on the sorted estimates: a late estimate is inserted and all later ones are
@@ -25,8 +30,9 @@ namespace penumbra::detail {
 ///
 /// Filter: State begin(Measurement); State predicted(State, double seconds), additive in seconds;
 /// double distance(State, Measurement), squared Mahalanobis; void correct(State&, Measurement).
-/// State and Measurement can be copied without allocation. Memory grows to max_estimates.
-template <class Filter>
+/// State and Measurement can be copied without allocation. Config: with track_settings(). Memory
+/// grows to max_estimates.
+template <class Filter, class Config>
 class TrackHistory {
  public:
   using State = typename Filter::State;
@@ -40,7 +46,7 @@ class TrackHistory {
     bool lost = false;      ///< that estimate is older than the time-out
   };
 
-  TrackHistory(const Filter& filter, const TrackRules& rules) : filter_(filter), rules_(rules) {}
+  TrackHistory(const Filter& filter, const Config& rules) : filter_(filter), rules_(rules) {}
 
   Outcome take(std::int64_t stamp, const Measurement& measurement) {
     if (too_late(stamp)) return Outcome::refused_late;
@@ -195,7 +201,7 @@ class TrackHistory {
   }
 
   Filter filter_;
-  TrackRules rules_;
+  Config rules_;
   std::vector<Entry> entries_;
   std::vector<std::size_t> order_;  ///< of the entries by stamp
   std::size_t used_ = 0;            ///< entries in use

@@ -7,11 +7,13 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <tuple>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <penumbra/targets/target.hpp>
+#include <penumbra/base/setting.hpp>
+#include <penumbra/labels/labels.hpp>
 
 namespace penumbra {
 
@@ -51,35 +53,81 @@ enum class Motion {
   still               ///< fixed position and orientation; accepted poses are averaged
 };
 
+[[nodiscard]] std::string_view to_string(Motion motion);
+
+namespace detail {
+
+/// Ranges of sigmas whose squares and their products with seconds stay within double's range.
+inline constexpr SettingRange positive{1e-9, 1e9}, not_negative{0, 1e9}, finite{-1e9, 1e9};
+
+/// The settings of all trackers.
+template <class C>
+constexpr auto track_settings(SettingRange motions) {
+  return std::tuple(
+      Setting("motion", &C::motion, motions, "", "how it moves while nobody sees it"),
+      Setting("acceleration", &C::acceleration, not_negative, "m/s^2/sqrt(Hz)",
+              "spectral density of white acceleration, where velocity is filtered"),
+      Setting("speed_sigma", &C::speed_sigma, not_negative, "m/s",
+              "of a new track's unknown velocity, per axis"),
+      Setting("timeout", &C::timeout, positive, "s",
+              "since the last accepted estimate; then the target is lost"),
+      Setting("gate", &C::gate, positive, "",
+              "squared Mahalanobis distance above which an estimate is an outlier"),
+      Setting("gate_patience", &C::gate_patience, {1, 1e9}, "",
+              "outliers in a row, consistent with each other by the gate, that make a new track"),
+      Setting("memory", &C::memory, not_negative, "s",
+              "how far back late estimates are taken in their order"),
+      Setting("max_estimates", &C::max_estimates, {2, 1e9}, "",
+              "that are remembered; the oldest go first"),
+      Setting("worst", &C::worst, {0, static_cast<double>(Verdict::hidden)}, "",
+              "the worst verdict for accepting estimates, of visible < partial < hidden"));
+}
+
+}  // namespace detail
+
 /// Unknown motion is modelled as white noise of spectral density q: sigmas grow by
 /// q t sqrt(t / 3) for an acceleration and by q sqrt(t) for a drift. docs/tracking.md explains how
 /// to choose them.
 struct PoseTrackerConfig {
   Motion motion = Motion::constant_twist;
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< for along_direction; fixed frame
-  /// m/s along it, if known; null: estimated.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   std::optional<double> speed = std::nullopt;
-  double position_sigma = 0.005;     ///< of an estimate without covariance, metres per axis
-  double orientation_sigma = 0.03;   ///< likewise, radians
-  double acceleration = 0.5;         ///< of directions with a filtered velocity, m/s^2/sqrt(Hz)
-  double angular_acceleration = 1;   ///< of constant_twist, rad/s^2/sqrt(Hz)
-  double drift = 0.005;              ///< of the other directions, m/sqrt(s): all for `still`; for
-                                     ///< along_direction across, and along if `speed` is given
-  double angular_drift = 0.02;       ///< of all motions except constant_twist, rad/sqrt(s)
-  double speed_sigma = 0.5;          ///< of a new track's unknown velocity, m/s per axis
-  double angular_speed_sigma = 1.0;  ///< likewise, rad/s
-  double timeout = 3.0;              ///< seconds since the last accepted estimate; then lost
-  double gate = 16.8;  ///< squared Mahalanobis distance above which an estimate is an outlier;
-                       ///< the 99 % quantile of chi^2 with 6 degrees of freedom
-  std::size_t gate_patience = 5;  ///< outliers in a row, consistent with each other by the same
-                                  ///< gate, that make a new track
-  double memory = 1.0;            ///< seconds back to which late estimates are taken in their order
-  std::size_t max_estimates = 128;  ///< that are remembered, 3 kB each: the oldest go first
-  /// The worst verdict for accepting estimates, of visible < partial < hidden. Null: visible, or
-  /// partial if PoseEstimate::seen is at least 0.4.
-  std::optional<Verdict> worst = std::nullopt;
+  double position_sigma = 0.005;
+  double orientation_sigma = 0.03;
+  double acceleration = 0.5;
+  double angular_acceleration = 1;
+  double drift = 0.005;
+  double angular_drift = 0.02;
+  double speed_sigma = 0.5;
+  double angular_speed_sigma = 1.0;
+  double timeout = 3.0;
+  double gate = 16.8;  ///< the 99 % quantile of chi^2 with 6 degrees of freedom
+  std::size_t gate_patience = 5;
+  double memory = 1.0;
+  std::size_t max_estimates = 128;              ///< 3 kB each
+  std::optional<Verdict> worst = std::nullopt;  ///< null: visible, and partial if 0.4 was seen
 
-  /// Throws InputError with the invalid value. Sigmas are 1e-9 to 1e9.
+  static constexpr auto settings() {
+    using C = PoseTrackerConfig;
+    constexpr auto not_negative = detail::not_negative, positive = detail::positive;
+    constexpr std::tuple own(
+        Setting("direction", &C::direction, {}, "", "of along_direction, in the fixed frame"),
+        Setting("speed", &C::speed, detail::finite, "m/s", "along direction; none: estimated"),
+        Setting("position_sigma", &C::position_sigma, positive, "m",
+                "of an estimate without covariance, per axis"),
+        Setting("orientation_sigma", &C::orientation_sigma, positive, "rad", "likewise"),
+        Setting("angular_acceleration", &C::angular_acceleration, not_negative, "rad/s^2/sqrt(Hz)",
+                "of constant_twist"),
+        Setting("drift", &C::drift, not_negative, "m/sqrt(s)",
+                "of directions without a filtered velocity"),
+        Setting("angular_drift", &C::angular_drift, not_negative, "rad/sqrt(s)",
+                "of all motions except constant_twist"),
+        Setting("angular_speed_sigma", &C::angular_speed_sigma, not_negative, "rad/s",
+                "of a new track's unknown angular velocity"));
+    return std::tuple_cat(detail::track_settings<C>({0, 3}), own);
+  }
+
+  /// Throws InputError with the invalid value.
   void check() const;
 };
 
@@ -146,24 +194,31 @@ enum class PointMotion {
   constant_velocity  ///< predicted with filtered velocity
 };
 
+[[nodiscard]] std::string_view to_string(PointMotion motion);
+
 struct PointTrackerConfig {
   PointMotion motion = PointMotion::hold;
-  double sigma = 0.01;               ///< of an estimate without covariance, metres per axis
-  double acceleration = 2.0;         ///< for constant_velocity: spectral density of white
-                                     ///< acceleration, m/s^2/sqrt(Hz)
-  double speed_sigma = 1.0;          ///< likewise: of a new track's velocity, m/s per axis
-  double held_speed = 0.5;           ///< m/s per axis by which a held point's sigma grows
-  double timeout = 3.0;              ///< seconds since the last accepted estimate; then lost
-  double gate = 11.3;                ///< squared Mahalanobis distance above which an estimate is an
-                                     ///< outlier: 99 % of chi^2 with 3 degrees of freedom
-  std::size_t gate_patience = 5;     ///< outliers in a row, consistent with each other by the same
-                                     ///< gate, that make a new track
-  double memory = 1.0;               ///< seconds back to which late estimates are taken in order
-  std::size_t max_estimates = 128;   ///< that are remembered, 1 kB each: the oldest go first
-  Verdict worst = Verdict::visible;  ///< the worst verdict for accepting estimates, of
-                                     ///< visible < partial < hidden
+  double sigma = 0.01;
+  double acceleration = 2.0;
+  double speed_sigma = 1.0;
+  double held_speed = 0.5;
+  double timeout = 3.0;
+  double gate = 11.3;  ///< the 99 % quantile of chi^2 with 3 degrees of freedom
+  std::size_t gate_patience = 5;
+  double memory = 1.0;
+  std::size_t max_estimates = 128;  ///< 1 kB each
+  Verdict worst = Verdict::visible;
 
-  void check() const;  ///< throws InputError with the invalid value; sigma is 1e-9 to 1e9
+  static constexpr auto settings() {
+    using C = PointTrackerConfig;
+    constexpr std::tuple own(Setting("sigma", &C::sigma, detail::positive, "m",
+                                     "of an estimate without covariance, per axis"),
+                             Setting("held_speed", &C::held_speed, detail::not_negative, "m/s",
+                                     "per axis, by which a held point's sigma grows"));
+    return std::tuple_cat(detail::track_settings<C>({0, 1}), own);
+  }
+
+  void check() const;  ///< throws InputError with the invalid value
 };
 
 struct PointEstimate {

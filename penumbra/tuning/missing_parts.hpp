@@ -27,7 +27,7 @@ class MissingParts {
   /// Pixels of fringe per frame; less is too little to judge a link by.
   static constexpr std::size_t least_fringe = 200;
 
-  /// `robot` must outlive this. `fringe_reach`: of the label rule, pixels.
+  /// `fringe_reach`: of the label rule, pixels.
   MissingParts(const Robot& robot, int fringe_reach);
 
   /// Measures the first, second, fourth, eighth, ... frame with fringe, each in some milliseconds.
@@ -58,7 +58,7 @@ class MissingParts {
   /// Whether another frame shows the same there although the link was elsewhere.
   [[nodiscard]] bool stands_still(const Far& pixel) const;
 
-  const Robot& robot_;
+  Robot robot_;
   double far_;  // pixels
   std::size_t frames_ = 0;
   std::vector<Link> links_;

@@ -4,6 +4,7 @@
 #include <map>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/tuning/stages-inl.hpp>
 
 namespace penumbra::tuning {
@@ -53,13 +54,6 @@ std::vector<Residual> residuals_of(const Scene& scene, LabelRule rule) {
   return residuals;
 }
 
-float quantile(std::vector<float>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// Fits a + c z^2 to the bins' quantiles with equal weights.
 Tolerance fit_curve(const std::vector<Residual>& residuals) {
   std::map<int, std::vector<float>> bins;
@@ -69,7 +63,7 @@ Tolerance fit_curve(const std::vector<Residual>& residuals) {
   for (auto& [bin, values] : bins) {
     if (values.size() < std::min(least_in_bin, residuals.size() / bins.size())) continue;
     const double z = (bin + 0.5) * bin_width, squared = z * z;
-    const double e = quantile(values, 1.0 - outside_share);
+    const double e = detail::quantile(values, 1.0 - outside_share);
     n += 1.0, x += squared, xx += squared * squared, y += e, xy += squared * e;
   }
   const double determinant = n * xx - x * x;
@@ -90,7 +84,7 @@ Tolerance scaled(const Tolerance& curve, const std::vector<Residual>& residuals)
   ratios.reserve(residuals.size());
   for (const Residual& residual : residuals)
     ratios.push_back(residual.nearer / static_cast<float>(curve.at(residual.z)));
-  const double factor = quantile(ratios, 1.0 - outside_share);
+  const double factor = detail::quantile(ratios, 1.0 - outside_share);
   const auto up = [](double value) {
     return std::max(0.0, std::ceil(value / round_to - 1e-6)) * round_to;
   };
@@ -122,7 +116,7 @@ ToleranceFit fit_tolerance(const Scene& scene, const LabelRule& current) {
   std::vector<float> nearer;
   nearer.reserve(residuals.size());
   for (const Residual& residual : residuals) nearer.push_back(residual.nearer);
-  fit.bias = -quantile(nearer, 0.5);
+  fit.bias = -detail::median(nearer);
   fit.tolerance = scaled(fit_curve(residuals), residuals);
   LabelRule then = current;
   then.tolerance = fit.tolerance;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/tuning/stages-inl.hpp>
 
 namespace penumbra {
@@ -21,12 +22,7 @@ Scene make_scene(std::span<const TuningFrame> frames, const Intrinsics& camera,
                  static_cast<std::size_t>(u)]
               .push_back(frame.depth(u, v));
   }
-  for (std::size_t i = 0; i < depths.size(); ++i) {
-    if (depths[i].empty()) continue;
-    const auto middle = depths[i].begin() + static_cast<std::ptrdiff_t>(depths[i].size() / 2);
-    std::nth_element(depths[i].begin(), middle, depths[i].end());
-    scene.background.data()[i] = *middle;
-  }
+  std::transform(depths.begin(), depths.end(), scene.background.data(), detail::median<float>);
   return scene;
 }
 

@@ -11,20 +11,6 @@ namespace {
 
 constexpr double still_camera = 0.002;  // metres
 
-Image<float> measured(const DepthView& view, const DepthRange& range) {
-  return std::visit(
-      [&](const auto& depth) {
-        Image<float> out(depth.width, depth.height);
-        for (int v = 0; v < depth.height; ++v)
-          for (int u = 0; u < depth.width; ++u)
-            if (const float z = metres_of(depth(u, v));
-                z >= range.near && z <= std::min(range.far, 1e3))
-              out(u, v) = z;
-        return out;
-      },
-      view);
-}
-
 template <typename T>
 Image<T> copy_of(ImageView<const T> view) {
   Image<T> out(view.width, view.height);
@@ -55,7 +41,7 @@ void TuningFrames::add(const FrameReport& report) {
   for (const Eigen::Isometry3d& T_root_link : report.T_root_link)
     frame.T_camera_link.push_back(T_camera_root * T_root_link);
   if (!differs(frame, frames_)) return;
-  frame.depth = measured(report.depth, range_);
+  frame.depth = metres_of(report.depth, {range_.near, std::min(range_.far, 1e3)});
   frame.virtual_depth = copy_of(report.virtual_depth.depth);
   frame.links = copy_of(report.virtual_depth.links);
   frames_.push_back(std::move(frame));

@@ -199,7 +199,7 @@ def run(
     workers: int | None = None,
     scheduler: str | None = None,
     retry_failed: bool = False,
-    told: Callable[[int, int, dict[str, Any]], None] = lambda done, all_inputs, record: None,
+    on_progress: Callable[[int, int, dict[str, Any]], None] = lambda done, all_inputs, record: None,
 ) -> list[dict[str, Any]]:
     """Runs `penumbra run` on each input and returns a record of each, in their order.
 
@@ -214,7 +214,7 @@ def run(
     scheduler: the address of a running Dask scheduler, "tcp://HOST:PORT", in place of `workers`.
         Its workers see the inputs, the output and the working folder under the same paths.
     retry_failed: does inputs again whose kept result is "failed".
-    told: called with the number of finished inputs, that of all, and the newest record.
+    on_progress: called with the number of finished inputs, that of all, and the newest record.
 
     A record has "status": "done" or "failed" with a "fault"; "seconds", "bytes" of the result,
     "frames", "bad_frames", numbers of pixels by label and of verdicts over all targets.
@@ -235,7 +235,7 @@ def run(
 
     def keep(record: dict[str, Any]) -> None:
         records[record["input"]] = record
-        told(len(records), len(given), record)
+        on_progress(len(records), len(given), record)
 
     def jobs() -> Iterator[_Job]:
         for path, own in given:
@@ -335,7 +335,7 @@ def main() -> int:
     try:
         records = run(known.inputs, known.output, options, workers=known.workers,
                       scheduler=known.scheduler, retry_failed=known.retry_failed,
-                      told=_print_progress)  # fmt: skip
+                      on_progress=_print_progress)  # fmt: skip
     except InputError as error:
         print(f"penumbra: {error}", file=sys.stderr)
         return 2

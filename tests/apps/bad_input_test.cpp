@@ -112,7 +112,7 @@ TEST(BadInput, Frames) {
       {without_depth, {"missing_depth", "depth_0.png"}},
       {swapped, {"bad_depth in 3 of 3 frames", "48 x 64\n"}},
       {every_depth<std::uint8_t>(64, 48, 90), {"bad_depth", "depth_0.png"}},
-      {every_depth<io::Rgb8>(64, 48, {1, 2, 3}), {"bad_depth", "depth_0.png"}},
+      {every_depth<Rgb8>(64, 48, {1, 2, 3}), {"bad_depth", "depth_0.png"}},
   });
 }
 

@@ -111,7 +111,7 @@ TEST_F(RunTest, SavesWhatIsAskedFor) {
   for (const char* name : {"000000", "000001", "000002"}) {
     Image<float> vdi;
     Image<std::uint16_t> links;
-    Image<io::Rgb8> overlay;
+    Image<Rgb8> overlay;
     io::read_npy(out() / "vdi" / (std::string(name) + ".npy"), vdi).require();
     io::read_png(out() / "links" / (std::string(name) + ".png"), links).require();
     io::read_png(out() / "overlay" / (std::string(name) + ".png"), overlay).require();

@@ -176,7 +176,7 @@ TEST_F(RunTargetsTest, TheOptionComesBeforeTheRecording) {
 
 TEST_F(RunTargetsTest, TheOverlayShowsThem) {
   const fs::path none = targets("targets: []\n");
-  Image<io::Rgb8> with, without;
+  Image<Rgb8> with, without;
   ASSERT_EQ(run({"--save", "overlay", "--frames", "2:3"}).status, 0);
   io::read_png(out() / "overlay/000002.png", with).require();
   const Outcome outcome = run({"--save", "overlay", "--frames", "2:3", "--targets", none});

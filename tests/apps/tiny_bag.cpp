@@ -35,7 +35,7 @@ void add_frame(TinyBag& bag, int frame, const std::filesystem::path& folder) {
   const std::int64_t stamp = tiny_stamp(frame), arrival = stamp + 30 * millisecond;
   const std::string ending = "_" + std::to_string(frame) + ".png";
   Image<std::uint16_t> depth;
-  Image<io::Rgb8> color;
+  Image<Rgb8> color;
   io::read_png(folder / ("depth" + ending), depth).require();
   io::read_png(folder / ("color" + ending), color).require();
   io::CameraInfoMessage info = tiny_camera();

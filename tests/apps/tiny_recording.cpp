@@ -90,7 +90,7 @@ void write_tiny_recording(const std::filesystem::path& folder) {
   write_file(folder / "camera_info.yaml", camera_info);
   write_file(folder / "camera_pose.csv", "1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n");
   write_file(folder / "joint_states.csv", "frame,slide\n0,0.0\n1,0.05\n2,0.1\n");
-  const Image<io::Rgb8> color(tiny_width, tiny_height, {90, 120, 150});
+  const Image<Rgb8> color(tiny_width, tiny_height, {90, 120, 150});
   for (int i = 0; i < 3; ++i) {
     const std::string ending = std::to_string(i) + ".png";
     const Image<std::uint16_t> depth = depth_image(0.95 + 0.05 * i);

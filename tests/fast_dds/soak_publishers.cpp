@@ -20,7 +20,7 @@ bool is_of_color(Part part) { return part == Part::color || part == Part::color_
 
 /// Shades with a sensor's noise: an even image would be compressed in no time.
 std::vector<std::byte> color_image(const LiveLens& lens) {
-  Image<io::Rgb8> picture(lens.width, lens.height);
+  Image<Rgb8> picture(lens.width, lens.height);
   std::minstd_rand noise(1);
   const auto shade = [&](int at, int end) {
     return static_cast<std::uint8_t>(200 * at / end + static_cast<int>(noise() % 8));

@@ -13,9 +13,9 @@ namespace {
 using Names = std::set<std::string>;
 
 const std::map<std::string, Names>& allowed_rooms() {
-  static const Names core{"base",   "mesh",        "robot",     "time",     "camera",
-                          "render", "labels",      "targets",   "tracking", "pipeline",
-                          "tuning", "calibration", "diagnosis", "scene"};
+  static const Names core{"base",        "mesh",      "robot",    "time",    "camera",   "render",
+                          "labels",      "poses",     "tracking", "targets", "pipeline", "tuning",
+                          "calibration", "diagnosis", "session",  "scene"};
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", {"base"}},
       {"penumbra/mesh", {"base", "mesh"}},
@@ -24,14 +24,18 @@ const std::map<std::string, Names>& allowed_rooms() {
       {"penumbra/camera", {"base", "camera"}},
       {"penumbra/render", {"base", "camera", "mesh", "render"}},
       {"penumbra/labels", {"base", "camera", "labels"}},
-      {"penumbra/targets", {"base", "camera", "labels", "targets"}},
-      {"penumbra/tracking", {"base", "targets", "tracking"}},
+      {"penumbra/poses", {"base", "mesh", "robot", "time", "camera", "render", "labels", "poses"}},
+      {"penumbra/tracking", {"base", "labels", "tracking"}},
+      {"penumbra/targets",
+       {"base", "mesh", "robot", "time", "camera", "render", "labels", "poses", "tracking",
+        "targets"}},
       {"penumbra/pipeline",
-       {"base", "mesh", "robot", "time", "camera", "render", "labels", "targets", "tracking",
-        "pipeline"}},
+       {"base", "mesh", "robot", "time", "camera", "render", "labels", "poses", "tracking",
+        "targets", "pipeline"}},
       {"penumbra/tuning", core},
       {"penumbra/calibration", core},
       {"penumbra/diagnosis", core},
+      {"penumbra/session", core},
       {"penumbra/scene", core},
       {"io", core},
       {"sim", core},

@@ -7,6 +7,7 @@
 #include <penumbra/pipeline/pipeline.hpp>
 
 #include <io/files/frame_reader.hpp>
+#include <io/files/png.hpp>
 #include <io/files/recording.hpp>
 
 namespace penumbra::test {
@@ -74,15 +75,13 @@ Counts judge_recording(const LabelRule& rule) {
   Pipeline pipeline(std::move(robot), recording.camera.camera, config);
 
   Counts counts;
-  io::FrameData frame;
   Image<std::uint8_t> truth;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    frames.read(i, false, frame);
-    const auto& report = pipeline.process(
-        {.stamp = frame.stamp, .depth = frame.depth_view(), .joints = frame.positions});
+    const Frame frame = frames.read(i, false);
+    const auto& report = pipeline.process(frame);
     EXPECT_EQ(report.status, FrameStatus::ok) << report.message;
     io::read_png(folder / "truth" / (std::to_string(i) + ".png"), truth).require();
-    count(report, truth, std::get<Image<std::uint16_t>>(frame.depth).view(), counts);
+    count(report, truth, std::get<ImageView<const std::uint16_t>>(frame.depth.view), counts);
   }
   return counts;
 }

@@ -8,7 +8,7 @@
 
 namespace penumbra::test {
 
-std::vector<std::byte> jpeg_of(const Image<io::Rgb8>& image, bool progressive) {
+std::vector<std::byte> jpeg_of(const Image<Rgb8>& image, bool progressive) {
   jpeg_compress_struct codec{};
   jpeg_error_mgr errors{};
   codec.err = jpeg_std_error(&errors);
@@ -25,7 +25,7 @@ std::vector<std::byte> jpeg_of(const Image<io::Rgb8>& image, bool progressive) {
   codec.comp_info[0].h_samp_factor = codec.comp_info[0].v_samp_factor = 1;
   if (progressive) jpeg_simple_progression(&codec);
   jpeg_start_compress(&codec, TRUE);
-  Image<io::Rgb8> rows = image;
+  Image<Rgb8> rows = image;
   for (int v = 0; v < rows.height(); ++v) {
     auto* row = reinterpret_cast<JSAMPROW>(rows.view().row(v));
     jpeg_write_scanlines(&codec, &row, 1);

@@ -11,6 +11,6 @@
 namespace penumbra::test {
 
 /// A JPEG file of quality 95, without subsampling.
-std::vector<std::byte> jpeg_of(const Image<io::Rgb8>& image, bool progressive);
+std::vector<std::byte> jpeg_of(const Image<Rgb8>& image, bool progressive);
 
 }  // namespace penumbra::test

@@ -13,12 +13,13 @@ class LateRobotsTest : public testing::Test {
  protected:
   LateRobotsTest() {
     const auto at = [](double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)); };
-    bench_.tell("/tf_static", encoded(io::TfMessage{{{{0, "world"}, "left/base", at(-0.5)},
-                                                     {{0, "world"}, "right/base", at(0.5)},
-                                                     {{0, "world"}, "optical"}}}));
+    bench_.publish("/tf_static", encoded(io::TfMessage{{{{0, "world"}, "left/base", at(-0.5)},
+                                                        {{0, "world"}, "right/base", at(0.5)},
+                                                        {{0, "world"}, "optical"}}}));
     for (const char* const robot : {"/left", "/right"})
-      bench_.tell(robot + std::string("/robot_description"), encoded(io::StringMessage{live_urdf}));
-    bench_.inbox.place(io::make_robot(*bench_.inbox.take_order()));
+      bench_.publish(robot + std::string("/robot_description"),
+                     encoded(io::StringMessage{live_urdf}));
+    bench_.inbox.set_robot(io::make_robot(*bench_.inbox.take_load_request()));
     bench_.tell_info(0);
   }
   static io::LiveOptions options() {
@@ -31,13 +32,13 @@ class LateRobotsTest : public testing::Test {
     std::map<std::string, std::size_t> statuses;
     for (int ms = 0; ms < 1000; ++ms, bench_.now += milliseconds) {
       if (ms % 10 == 5)
-        bench_.tell("/left/joint_states", live_joints(bench_.now - 5 * milliseconds));
+        bench_.publish("/left/joint_states", live_joints(bench_.now - 5 * milliseconds));
       if (ms % 10 == 9 && with_right)
-        bench_.tell("/right/joint_states", live_joints(bench_.now - 9 * milliseconds));
+        bench_.publish("/right/joint_states", live_joints(bench_.now - 9 * milliseconds));
       if (ms % 50 == 0) bench_.tell_depth(bench_.now);
       if (bench_.work() == 0) continue;
       ++statuses[bench_.results.last<io::TargetsMessage>(io::Result::targets).status];
-      delay_ = bench_.now - bench_.job.pose.stamp;
+      delay_ = bench_.now - *bench_.job.frame.stamp;
     }
     return statuses;
   }

@@ -85,7 +85,7 @@ TEST_F(LiveDiagnosticsTest, SaysWhatHasStopped) {
 
 TEST_F(LiveDiagnosticsTest, TellsUnreadableMessages) {
   bench_.tell_all();
-  bench_.tell("/camera/depth/image_rect_raw", std::vector<std::byte>(3));
+  bench_.publish("/camera/depth/image_rect_raw", std::vector<std::byte>(3));
   expect_says(camera(), Status::stale, "1 messages cannot be read");
 }
 
@@ -93,7 +93,7 @@ TEST_F(LiveDiagnosticsTest, SaysWhyJointStatesDoNotTellThePose) {
   bench_.tell_all();
   const auto tell = [&](std::int64_t stamp, std::vector<std::string> names, double position) {
     const std::vector<double> positions(names.size(), position);
-    bench_.tell(
+    bench_.publish(
         "/joint_states",
         encoded(io::JointStateMessage{
             .header = {stamp, ""}, .names = {names.begin(), names.end()}, .positions = positions}));
@@ -124,6 +124,27 @@ TEST_F(LiveDiagnosticsTest, ASlowCameraIsNotCalledSilent) {
   expect_says(camera(), Status::ok, "frames/s");
   bench_.now += 4 * seconds;
   expect_says(camera(), Status::stale, "no depth images for");
+}
+
+TEST_F(LiveDiagnosticsTest, WarnsOfAWrongSetupUntilItIsAnother) {
+  bench_.tell_all();
+  judge();
+  expect_says(camera(), Status::ok, "frames/s");
+  for (int i = 0; i < 60; ++i) {
+    bench_.now += 100 * milliseconds;
+    judge();
+  }
+  EXPECT_FALSE(bench_.inbox.warnings(0).empty());  // the board is nowhere in the depth images
+  expect_says(camera(), Status::warn, bench_.inbox.warnings(0).at(0));
+  for (int i = 0; i < 80; ++i) {  // without joint states nothing shows whether it is mended
+    bench_.now += seconds;
+    bench_.tell_depth(bench_.now - seconds / 2);
+    bench_.work();
+  }
+  EXPECT_FALSE(bench_.inbox.warnings(0).empty());
+  bench_.tell_info(bench_.now, 70.0);
+  judge();
+  expect_says(camera(), Status::ok, "frames/s");
 }
 
 io::DiagnosticArrayMessage of_cameras(const std::string& left, const std::string& right) {

@@ -58,7 +58,7 @@ TEST_F(LiveInboxTest, AnotherPoseWouldShow) {
 TEST_F(LiveInboxTest, APoseLiesBetweenTheStatesAroundItsStamp) {
   bench_.tell_all();
   for (const auto& [ms, angle] : {std::pair(-30, 0.0), {-20, 0.0}, {-10, 0.1}, {10, 0.5}})
-    bench_.tell(
+    bench_.publish(
         "/joint_states",
         encoded(io::JointStateMessage{
             .header = {start + ms * milliseconds, ""}, .names = {"spin"}, .positions = {angle}}));
@@ -78,7 +78,7 @@ TEST_F(LiveInboxTest, NothingIsPublishedBeforeRobotAndCameraAreKnown) {
   bench_.tell_robot();
   bench_.tell_depth(start + milliseconds);
   EXPECT_EQ(bench_.work(), 0U);
-  EXPECT_EQ(bench_.counts().of(io::FrameDrop::not_ready), 2U);
+  EXPECT_EQ(bench_.counts().of(DropReason::not_ready), 2U);
   bench_.tell_info(0);
   bench_.tell_mount();
   EXPECT_EQ(judge(start + 2 * milliseconds), 1U);
@@ -105,7 +105,7 @@ TEST_F(LiveInboxTest, TwoPublishersThatDisagreeAreNoPose) {
   bench_.tell_all();
   for (std::int64_t ago = 300; ago >= -20; ago -= 20) {
     bench_.tell_joints(start - ago * milliseconds, 7);
-    bench_.tell("/joint_states", sliders(start - (ago - 7) * milliseconds), 8);
+    bench_.publish("/joint_states", sliders(start - (ago - 7) * milliseconds), 8);
   }
   bench_.tell_depth(start);
   ASSERT_EQ(bench_.work(), 1U) << "it does not wait";
@@ -167,7 +167,7 @@ TEST_F(LiveInboxTest, TheNewestImageWins) {
     bench_.tell_depth(start + i * 33 * milliseconds);
   }
   EXPECT_EQ(bench_.work(), 1U);
-  EXPECT_EQ(bench_.counts().of(io::FrameDrop::superseded), 3U);
+  EXPECT_EQ(bench_.counts().of(DropReason::superseded), 3U);
   EXPECT_EQ(bench_.results.last<io::ImageMessage>(io::Result::labels).header.stamp,
             start + 99 * milliseconds);
 }
@@ -180,10 +180,10 @@ TEST_F(LiveInboxTest, AnotherCameraInfoMakesAnotherCamera) {
   bench_.tell_depth(start + 33 * milliseconds);
   bench_.tell_info(start + 66 * milliseconds, 90.0);
   EXPECT_EQ(bench_.work(), 0U);
-  EXPECT_EQ(bench_.counts().of(io::FrameDrop::changed), 1U);
+  EXPECT_EQ(bench_.counts().of(DropReason::changed), 1U);
   bench_.tell_depth(start + 50 * milliseconds);
   EXPECT_EQ(bench_.work(), 0U) << "it is from before the change";
-  EXPECT_EQ(bench_.counts().of(io::FrameDrop::changed), 2U);
+  EXPECT_EQ(bench_.counts().of(DropReason::changed), 2U);
   bench_.results.published.clear();
   EXPECT_EQ(judge(start + 66 * milliseconds), 1U);
   LiveTruth other({.focal = 90.0});
@@ -220,14 +220,14 @@ TEST_F(LiveInboxTest, WhatIsAttachedStaysWithTheNextRobot) {
     const auto mask = bench_.results.last<io::ImageMessage>(io::Result::mask);
     return std::count(mask.data.begin(), mask.data.end(), std::byte{255});
   };
-  bench_.tell("/attached_collision_object", encoded(part));  // before the robot is known
+  bench_.publish("/attached_collision_object", encoded(part));  // before the robot is known
   bench_.tell_all();
   const auto with = pixels(start);
   bench_.tell_robot(live_urdf + std::string(" "));
   const auto with_next = pixels(start + 33 * milliseconds);
   part.object.header.stamp = start + 40 * milliseconds;
   part.object.operation = io::CollisionObjectMessage::remove;
-  bench_.tell("/attached_collision_object", encoded(part));
+  bench_.publish("/attached_collision_object", encoded(part));
   const auto without = pixels(start + 66 * milliseconds);
   EXPECT_EQ(status(), "ok");
   constexpr int least = 100;  // pixels of the box beside the board, which turns
@@ -242,23 +242,23 @@ TEST(LiveRobots, HaveNamespacesAndFailAlone) {
   LiveBench bench(options);
   LiveTruth truth;
   const auto tell_joints = [&](const char* topic, std::int64_t stamp) {
-    bench.tell(topic, live_joints(stamp - 10 * milliseconds));
-    bench.tell(topic, live_joints(stamp + 10 * milliseconds));
+    bench.publish(topic, live_joints(stamp - 10 * milliseconds));
+    bench.publish(topic, live_joints(stamp + 10 * milliseconds));
   };
   const auto status = [&] {
     return bench.results.last<io::TargetsMessage>(io::Result::targets).status;
   };
-  bench.tell("/a/robot_description", encoded(io::StringMessage{live_urdf}));
-  EXPECT_FALSE(bench.inbox.take_order()) << "b is missing";
-  bench.tell("/b/robot_description", encoded(io::StringMessage{live_urdf}));
-  bench.inbox.place(io::make_robot(*bench.inbox.take_order()));
+  bench.publish("/a/robot_description", encoded(io::StringMessage{live_urdf}));
+  EXPECT_FALSE(bench.inbox.take_load_request()) << "b is missing";
+  bench.publish("/b/robot_description", encoded(io::StringMessage{live_urdf}));
+  bench.inbox.set_robot(io::make_robot(*bench.inbox.take_load_request()));
   EXPECT_NE(bench.inbox.robot().fault().find("'a/base'"), std::string::npos) << "no mount yet";
   const Eigen::Isometry3d aside(Eigen::Translation3d(100.0, 0.0, 0.0));
-  bench.tell("/tf_static", encoded(io::TfMessage{{{{0, "world"}, "a/base"},
-                                                  {{0, "world"}, "b/base", aside},
-                                                  {{0, "a/base"}, "optical"}}}));
+  bench.publish("/tf_static", encoded(io::TfMessage{{{{0, "world"}, "a/base"},
+                                                     {{0, "world"}, "b/base", aside},
+                                                     {{0, "a/base"}, "optical"}}}));
   bench.inbox.retry_robot();
-  bench.inbox.place(io::make_robot(*bench.inbox.take_order()));
+  bench.inbox.set_robot(io::make_robot(*bench.inbox.take_load_request()));
   EXPECT_EQ(bench.inbox.robot().fault(), "");
   bench.tell_info(0);
   tell_joints("/a/joint_states", start);
@@ -286,12 +286,12 @@ TEST(LiveRobots, HaveNamespacesAndFailAlone) {
   };
   const auto bare = pixels(start + 40 * milliseconds);
   for (const char* const robot : {"/a", "/b"})
-    bench.tell(robot + std::string("/attached_collision_object"), encoded(part));
+    bench.publish(robot + std::string("/attached_collision_object"), encoded(part));
   const auto remove_all = [&](const char* topic) {
     io::AttachedObjectMessage none;
     none.object.header.stamp = start + 90 * milliseconds;
     none.object.operation = io::CollisionObjectMessage::remove;
-    bench.tell(topic, encoded(none));
+    bench.publish(topic, encoded(none));
   };
   constexpr int least = 100;  // pixels of the box
   EXPECT_GT(pixels(start + 80 * milliseconds), bare + least);
@@ -321,9 +321,9 @@ TEST_F(LiveInboxTest, ImagesOfAnotherSizeAreBadDepth) {
   judge(start);
   const Image<std::uint16_t> small(32, 24, 900);
   tell_joints_around(start + 33 * milliseconds);
-  bench_.tell("/camera/depth/image_rect_raw",
-              encoded(io::image_message(io::MessageHeader{start + 33 * milliseconds, "optical"},
-                                        "16UC1", small.view())));
+  bench_.publish("/camera/depth/image_rect_raw",
+                 encoded(io::image_message(io::MessageHeader{start + 33 * milliseconds, "optical"},
+                                           "16UC1", small.view())));
   bench_.work();
   EXPECT_EQ(status(), "bad_depth");
   EXPECT_EQ(judge(start + 66 * milliseconds), 1U);
@@ -333,7 +333,7 @@ TEST_F(LiveInboxTest, ImagesOfAnotherSizeAreBadDepth) {
 TEST_F(LiveInboxTest, ImagesOfAnotherFrameThanTheirCameraInfoAreRefused) {
   bench_.tell_all();
   tell_joints_around(start);
-  bench_.tell("/camera/depth/image_rect_raw", live_depth(start, "elsewhere"));
+  bench_.publish("/camera/depth/image_rect_raw", live_depth(start, "elsewhere"));
   EXPECT_EQ(bench_.work(), 0U);
   EXPECT_NE(bench_.inbox.camera(0).setup_fault().find("elsewhere"), std::string::npos);
   EXPECT_EQ(judge(start + 33 * milliseconds), 1U);
@@ -348,10 +348,10 @@ TEST_F(LiveInboxTest, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
     for (int i = 0; i < images; ++i) {
       const std::int64_t stamp = from + i * 33 * milliseconds;
       if (focal > 0)
-        bench_.tell("/camera/depth/camera_info", encoded(live_info(stamp, {.focal = focal})),
-                    publisher);
+        bench_.publish("/camera/depth/camera_info", encoded(live_info(stamp, {.focal = focal})),
+                       publisher);
       tell_joints_around(stamp);
-      bench_.tell("/camera/depth/image_rect_raw", live_depth(stamp), publisher);
+      bench_.publish("/camera/depth/image_rect_raw", live_depth(stamp), publisher);
       bench_.now += 33 * milliseconds;
       judged += bench_.work();
     }
@@ -362,7 +362,7 @@ TEST_F(LiveInboxTest, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
   EXPECT_EQ(drive(start + seconds, 30, 0.0, 2), 0U);
   bench_.now += 200 * milliseconds;
   EXPECT_EQ(bench_.work(), 0U);
-  EXPECT_EQ(bench_.counts().of(io::FrameDrop::no_camera_info), 30U);
+  EXPECT_EQ(bench_.counts().of(DropReason::no_camera_info), 30U);
   EXPECT_EQ(bench_.inbox.camera(0).without_info(), 30U);
   EXPECT_EQ(drive(start + 2 * seconds, 3, 90.0, 2), 3U);
   EXPECT_EQ(bench_.inbox.camera(0).without_info(), 0U);
@@ -389,8 +389,8 @@ TEST_F(LiveInboxTest, CameraInfosThatComeOnceOrSeldomHoldForAllImages) {
   bench_.now += 200 * milliseconds;
   judged += bench_.work();
   const io::ImageCounts counts = bench_.counts();
-  EXPECT_EQ(counts.of(io::FrameDrop::no_camera_info), 0U);
-  EXPECT_EQ(judged + counts.of(io::FrameDrop::superseded), 60U);
+  EXPECT_EQ(counts.of(DropReason::no_camera_info), 0U);
+  EXPECT_EQ(judged + counts.of(DropReason::superseded), 60U);
   EXPECT_GT(judged, 50U);
   EXPECT_EQ(expect_true_labels(bench_.results.published, truth_), judged);
 }
@@ -407,8 +407,8 @@ TEST_F(LiveInboxTest, CompressedDepthIsJudgedAsWhatItHolds) {
     const auto judge = [&](std::int64_t stamp, std::size_t bytes) {
       bench.tell_joints(stamp - 10 * milliseconds);
       bench.tell_joints(stamp + 10 * milliseconds);
-      bench.tell(topic, encoded(io::CompressedImageMessage{
-                            {stamp, "optical"}, format, std::span(data).first(bytes)}));
+      bench.publish(topic, encoded(io::CompressedImageMessage{
+                               {stamp, "optical"}, format, std::span(data).first(bytes)}));
       EXPECT_EQ(bench.work(), 1U);
       return bench.results.last<io::TargetsMessage>(io::Result::targets).status;
     };
@@ -441,7 +441,7 @@ TEST_F(LiveInboxTest, PosesComeFromTfInPlaceOfJointStates) {
     for (const std::int64_t told : {stamp - 20 * milliseconds, stamp + 20 * milliseconds}) {
       const Eigen::Isometry3d pose = Eigen::Translation3d(0, 0, 1) *
                                      Eigen::AngleAxisd(spin_at(told), Eigen::Vector3d::UnitZ());
-      bench.tell("/tf", encoded(io::TfMessage{{{{told, "base"}, "board", pose}}}));
+      bench.publish("/tf", encoded(io::TfMessage{{{{told, "base"}, "board", pose}}}));
     }
     EXPECT_EQ(judge(stamp), "ok") << i;
   }

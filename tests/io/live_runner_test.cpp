@@ -103,9 +103,9 @@ TEST_F(LiveRunnerTest, JudgesTwoCamerasAtOnce) {
 
 TEST_F(LiveRunnerTest, ARobotWhoseMeshesComeLaterHealsByItself) {
   std::atomic<int> tries = 0;
-  const auto maker = [&](const io::RobotOrder& order) {
-    if (++tries < 3) return io::MadeRobot{order.number, nullptr, "its meshes are not there"};
-    return io::make_robot(order);
+  const auto maker = [&](const io::RobotLoadRequest& request) {
+    if (++tries < 3) return io::MadeRobot{request.number, nullptr, "its meshes are not there"};
+    return io::make_robot(request);
   };
   io::LiveRunner runner(options_, {}, {&left_, &right_}, maker, std::chrono::milliseconds(10));
   const auto topics = topics_of(runner);
@@ -123,10 +123,10 @@ TEST_F(LiveRunnerTest, ARobotWhoseMeshesComeLaterHealsByItself) {
 
 TEST_F(LiveRunnerTest, ReceivesWhileARobotsMeshesAreRead) {
   std::promise<void> begun, may_go_on;
-  io::LiveRunner runner(options_, {}, {&left_, &right_}, [&](const io::RobotOrder& order) {
+  io::LiveRunner runner(options_, {}, {&left_, &right_}, [&](const io::RobotLoadRequest& request) {
     begun.set_value();
     may_go_on.get_future().wait();
-    return io::make_robot(order);
+    return io::make_robot(request);
   });
   const auto topics = topics_of(runner);
   runner.start();
@@ -145,7 +145,7 @@ TEST_F(LiveRunnerTest, ReceivesWhileARobotsMeshesAreRead) {
   const std::vector<io::LiveLink> links(topics.size());
   runner.with_inbox([&](const io::LiveInbox& inbox) {
     EXPECT_TRUE(inbox.robot().is_being_made());
-    EXPECT_EQ(inbox.camera(0).counts().of(io::FrameDrop::not_ready), 10U);
+    EXPECT_EQ(inbox.camera(0).counts().of(DropReason::not_ready), 10U);
     const auto fault = io::robot_fault(inbox, links, io::LiveRunner::steady_now());
     EXPECT_NE(fault.why.find("is being made"), std::string::npos) << fault.why;
     return true;

@@ -113,7 +113,7 @@ class LiveTruth {
     Frame frame;
     frame.stamp = stamp;
     frame.depth = wall_.view();
-    frame.joints = positions_;
+    frame.pose.positions = positions_;
     return pipeline_.process(frame);
   }
 
@@ -177,25 +177,27 @@ class LiveBench {
     return options;
   }
 
-  void tell(const std::string& topic, std::span<const std::byte> payload,
-            std::uint64_t publisher = 0) {
+  void publish(const std::string& topic, std::span<const std::byte> payload,
+               std::uint64_t publisher = 0) {
     for (std::size_t i = 0; i < inbox.topics().size(); ++i)
       if (inbox.topics()[i].name == topic)
         return inbox.receive(i, {payload, nullptr, publisher}, now);
     FAIL() << topic;
   }
   void tell_robot(const std::string& urdf = live_urdf) {
-    tell("/robot_description", encoded(io::StringMessage{urdf}));
-    if (const auto order = inbox.take_order()) inbox.place(io::make_robot(*order));
+    publish("/robot_description", encoded(io::StringMessage{urdf}));
+    if (const auto request = inbox.take_load_request()) inbox.set_robot(io::make_robot(*request));
   }
-  void tell_mount() { tell("/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}})); }
+  void tell_mount() { publish("/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}})); }
   void tell_joints(std::int64_t stamp, std::uint64_t publisher = 0) {
-    tell("/joint_states", live_joints(stamp), publisher);
+    publish("/joint_states", live_joints(stamp), publisher);
   }
   void tell_info(std::int64_t stamp, double focal = 60.0) {
-    tell("/camera/depth/camera_info", encoded(live_info(stamp, {.focal = focal})));
+    publish("/camera/depth/camera_info", encoded(live_info(stamp, {.focal = focal})));
   }
-  void tell_depth(std::int64_t stamp) { tell("/camera/depth/image_rect_raw", live_depth(stamp)); }
+  void tell_depth(std::int64_t stamp) {
+    publish("/camera/depth/image_rect_raw", live_depth(stamp));
+  }
 
   /// Publishes robot, camera and mount.
   void tell_all() {
@@ -207,8 +209,11 @@ class LiveBench {
   /// Judges all images that can be judged. Returns their number.
   std::size_t work() {
     std::size_t judged = 0;
-    for (; inbox.next(0, now, true, job); ++judged)
-      inbox.done(0, worker.judge(job, results), now, now);
+    for (; inbox.next(0, now, true, job); ++judged) {
+      const io::LiveOutcome outcome = worker.judge(job, results);
+      if (outcome.find_warnings) inbox.warn(0, job.setup, outcome.find_warnings());
+      inbox.done(0, outcome, now, now);
+    }
     return judged;
   }
 

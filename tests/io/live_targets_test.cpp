@@ -20,7 +20,7 @@ TEST(LiveTargets, ComeWithTheNextImage) {
   bench.tell_depth(start - seconds);  // the camera's frame is known by its first image
   io::PoseStampedMessage pose{.header = {start, "optical"}};
   pose.pose.translation() = Eigen::Vector3d(1.2, 0.0, 3.0);
-  bench.tell("/wrist", encoded(pose));
+  bench.publish("/wrist", encoded(pose));
   bench.tell_joints(start);
   bench.tell_depth(start);
   EXPECT_EQ(bench.work(), 1U);
@@ -41,22 +41,22 @@ TEST(LiveTargets, GoToTheCamerasThatKnowTheirFrame) {
     if (bench.inbox.topics()[i].role == io::TopicRole::targets)
       bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
   bench.tell_robot();
-  bench.tell("/tf_static",
-             encoded(io::TfMessage{{{{0, "base"}, "optical"}, {{0, "base"}, "aside"}}}));
+  bench.publish("/tf_static",
+                encoded(io::TfMessage{{{{0, "base"}, "optical"}, {{0, "base"}, "aside"}}}));
   const auto show = [&](const std::string& camera, const std::string& frame, std::int64_t stamp) {
     io::CameraInfoMessage info = live_info(0);
     info.header.frame_id = frame;
-    bench.tell(camera + "/camera_info", encoded(info));
-    bench.tell(camera, live_depth(stamp, frame));
+    bench.publish(camera + "/camera_info", encoded(info));
+    bench.publish(camera, live_depth(stamp, frame));
   };
   const auto tell_part = [&](const std::string& frame, std::int64_t stamp) {
     io::PoseStampedMessage part{.header = {stamp, frame}};
     part.pose.translation() = Eigen::Vector3d(0.0, 0.0, 2.0);
-    bench.tell("/part", encoded(part));
+    bench.publish("/part", encoded(part));
   };
   const auto received = [&](std::size_t camera) {
     EXPECT_TRUE(bench.inbox.next(camera, bench.now, false, bench.job));
-    const std::size_t targets = bench.job.targets.size();
+    const std::size_t targets = bench.job.frame.targets.size();
     bench.inbox.done(camera, {}, bench.now, bench.now);
     return targets;
   };

@@ -9,6 +9,7 @@
 
 #include <io/files/frame_reader.hpp>
 #include <io/files/npy.hpp>
+#include <io/files/png.hpp>
 #include <io/files/recording.hpp>
 
 namespace penumbra::io {
@@ -191,34 +192,32 @@ TEST_F(RecordingFolder, ReadsFrames) {
   const FrameReader frames = reader();
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames.index(1), 7);
-  FrameData frame;
   for (const std::size_t i : {0U, 1U, 0U}) {
-    frames.read(i, true, frame);
-    EXPECT_EQ(frame.status, FrameStatus::ok) << frame.message;
-    EXPECT_EQ(frame.message + frame.color_message, "");
-    EXPECT_EQ(frame.index, i == 0 ? 5 : 7);
+    const Frame frame = frames.read(i, true);
+    EXPECT_EQ(frame.pose.status, FrameStatus::ok) << frame.pose.message;
+    EXPECT_EQ(frame.pose.message + frame.source_message + frame.color_message, "");
+    EXPECT_EQ(frame.index, i == 0 ? 5U : 7U);
     EXPECT_EQ(frame.stamp, i == 0 ? 100 : 200);
-    EXPECT_EQ(frame.positions, i == 0 ? (std::vector{0.1, 0.2}) : (std::vector{0.3, 0.4}));
-    const auto view = std::get<ImageView<const std::uint16_t>>(frame.depth_view());
+    EXPECT_EQ(frame.pose.positions, i == 0 ? (std::vector{0.1, 0.2}) : (std::vector{0.3, 0.4}));
+    const auto view = std::get<ImageView<const std::uint16_t>>(frame.depth.view);
     ASSERT_EQ(view.width, width);
     ASSERT_EQ(view.height, height);
     EXPECT_EQ(view(3, 2), depth(i == 0 ? 5 : 7)(3, 2));
-    EXPECT_EQ(frame.color(2, 2), (Rgb8{1, 2, 3}));
+    EXPECT_EQ(frame.color.view(2, 2), (Rgb8{1, 2, 3}));
   }
-  frames.read(1, false, frame);
-  EXPECT_TRUE(frame.color.empty());
-  EXPECT_EQ(frame.color_message, "");
+  const Frame plain = frames.read(1, false);
+  EXPECT_TRUE(plain.color.view.empty());
+  EXPECT_EQ(plain.color_message, "");
 }
 
 TEST_F(RecordingFolder, ReadsWhatIsAttachedInWhichFrames) {
   write_yaml(attached("box: [0.1, 0.2, 0.3], pose: [1, 2, 3, 0, 0, 1, 0], frames: [6, 8]"));
   const FrameReader frames = reader();
-  FrameData frame;
   for (const std::size_t i : {1U, 0U}) {
-    frames.read(i, false, frame);
-    ASSERT_EQ(frame_of(frame).attached.size(), i) << "frames 5 and 7";
+    const Frame frame = frames.read(i, false);
+    ASSERT_EQ(frame.pose.attached.size(), i) << "frames 5 and 7";
     if (i == 0) continue;
-    const AttachedBody& body = frame_of(frame).attached[0];
+    const AttachedBody& body = frame.pose.attached[0];
     EXPECT_EQ(body.name, "part");
     EXPECT_EQ(body.link, "hand");
     EXPECT_TRUE(body.mesh->bounds.sizes().isApprox(Eigen::Vector3d(0.1, 0.2, 0.3), 1e-6));
@@ -248,16 +247,15 @@ TEST_F(RecordingFolder, ReadsSeveralRobots) {
   EXPECT_TRUE(poses[*robot.find_link("b/base")].translation().isApprox(Eigen::Vector3d(0, 0, 2)));
 
   const FrameReader frames(recording, robot);
-  FrameData data;
-  frames.read(0, false, data);
-  EXPECT_EQ(data.status, FrameStatus::ok);
-  EXPECT_EQ(data.positions, (std::vector{0.1, 0.2, 0.0, 0.4}));
-  EXPECT_EQ(data.uncertain_links, (std::vector<std::size_t>{6, 7, 8, 9, 10})) << "b's";
-  EXPECT_HAS(frame_of(data).uncertain_reason, "b/shoulder");
-  frames.read(1, false, data);
-  EXPECT_TRUE(data.uncertain_links.empty());
-  frames.read(2, false, data);
-  EXPECT_EQ(data.status, FrameStatus::missing_joints) << "too few cells";
+  Frame data = frames.read(0, false);
+  EXPECT_EQ(data.pose.status, FrameStatus::ok);
+  EXPECT_EQ(data.pose.positions, (std::vector{0.1, 0.2, 0.0, 0.4}));
+  EXPECT_EQ(data.pose.uncertain_links, (std::vector<std::size_t>{6, 7, 8, 9, 10})) << "b's";
+  EXPECT_HAS(data.pose.uncertain_reason, "b/shoulder");
+  data = frames.read(1, false);
+  EXPECT_TRUE(data.pose.uncertain_links.empty());
+  data = frames.read(2, false);
+  EXPECT_EQ(data.pose.status, FrameStatus::missing_joints) << "too few cells";
 
   test::expect_refused(
       {{with_robots(two + "robot:\n  urdf: arm.urdf\n"), ":1: robots: stands beside 'robot'"},
@@ -273,12 +271,11 @@ TEST_F(RecordingFolder, ReadsDepthInMetres) {
   write_npy(file("z_05.npy"), std::as_const(metres).view());
   write_yaml(replaced("depth_%d.png", "z_%02d.npy"));
   const FrameReader frames = reader();
-  FrameData frame;
-  frames.read(0, false, frame);
-  ASSERT_EQ(frame.status, FrameStatus::ok) << frame.message;
-  EXPECT_EQ(std::get<ImageView<const float>>(frame.depth_view())(7, 5), 1.25F);
-  frames.read(1, false, frame);
-  EXPECT_EQ(frame.status, FrameStatus::missing_depth);
+  Frame frame = frames.read(0, false);
+  ASSERT_EQ(frame.source_status, FrameStatus::ok) << frame.source_message;
+  EXPECT_EQ(std::get<ImageView<const float>>(frame.depth.view)(7, 5), 1.25F);
+  frame = frames.read(1, false);
+  EXPECT_EQ(frame.source_status, FrameStatus::missing_depth);
 }
 
 TEST_F(RecordingFolder, SurvivesDamage) {

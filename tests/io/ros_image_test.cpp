@@ -106,15 +106,13 @@ TEST(RosImage, SizesThatDoNotFitAreFaults) {
     change(message);
     return depth_fault(message);
   };
-  EXPECT_EQ(with([](auto& m) { m.step = 6; }),
-            "depth image of 4 x 3 16UC1 has steps of 6 bytes and 24 bytes; steps of 8 or more are "
-            "wanted, one for each row");
+  EXPECT_HAS(with([](auto& m) { m.step = 6; }), "steps of 6 bytes");
   EXPECT_HAS(with([](auto& m) { m.height = 4; }), "4 x 4");
   EXPECT_HAS(with([](auto& m) { m.width = 0; }), "has 0 x 3 pixels");
   EXPECT_HAS(with([](auto& m) { m.width = 4'000'000'000; }), "has 4000000000 x 3 pixels");
   EXPECT_HAS(with([](auto& m) { m.step = 4'000'000'000; }), "steps of 4000000000");
-  EXPECT_HAS(with([](auto& m) { m.encoding = "rgb8"; }), "has encoding 'rgb8'; 16UC1, mono16 or");
-  EXPECT_HAS(with([](auto& m) { m.encoding = "\x1b[2J\nok"; }), "has encoding '?[2J?ok'; 16UC1");
+  EXPECT_HAS(with([](auto& m) { m.encoding = "rgb8"; }), "has encoding 'rgb8'");
+  EXPECT_HAS(with([](auto& m) { m.encoding = "\x1b[2J\nok"; }), "has encoding '?[2J?ok'");
 }
 
 TEST(RosImage, Colours) {
@@ -269,7 +267,7 @@ TEST(RosImage, CompressedDepthFaults) {
         .value_or("none");
   };
   const auto good = test::compressed_depth(image, true, 1, 1);
-  EXPECT_HAS(fault("32FC1; compressedDepth jpeg", good), "png or rvl, is wanted");
+  EXPECT_HAS(fault("32FC1; compressedDepth jpeg", good), "png or rvl");
   EXPECT_HAS(fault("rgb8; compressedDepth png", good), "has format 'rgb8; compressedDepth png'");
   EXPECT_HAS(fault("32FC1; compressedDepth rvl", test::compressed_depth(image, true, NAN, 1)),
              "no parameters");

@@ -13,8 +13,6 @@ namespace penumbra::io {
 namespace {
 
 TEST(RosTargets, AReportsTargetsArrive) {
-  const std::vector<std::string> links = {"base", "arm", "tool"};
-  const std::vector<Blame> blame = {{2, 0.25}, {1, 0.125}};
   TargetReport part{}, lost{};
   part.name = "part";
   part.stamp = 77;
@@ -22,7 +20,7 @@ TEST(RosTargets, AReportsTargetsArrive) {
   part.judgement->covered = 200;
   part.judgement->inside = 100;
   part.judgement->occluded = 0.375;
-  part.judgement->blame = blame;
+  part.judgement->blame = {{2, 0.25, "tool"}, {1, 0.125, "wrist"}};
   part.point = Eigen::Vector3d(1, 2, 3);
   part.handled = HandledTarget{Source::held, 0.5, Eigen::Vector3d(4, 5, 6),
                                Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 0.01};
@@ -33,7 +31,6 @@ TEST(RosTargets, AReportsTargetsArrive) {
   report.stamp = 123;
   report.status = FrameStatus::missing_depth;
   report.targets = targets;
-  report.links = links;
   const TargetsMessage message = targets_message(report, "optical", "base");
   EXPECT_EQ(message.header.stamp, 123);
   EXPECT_EQ(message.header.frame_id, "optical");

@@ -20,7 +20,7 @@ class TargetInboxTest : public testing::Test {
   /// Identities by names.
   std::map<std::string, bool> taken() {
     std::map<std::string, bool> all;
-    for (const Target& target : inbox_.take()) all[std::string(target.name)] = target.has_identity;
+    for (const Target& target : inbox_.take()) all[target.name] = target.has_identity;
     return all;
   }
   template <typename Detection>
@@ -79,7 +79,7 @@ TEST_F(TargetInboxTest, WhatIsNotTakenDoesNotPileUp) {
   EXPECT_EQ(inbox_.discarded() + inbox_.waiting(), std::size_t{each * messages});
   EXPECT_EQ(inbox_.replaced(), 0U);
   const std::size_t waiting = inbox_.waiting();
-  const std::span<const Target> all = inbox_.take();
+  const std::vector<Target> all = inbox_.take();
   ASSERT_EQ(all.size(), waiting);
   EXPECT_EQ(all.back().name, "/k/" + names_.back());
   for (const Target& one : all)

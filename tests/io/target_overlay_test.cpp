@@ -17,7 +17,7 @@ class TargetOverlayTest : public testing::Test {
   /// A frame with one target, seen from a camera at x in the root's frame that looks along z.
   Image<Rgb8> draw(const TargetReport& said, std::int64_t stamp, double camera_x,
                    const TargetShape& shape) {
-    const Target target{.name = said.name, .shape = shape};
+    const Target target{.name = std::string(said.name), .shape = shape};
     FrameReport report;
     report.stamp = stamp;
     report.T_root_camera = Eigen::Translation3d(camera_x, 0, 0) * Eigen::Isometry3d::Identity();

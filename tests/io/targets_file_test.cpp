@@ -12,12 +12,12 @@ namespace {
 class TargetsFileTest : public testing::Test {
  protected:
   io::TargetsFile open(const std::string& text, ImageSpace image = ImageSpace::raw,
-                       bool is_bent = false) {
+                       bool has_distortion = false) {
     return io::TargetsFile::open(folder_.write("targets.yaml", text),
                                  {.robot = robot_,
                                   .image = image,
                                   .images = Intrinsics(64, 48, 60, 60, 31, 23),
-                                  .is_bent = is_bent,
+                                  .has_distortion = has_distortion,
                                   .beyond_hides = true});
   }
 
@@ -68,7 +68,7 @@ TEST_F(TargetsFileTest, EstimatesSayHowSureTheyAre) {
                 "0,1,2,3,0,0,0,1,0.002,0.05\n1,1,2,3,0,0,0,1,0,0.05\n");
   const std::string head = "targets:\n- name: a\n  keypoint: [1, 2]\n  handling: ";
   io::TargetsFile file = open(head + "pose\n  estimate: {pose: {csv: e.csv}}\n");
-  const auto& pose = file.of_frame(0)[0].estimate;
+  const auto pose = file.of_frame(0)[0].estimate;
   ASSERT_TRUE(pose && pose->covariance);
   Matrix6d wanted = Matrix6d::Zero();
   wanted.diagonal() << 4e-6, 4e-6, 4e-6, 2.5e-3, 2.5e-3, 2.5e-3;
@@ -95,7 +95,7 @@ TEST_F(TargetsFileTest, MasksAreReadFromFiles) {
       "- {name: each, mask: {files: m_%03d.png}}\n");
   const auto pixels = [](const Target& target) {
     const auto& region = std::get<RegionTarget>(target.shape);
-    const auto& image = std::get<PixelMask>(region.region).mask;
+    const auto& image = std::get<PixelMask>(region.region).mask.view;
     std::vector<Eigen::Vector2i> set;
     for (int v = 0; v < image.height; ++v)
       for (int u = 0; u < image.width; ++u)
@@ -121,7 +121,7 @@ TEST_F(TargetsFileTest, MasksAreReadFromFiles) {
 TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
   io::write_png(folder_.path() / "small.png", Image<std::uint8_t>(7, 5, 1).view());
   io::write_png(folder_.path() / "empty.png", Image<std::uint8_t>(64, 48).view());
-  io::write_png(folder_.path() / "color.png", Image<io::Rgb8>(64, 48).view());
+  io::write_png(folder_.path() / "color.png", Image<Rgb8>(64, 48).view());
   folder_.write("odd.csv", "frame,u,w\n0,1,2\n");
   folder_.write("late.csv", "u,v,frame\n1,2,0\n");
   folder_.write("twice.csv", "frame,u,v\n0,1,2\n0,1,2\n");

@@ -13,6 +13,9 @@ namespace {
 /// estimates as are remembered.
 constexpr int warm_up = 40;
 
+/// A target's report has names and a reason of its own.
+constexpr std::size_t strings_of_a_target = 4;
+
 struct Case {
   const char* name;
   bool distorted;
@@ -29,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(Images, AllocationTest,
                                          Case{"Rectified", true, ImageSpace::rectified}),
                          [](const auto& test) { return test.param.name; });
 
-TEST_P(AllocationTest, NothingIsAllocatedForAFrame) {
+TEST_P(AllocationTest, OnlyStringsOfTargetsAreAllocated) {
   Camera camera = slab_camera();
   const double coefficients[] = {-0.2, 0.05, 0.001, -0.001, 0.0};
   if (GetParam().distorted) camera.distortion = Distortion("plumb_bob", coefficients);
@@ -39,30 +42,30 @@ TEST_P(AllocationTest, NothingIsAllocatedForAFrame) {
   Pipeline pipeline(slab_robot(), camera, config);
   const Image<float> metres = scene_depth(camera, 0.0);
   const Image<std::uint16_t> millimetres = to_millimetres(metres);
-  std::vector<double> positions = {0.0};
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.translation().z() = 0.7;
-  std::vector<Target> targets{
-      {.name = "region of pixels", .shape = RegionTarget{PixelBox{10, 80, 20, 12}}},
-      {.name = "key point that is handled",
-       .shape = KeypointTarget{.pixel = {20, 85}},
-       .handling = PointTrackerConfig{.max_estimates = 8}},
-      {.name = "box that is handled",
-       .shape = BoxTarget{pose, {0.05, 0.05, 0.05}, {}},
-       .handling = PoseTrackerConfig{.max_estimates = 8}},
-      {.name = "late", .shape = RegionTarget{PixelBox{30, 40, 60, 30}}}};
-  for (int i = 0; i < 80; ++i) {
-    if (GetParam().history > 0) targets.back().stamp = (i - 5) * 10'000'000;
+  Frame frame{.pose = {.positions = {0.0}}};
+  frame.targets = {{.name = "region of pixels", .shape = RegionTarget{PixelBox{10, 80, 20, 12}}},
+                   {.name = "key point that is handled",
+                    .shape = KeypointTarget{.pixel = {20, 85}},
+                    .handling = PointTrackerConfig{.max_estimates = 8}},
+                   {.name = "box that is handled",
+                    .shape = BoxTarget{pose, {0.05, 0.05, 0.05}, {}},
+                    .handling = PoseTrackerConfig{.max_estimates = 8}},
+                   {.name = "late", .shape = RegionTarget{PixelBox{30, 40, 60, 30}}}};
+  for (int i = 0; i < 120; ++i) {
+    if (i == 80) frame.targets.clear();
+    if (GetParam().history > 0 && i < 80) frame.targets.back().stamp = (i - 5) * 10'000'000;
+    frame.stamp = i * 10'000'000;
+    frame.pose.positions[0] = 0.01 * i;
+    if (i < 80) std::get<BoxTarget>(frame.targets[2].shape).size.x() = 0.05 + 0.001 * i;  // jitters
+    frame.depth = i % 2 == 0 ? DepthView(metres.view()) : DepthView(millimetres.view());
     const std::size_t before = allocations();
-    positions[0] = 0.01 * i;
-    std::get<BoxTarget>(targets[2].shape).size.x() = 0.05 + 0.001 * i;  // detectors' sizes jitter
-    const DepthView depth = i % 2 == 0 ? DepthView(metres.view()) : DepthView(millimetres.view());
-    const FrameReport& report = pipeline.process(
-        {.stamp = i * 10'000'000, .depth = depth, .joints = positions, .targets = targets});
+    const FrameReport& report = pipeline.process(frame);
     const std::size_t after = allocations();
     ASSERT_EQ(report.status, FrameStatus::ok);
     if (i < warm_up) continue;
-    ASSERT_EQ(after, before) << "frame " << i;
+    ASSERT_LE(after - before, strings_of_a_target * frame.targets.size()) << "frame " << i;
   }
 }
 
@@ -74,7 +77,7 @@ TEST(QueueAllocations, NothingIsAllocatedForAFrame) {
       robot, history,
       {.poses = {.source = PoseSource::both, .camera_frame = "a_camera_with_a_long_name"}},
       [](const DroppedFrame&) {});
-  QueuedFrame queued;
+  Frame queued;
   const std::vector<std::string> names{"slide"};
   for (int i = 1; i < 400; ++i) {
     const std::int64_t stamp = std::int64_t{10'000'000} * i;
@@ -87,7 +90,7 @@ TEST(QueueAllocations, NothingIsAllocatedForAFrame) {
     history.add_transform(stamp, "base", "slab", T, "another publisher of the transforms");
     queue.push(1, stamp - 5'000'000, stamp);
     queue.push(2, stamp - 3'000'000, stamp);
-    const bool given = queue.next(stamp, queued);
+    const bool given = queue.next(stamp, queued).has_value();
     const std::size_t after = allocations();
     if (i > 1) {
       ASSERT_TRUE(given);

@@ -64,7 +64,9 @@ TEST_P(AttachedTo, ALinkIsDrawnWhereTheFormulaTells) {
       const Image<float> depth = scene_depth(camera, slide, boxes);
       const std::vector<double> positions{slide};
       const FrameReport& report = pipeline.process(
-          {.depth = depth.view(), .joints = positions, .attached = std::span(all).first(count)});
+          {.depth = depth.view(),
+           .pose = {.positions = positions,
+                    .attached = {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)}}});
       ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
       ASSERT_EQ(report.attached.size(), count);
       for (int v = 0; v < depth.height(); ++v)
@@ -88,13 +90,15 @@ TEST(Attached, HidesATargetAndIsBlamed) {
   const Image<float> depth = scene_depth(slab_camera(), 0.0, {part_box(0.0)});
   const std::vector<Target> targets{box_target("behind", PixelBox{101, 61, 4, 6}),
                                     box_target("part", PixelBox{101, 61, 4, 6})};
-  const FrameReport& report = pipeline.process(
-      {.depth = depth.view(), .joints = positions, .targets = targets, .attached = attached});
+  const FrameReport& report =
+      pipeline.process({.depth = depth.view(),
+                        .pose = {.positions = positions, .attached = attached},
+                        .targets = targets});
   EXPECT_EQ(report.targets[1].verdict, Verdict::held) << "it does not hide itself";
   EXPECT_EQ(report.targets[1].reason, "it is attached to link 'slab'");
   EXPECT_EQ(report.targets[0].verdict, Verdict::hidden);
   ASSERT_EQ(report.targets[0].judgement->blame.size(), 1U);
-  EXPECT_EQ(report.links[report.targets[0].judgement->blame[0].link], "part");
+  EXPECT_EQ(report.targets[0].judgement->blame[0].name, "part");
   DepthImage out;
   without_robot(report, out);
   const auto& rest = std::get<Image<float>>(out);
@@ -116,9 +120,11 @@ TEST(Attached, ABodyThatCannotBeDrawnMakesNothingVisible) {
   const std::vector<double> positions{0.0};
   const std::vector<Target> targets{box_target("free", PixelBox{5, 5, 6, 6})};
   for (const AttachedBody& wrong : {no_mesh, empty, bent, body("part", "no_link", {0, 0, 0})}) {
-    const std::array attached{wrong};
-    const FrameReport& report = pipeline.process(
-        {.depth = depth.view(), .joints = positions, .targets = targets, .attached = attached});
+    const std::vector<AttachedBody> attached{wrong};
+    const FrameReport& report =
+        pipeline.process({.depth = depth.view(),
+                          .pose = {.positions = positions, .attached = attached},
+                          .targets = targets});
     EXPECT_EQ(report.status, FrameStatus::missing_link);
     EXPECT_NE(report.message.find("'part'"), std::string::npos) << report.message;
     ASSERT_EQ(report.missing_links.size(), 1U);
@@ -128,16 +134,19 @@ TEST(Attached, ABodyThatCannotBeDrawnMakesNothingVisible) {
     for (int v = 0; v < depth.height(); ++v)
       for (int u = 0; u < depth.width(); ++u) ASSERT_TRUE(std::isnan(std::get<1>(out)(u, v)));
   }
-  EXPECT_EQ(pipeline.process({.depth = depth.view(), .joints = positions}).status, FrameStatus::ok);
+  EXPECT_EQ(pipeline.process({.depth = depth.view(), .pose = {.positions = positions}}).status,
+            FrameStatus::ok);
 }
 
 TEST(Attached, ManyOneAfterAnotherKeepTheirNames) {
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
   const std::vector<double> positions{0.0};
   for (int i = 0; i < 200; ++i) {
-    const std::array attached{body("a" + std::to_string(i), "slab", {0.3, 0, 0}),
-                              body("b" + std::to_string(i / 50), "slab", {-0.3, 0, 0})};
-    const FrameReport& report = pipeline.process({.joints = positions, .attached = attached});
+    const std::vector<AttachedBody> attached{
+        body("a" + std::to_string(i), "slab", {0.3, 0, 0}),
+        body("b" + std::to_string(i / 50), "slab", {-0.3, 0, 0})};
+    const FrameReport& report =
+        pipeline.process({.pose = {.positions = positions, .attached = attached}});
     ASSERT_EQ(report.attached.size(), 2U);
     for (const std::size_t k : {0U, 1U})
       ASSERT_EQ(report.links[report.attached[k]], attached[k].name);
@@ -157,13 +166,12 @@ TEST(Attached, IsKeptForLateTargets) {
   const auto verdict = [&](std::int64_t stamp, bool has_part, std::int64_t asked) {
     Target target = box_target("behind", PixelBox{101, 61, 4, 6});
     target.stamp = asked;
-    const std::array targets{target};
     const FrameReport& report =
         pipeline.process({.stamp = stamp,
                           .depth = has_part ? with.view() : without.view(),
-                          .joints = positions,
-                          .targets = targets,
-                          .attached = std::span(attached).first(has_part ? 1 : 0)});
+                          .pose = {.positions = positions,
+                                   .attached = has_part ? attached : std::vector<AttachedBody>()},
+                          .targets = {target}});
     return report.targets[0].verdict;
   };
   EXPECT_EQ(verdict(1 * ms, true, 1 * ms), Verdict::hidden);
@@ -186,16 +194,16 @@ TEST(Attached, FramesOfAQueueHaveWhatIsAttachedAtTheirStamp) {
   history.attachments().detach(5250 * ms, "part");
   history.attachments().attach(5150 * ms, part());
   move(5000);
-  QueuedFrame frame;
+  Frame frame;
   for (const std::size_t count : {0U, 1U, 0U}) {
     ASSERT_TRUE(queue.next(0, frame));
-    EXPECT_EQ(frame.frame().attached.size(), count);
+    EXPECT_EQ(frame.pose.attached.size(), count);
   }
   history.attachments().attach(5500 * ms, part());
   move(1000);  // the clock is set back
   queue.push(0, 1100 * ms, 0);
   ASSERT_TRUE(queue.next(0, frame));
-  EXPECT_EQ(frame.frame().attached.size(), 1U) << "what was attached last still is";
+  EXPECT_EQ(frame.pose.attached.size(), 1U) << "what was attached last still is";
 }
 
 /// Against a model that looks at all changes every time, with late ones.

@@ -10,7 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
 namespace penumbra::test {
@@ -190,6 +192,17 @@ TEST_F(RenderedCalibration, NothingIsSaidOfRightInputs) {
   EXPECT_TRUE(found.notes.empty()) << found.notes.front();
 }
 
+/// Its frames repeat one view, whose error nothing shows.
+TEST_F(RenderedCalibration, ARobotOfWhichOnlyTheBaseIsSeenIsRefused) {
+  robot = Robot::load(
+      PENUMBRA_SOURCE_DIR "/examples/arm_over_table/arm_description/arm.urdf",
+      {.geometry = Geometry::visual, .geometry_fallback = true, .only_links = {robot.links()[0]}});
+  const Calibration found = calibrate(drawn(state, turns), camera, robot,
+                                      {.camera_parent = "", .initial = state.T_parent_camera});
+  ASSERT_EQ(found.faults.size(), 1U);
+  EXPECT_NE(found.faults[0].find("one view"), std::string::npos) << found.faults[0];
+}
+
 TEST_F(RenderedCalibration, AWrongFocalLengthIsNamedAndFound) {
   const std::vector<CalibrationFrame> frames = drawn(state, turns);
   const Intrinsics wrong(848, 480, 1.02 * camera.fx(), 1.02 * camera.fy(), camera.cx(),
@@ -259,6 +272,13 @@ TEST_F(RenderedCalibration, ClocksThatDifferAreNamed) {
   const Calibration one_way = moving([](std::size_t, std::size_t j) { return j == 0 ? 0.3 : 0.0; });
   EXPECT_TRUE(says(one_way, "time between images and joint states"));
   EXPECT_LT(off(one_way), 1.2 * one_way.position_error());  // on the border
+}
+
+TEST(CalibrationWatch, LimitsArePositive) {
+  const Camera camera{Intrinsics(64, 48, 50, 50, 32, 24), {}, {}, {}};
+  EXPECT_NO_THROW(CalibrationWatch watch(camera));
+  for (const DriftLimits& limits : {DriftLimits{-0.002, 0.1}, DriftLimits{0.002, 0.0}})
+    EXPECT_THROW(CalibrationWatch watch(camera, limits), InputError);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ class FrameStatusTest : public testing::Test {
   }
 
   [[nodiscard]] Frame good() const { return with_joints(positions_); }
-  [[nodiscard]] Frame with_joints(const JointInput& joints) const {
-    return {.depth = depth_.view(), .joints = joints};
+  [[nodiscard]] Frame with_joints(std::vector<double> positions) const {
+    return {.depth = depth_.view(), .pose = {.positions = std::move(positions)}};
   }
   [[nodiscard]] Frame flawed(FrameStatus status, std::string_view message) const {
     Frame frame = good();
@@ -104,17 +104,19 @@ TEST_F(FrameStatusTest, TheJointBuffersAnswers) {
   answer.status = JointStatus::stale;
   answer.gaps = {
       {.variable = 0, .why = JointStatus::stale, .last_seen = 42, .jump = {}, .source = "driver"}};
-  expect_pose_unknown(with_joints(answer), FrameStatus::stale_joints,
+  const Robot robot = slab_robot();
+  const auto given = [&] { return Frame{.depth = depth_.view(), .pose = pose_of(robot, answer)}; };
+  expect_pose_unknown(given(), FrameStatus::stale_joints,
                       "'slide' has no position near the stamp (last seen at 42 ns by driver");
   answer.status = JointStatus::missing;
   answer.gaps = {
       {.variable = 0, .why = JointStatus::missing, .last_seen = {}, .jump = {}, .source = {}}};
-  expect_pose_unknown(with_joints(answer), FrameStatus::missing_joints, "'slide' was never seen");
+  expect_pose_unknown(given(), FrameStatus::missing_joints, "'slide' was never seen");
 
   answer = {
       .status = JointStatus::ok, .positions = positions_, .age = 1500, .gaps = {}, .disputes = {}};
-  EXPECT_EQ(process(with_joints(answer)).status, FrameStatus::ok);
-  EXPECT_EQ(process(with_joints(answer)).joint_age, 1500);
+  EXPECT_EQ(process(given()).status, FrameStatus::ok);
+  EXPECT_EQ(process(given()).joint_age, 1500);
 }
 
 /// As blind as no image.
@@ -149,7 +151,8 @@ TEST(FrameStatusOfRobot, ALinkWithoutItsMeshIsTold) {
   Pipeline pipeline(Robot::parse(slab_urdf(more), ".", options), camera);
   const std::vector<double> positions = {0.0};
   const Image<float> depth = scene_depth(camera, 0.0);
-  const FrameReport& report = pipeline.process({.depth = depth.view(), .joints = positions});
+  const FrameReport& report =
+      pipeline.process({.depth = depth.view(), .pose = {.positions = positions}});
   EXPECT_EQ(report.status, FrameStatus::missing_link);
   EXPECT_NE(report.message.find("'lost'"), std::string::npos) << report.message;
   ASSERT_EQ(report.missing_links.size(), 1U);
@@ -165,7 +168,8 @@ TEST(FrameStatusOfRobot, ACameraInsideOfALinkIsAFaultOfTheFrame) {
   const Image<float> depth = scene_depth(slab_camera(), 0.0);
   for (const bool is_inside : {true, false, true}) {
     const std::vector<double> positions = {is_inside ? -slab_depth - 1.05 : 0.0};
-    const FrameReport& report = pipeline.process({.depth = depth.view(), .joints = positions});
+    const FrameReport& report =
+        pipeline.process({.depth = depth.view(), .pose = {.positions = positions}});
     EXPECT_EQ(report.status, is_inside ? FrameStatus::missing_transform : FrameStatus::ok);
     EXPECT_EQ(report.T_root_camera.has_value(), !is_inside);
     EXPECT_EQ(report.message.find("'slab'") != std::string::npos, is_inside) << report.message;
@@ -173,11 +177,6 @@ TEST(FrameStatusOfRobot, ACameraInsideOfALinkIsAFaultOfTheFrame) {
     EXPECT_EQ(report.virtual_depth.depth.empty(), is_inside);
   }
 }
-
-// A temporary would be gone before the frame that refers to it.
-static_assert(!std::is_constructible_v<JointInput, std::vector<double>>);
-static_assert(std::is_constructible_v<JointInput, const std::vector<double>&>);
-static_assert(std::is_constructible_v<JointInput, std::vector<double>&>);
 
 }  // namespace
 }  // namespace penumbra::test

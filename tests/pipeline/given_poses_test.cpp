@@ -18,7 +18,7 @@ class GivenPoses : public testing::Test {
   [[nodiscard]] Frame frame() const {
     Frame frame;
     frame.depth = depth_.view();
-    frame.T_root_link = links_;
+    frame.pose.T_root_link = links_;
     return frame;
   }
 
@@ -39,12 +39,13 @@ class GivenPoses : public testing::Test {
 
 TEST_F(GivenPoses, OfLinksGiveWhatTheirJointsGive) {
   const std::vector<double> positions = {0.1};
-  const FrameReport& by_joints = pipeline_.process({.depth = depth_.view(), .joints = positions});
+  const FrameReport& by_joints =
+      pipeline_.process({.depth = depth_.view(), .pose = {.positions = positions}});
   const auto depth = pixels_of(by_joints.virtual_depth.depth);
   const auto labels = pixels_of(by_joints.labels);
   ASSERT_GT(by_joints.pixels.occluded, 100U);
   Frame given = frame();
-  given.joints.age = 7;
+  given.pose.age = 7;
   const FrameReport& by_poses = pipeline_.process(given);
   EXPECT_EQ(by_poses.status, FrameStatus::ok) << by_poses.message;
   EXPECT_EQ(pixels_of(by_poses.virtual_depth.depth), depth);
@@ -55,7 +56,7 @@ TEST_F(GivenPoses, OfLinksGiveWhatTheirJointsGive) {
 
 TEST_F(GivenPoses, OfTheCameraHoldForTheirFrameAlone) {
   Frame moved = frame();
-  moved.T_parent_camera = Eigen::Translation3d(0.0, 0.0, -0.5) * Eigen::Isometry3d::Identity();
+  moved.pose.T_parent_camera = Eigen::Translation3d(0.0, 0.0, -0.5) * Eigen::Isometry3d::Identity();
   const float behind = pipeline_.process(moved).virtual_depth.depth(73, 57);
   const float before = pipeline_.process(frame()).virtual_depth.depth(73, 57);
   EXPECT_NEAR(before, slab_depth + 0.1, 1e-5);
@@ -80,8 +81,8 @@ TEST_F(GivenPoses, ThatArePoorAreRefused) {
   expect_refused(frame(), "'slab'");
   links_ = good;
   Frame camera = frame();
-  camera.T_parent_camera = links_[1];
-  camera.T_parent_camera->linear().setZero();
+  camera.pose.T_parent_camera = links_[1];
+  camera.pose.T_parent_camera->linear().setZero();
   expect_refused(camera, "camera's pose");
   EXPECT_EQ(pipeline_.process(frame()).status, FrameStatus::ok) << "the stream goes on";
 }

@@ -67,10 +67,10 @@ TEST_F(TargetsTest, NothingIsAcceptedWithoutPoseOrDepth) {
   target.handling = any;
   EXPECT_EQ(judge(0, target).estimate, penumbra::Outcome::accepted);
   target.estimate->stamp = 100 * ms;
-  Frame frame{.stamp = 100 * ms, .depth = depth_.view(), .joints = {}, .targets = {&target, 1}};
+  Frame frame{.stamp = 100 * ms, .depth = depth_.view(), .targets = {target}};
   EXPECT_EQ(pipeline_.process(frame).targets[0].estimate, penumbra::Outcome::refused_verdict);
   frame.stamp = target.estimate->stamp = 200 * ms;
-  frame.joints = positions_;
+  frame.pose.positions = positions_;
   frame.depth = DepthView{};
   const TargetReport& report = pipeline_.process(frame).targets[0];
   EXPECT_EQ(report.estimate, penumbra::Outcome::refused_verdict);
@@ -94,8 +94,8 @@ TEST_F(TargetsTest, EstimatesOfTheCameraAreBroughtToTheRoot) {
     const TargetReport& report = pipeline
                                      .process({.stamp = i * 100 * ms,
                                                .depth = wall.view(),
-                                               .joints = positions_,
-                                               .targets = {&target, 1}})
+                                               .pose = {.positions = positions_},
+                                               .targets = {target}})
                                      .targets[0];
     ASSERT_EQ(report.estimate, penumbra::Outcome::accepted) << report.reason;
     // The camera is 0.25 m beside and 1.2 m before the slab, which is 1 m + slide from the root.

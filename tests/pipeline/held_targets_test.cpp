@@ -33,14 +33,11 @@ class Carrying : public testing::Test {
   const FrameReport& see(const Target& target, double slide, const Eigen::Vector3d& at) {
     const SlabBox box{at, cup_size, attached_.empty() ? 0 : 4};
     depth_ = scene_depth(slab_camera(), slide, {box});
-    const std::array positions{slide};
-    const std::array targets{target};
     stamp_ += period;
     return pipeline_.process({.stamp = stamp_,
                               .depth = depth_.view(),
-                              .joints = std::span<const double>(positions),
-                              .targets = targets,
-                              .attached = attached_});
+                              .pose = {.positions = {slide}, .attached = attached_},
+                              .targets = {target}});
   }
 
   Pipeline pipeline_{slab_robot(), slab_camera(), plain_config()};
@@ -134,7 +131,7 @@ TEST(AttachTarget, TurnsWithTheLink) {
   const Eigen::Isometry3d in_arm =
       turned(-before) * Eigen::Translation3d(-pivot) * start;  // T_arm_root * start
   const Image<float> depth = scene_depth(slab_camera(), 0.9);
-  const auto mesh = std::make_shared<const TriangleMesh>(make_box(cup_size));
+  const auto mesh = std::make_shared<const PreparedMesh>(make_box(cup_size));
   const TargetShape shapes[] = {
       BoxTarget{.pose = start, .size = cup_size, .frame = ReferenceFrame::root()},
       BoxTarget{.pose = start, .size = cup_size},  // the camera is at the root
@@ -152,11 +149,11 @@ TEST(AttachTarget, TurnsWithTheLink) {
         std::vector<double> positions(2);
         positions[robot.find_variable("slide").value()] = 0.9;
         positions[robot.find_variable("turn").value()] = angle;
-        const FrameReport& report = pipeline.process({.stamp = stamp,
-                                                      .depth = depth.view(),
-                                                      .joints = positions,
-                                                      .targets = {&target, 1},
-                                                      .attached = attached});
+        const FrameReport& report =
+            pipeline.process({.stamp = stamp,
+                              .depth = depth.view(),
+                              .pose = {.positions = positions, .attached = attached},
+                              .targets = {target}});
         EXPECT_EQ(report.targets[0].verdict, attached.empty() ? Verdict::visible : Verdict::held);
         const auto& handled = report.targets[0].handled;
         if (!handled) return Eigen::Isometry3d::Identity();
@@ -205,7 +202,7 @@ TEST_F(Carrying, WhatIsNotKnownIsNotAttached) {
   handled.estimate = TargetEstimate{.value = std::monostate()};
   see(handled, 1.0, picked);
   refuses(handled, "slab", "lost");
-  pipeline_.process({.targets = {&target, 1}});
+  pipeline_.process({.targets = {target}});
   refuses(target, "slab", "the robot's pose is not known");
 }
 
@@ -214,7 +211,7 @@ TEST(HeldTargets, LateOnesAreHeldIfTheyWereAtTheirStamp) {
   PipelineConfig config = plain_config();
   config.target_history = 1.0;
   Pipeline pipeline(slab_robot(), slab_camera(), config);
-  const std::array positions{0.0};
+  const std::vector<double> positions{0.0};
   const AttachedBody part{"cup", "slab", std::make_shared<PreparedMesh>(make_box(cup_size)),
                           Eigen::Isometry3d(Eigen::Translation3d(0.19, 0.06, -0.08))};
   const Image<float> with = scene_depth(slab_camera(), 0.0, {{picked, cup_size, 4}});
@@ -226,9 +223,9 @@ TEST(HeldTargets, LateOnesAreHeldIfTheyWereAtTheirStamp) {
     return pipeline
         .process({.stamp = stamp * ms,
                   .depth = is_carried ? with.view() : without.view(),
-                  .joints = std::span<const double>(positions),
-                  .targets = {&target, 1},
-                  .attached = {&part, is_carried ? 1U : 0U}})
+                  .pose = {.positions = positions,
+                           .attached = std::vector<AttachedBody>(is_carried ? 1 : 0, part)},
+                  .targets = {target}})
         .targets[0]
         .verdict;
   };
@@ -242,13 +239,13 @@ TEST(HeldTargets, LateOnesAreHeldIfTheyWereAtTheirStamp) {
 /// Without a depth image the carrier's pose is known; without joints nothing is.
 TEST(HeldTargets, NeedThePoseOnly) {
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
-  const std::array positions{0.0};
+  const std::vector<double> positions{0.0};
   const AttachedBody part{"cup", "slab", std::make_shared<PreparedMesh>(make_box(cup_size)),
                           Eigen::Isometry3d::Identity()};
   const Target target = cup(picked);
-  Frame frame{.targets = {&target, 1}, .attached = {&part, 1}};
+  Frame frame{.pose = {.attached = {part}}, .targets = {target}};
   EXPECT_EQ(pipeline.process(frame).targets[0].verdict, Verdict::unknown);
-  frame.joints = std::span<const double>(positions);
+  frame.pose.positions = positions;
   EXPECT_EQ(pipeline.process(frame).targets[0].verdict, Verdict::held);
 }
 

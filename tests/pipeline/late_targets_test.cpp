@@ -14,10 +14,10 @@ class LateTargetsTest : public TargetsTest {
   LateTargetsTest() : TargetsTest(0.5) {}
 
   /// The slab stands at `slide` at that stamp.
-  const FrameReport& frame_at(std::int64_t stamp, double slide, std::span<const Target> targets) {
+  const FrameReport& frame_at(std::int64_t stamp, double slide, std::vector<Target> targets) {
     positions_[0] = slide;
     depth_ = scene_depth(slab_camera(), slide);
-    return process(stamp, targets);
+    return process(stamp, std::move(targets));
   }
 };
 
@@ -53,7 +53,7 @@ TEST_F(LateTargetsTest, SayWhatTargetsInTimeDo) {
     const auto& reports = in_time
                               .process({.stamp = i * 50 * ms,
                                         .depth = depth_.view(),
-                                        .joints = positions_,
+                                        .pose = {.positions = positions_},
                                         .targets = targets})
                               .targets;
     said[static_cast<std::size_t>(i)].assign(reports.begin(), reports.end());
@@ -62,7 +62,7 @@ TEST_F(LateTargetsTest, SayWhatTargetsInTimeDo) {
   for (int i = 0; i < frames + delay; ++i) {
     for (Target& target : targets) target.stamp = (i - delay) * 50 * ms;
     const FrameReport& report =
-        frame_at(i * 50 * ms, slide(i), i < delay ? std::span<const Target>() : targets);
+        frame_at(i * 50 * ms, slide(i), i < delay ? std::vector<Target>() : targets);
     if (i < delay) continue;
     const auto frame = static_cast<std::size_t>(i - delay);
     for (std::size_t j = 0; j < targets.size(); ++j) {
@@ -99,13 +99,13 @@ TEST_F(LateTargetsTest, StampsThatGoBackLeaveHysteresisAlone) {
     return made;
   };
   const Target first = target(0), second = target(100 * ms);
-  frame_at(0, 0.0, {&first, 1});
-  const Verdict before = frame_at(100 * ms, -0.3, {&second, 1}).targets[0].verdict;
+  frame_at(0, 0.0, {first});
+  const Verdict before = frame_at(100 * ms, -0.3, {second}).targets[0].verdict;
   ASSERT_EQ(before, Verdict::partial);
   const Target back = target(0), next = target(200 * ms);
-  EXPECT_EQ(frame_at(200 * ms, 0.0, {&back, 1}).targets[0].verdict, Verdict::visible)
+  EXPECT_EQ(frame_at(200 * ms, 0.0, {back}).targets[0].verdict, Verdict::visible)
       << "judged as if for the first time";
-  EXPECT_EQ(frame_at(200 * ms, 0.0, {&next, 1}).targets[0].verdict, Verdict::partial)
+  EXPECT_EQ(frame_at(200 * ms, 0.0, {next}).targets[0].verdict, Verdict::partial)
       << "it has not left that yet";
 }
 

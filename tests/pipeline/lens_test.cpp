@@ -100,7 +100,8 @@ TEST(Lens, RawImagesShowWhatRaysThroughTheLensMeet) {
     Pipeline pipeline(slab_robot(), camera, plain_config());
     for (const double slide : {0.0, -0.45, 0.2}) {
       const std::vector<double> positions = {slide};
-      uncovered += expect_cast(pipeline.process({.joints = positions}), cast_all(camera, slide));
+      uncovered += expect_cast(pipeline.process({.pose = {.positions = positions}}),
+                               cast_all(camera, slide));
     }
   }
   EXPECT_GT(uncovered, 1000U) << "corners of some";
@@ -119,7 +120,8 @@ TEST(Lens, RawDepthIsComparedWhereItWasMeasured) {
   }
   Pipeline pipeline(slab_robot(), camera, plain_config());
   const std::vector<double> positions = {0.0};
-  const FrameReport& report = pipeline.process({.depth = depth.view(), .joints = positions});
+  const FrameReport& report =
+      pipeline.process({.depth = depth.view(), .pose = {.positions = positions}});
   EXPECT_EQ(report.pixels.front, 15U * 12U);
   for (int v = 0; v < seen.height(); ++v) {
     for (int u = 0; u < seen.width(); ++u) {
@@ -139,7 +141,8 @@ TEST(Lens, RectifiedImagesArePinholeImages) {
   const auto to_raw = pipeline.rectification()->pinhole_to_raw();
   const Image<float> wall(camera.intrinsics.width(), camera.intrinsics.height(), 0.9F);
   const std::vector<double> positions = {0.0};
-  const FrameReport& report = pipeline.process({.depth = wall.view(), .joints = positions});
+  const FrameReport& report =
+      pipeline.process({.depth = wall.view(), .pose = {.positions = positions}});
   ASSERT_EQ(report.labels.width, k.width());
   std::size_t robot = 0, hidden = 0, uncovered = 0;
   for (int v = 0; v < k.height(); ++v) {

@@ -66,7 +66,7 @@ class MovingArm : public testing::TestWithParam<PoseSource> {
 
   void judge_queue(FrameQueue& queue, std::int64_t now) {
     while (queue.next(now, queued_)) {
-      const FrameReport& report = process(queued_.frame(), queued_.stamp);
+      const FrameReport& report = process(queued_, *queued_.stamp);
       ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
       EXPECT_EQ(report.stamp, queued_.stamp);
       EXPECT_EQ(wrong_share(report), 0.0) << "frame " << judged_;
@@ -95,7 +95,7 @@ class MovingArm : public testing::TestWithParam<PoseSource> {
   void judge_latest(std::int64_t stamp) {
     const std::vector<double> positions = {latest_};
     Frame frame;
-    frame.joints = positions;
+    frame.pose.positions = positions;
     const FrameReport& report = process(frame, stamp);
     if (wrong_share(report) > 0.05) ++wrong_by_latest_;
   }
@@ -105,7 +105,7 @@ class MovingArm : public testing::TestWithParam<PoseSource> {
   Pipeline pipeline_{slab_robot(), camera_, plain_config()};
   PoseHistory history_{robot_};
   Image<float> depth_;
-  QueuedFrame queued_;
+  Frame queued_;
   double latest_ = 0;
   int judged_ = 0;
   int wrong_by_latest_ = 0;

@@ -51,7 +51,7 @@ TEST_P(PipelineOf, DrawsWhatTheFormulaTells) {
   Pipeline pipeline(slab_robot(), camera, plain_config(GetParam()));
   for (const double slide : {0.0, 0.317, -0.25}) {
     const std::vector<double> positions = {slide};
-    const FrameReport& report = pipeline.process({.joints = positions});
+    const FrameReport& report = pipeline.process({.pose = {.positions = positions}});
     ASSERT_EQ(report.virtual_depth.depth.width, camera.intrinsics.width());
     std::size_t robot = 0;
     for (int v = 0; v < camera.intrinsics.height(); ++v) {
@@ -76,7 +76,8 @@ TEST_P(PipelineOf, LabelsEveryPixelAsTheRuleSays) {
   Pipeline pipeline(slab_robot(), camera, plain_config(GetParam()));
   for (const DepthView& depth :
        {DepthView(scene.depth.view()), DepthView(std::as_const(millimetres).view())}) {
-    const FrameReport& report = pipeline.process({.stamp = 7, .depth = depth, .joints = positions});
+    const FrameReport& report =
+        pipeline.process({.stamp = 7, .depth = depth, .pose = {.positions = positions}});
     EXPECT_EQ(report.status, FrameStatus::ok) << report.message;
     EXPECT_EQ(report.stamp, 7);
     EXPECT_FALSE(report.joint_age.has_value());
@@ -99,7 +100,7 @@ TEST(Pipeline, TakesTheCameraOnAMovingLink) {
   Pipeline pipeline(slab_robot(), slab_camera(), config);
   for (const double slide : {0.0, 0.2}) {
     const std::vector<double> positions = {slide};
-    const FrameReport& report = pipeline.process({.joints = positions});
+    const FrameReport& report = pipeline.process({.pose = {.positions = positions}});
     EXPECT_NEAR(report.virtual_depth.depth(73, 57), slab_depth, depth_tolerance);
     EXPECT_NEAR(report.virtual_depth.depth(73 + 40, 57 + 8), 1.45 - slide, depth_tolerance);
   }
@@ -113,7 +114,8 @@ TEST(Pipeline, BothRangesLimitWhatIsMeasured) {
   Pipeline pipeline(slab_robot(), camera, config);
   const std::vector<double> positions = {0.0};
   const Image<float> depth = scene_depth(camera, 0.0);
-  const FrameReport& report = pipeline.process({.depth = depth.view(), .joints = positions});
+  const FrameReport& report =
+      pipeline.process({.depth = depth.view(), .pose = {.positions = positions}});
   EXPECT_GT(report.pixels.occluded, 0U) << "the slab at 0.95 m";
   EXPECT_GT(report.pixels.unknown, 0U) << "the plate at 1.45 m";
   EXPECT_EQ(report.pixels.front + report.pixels.beyond, 0U);

@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include <penumbra/pipeline/reach-inl.hpp>
+#include <penumbra/poses/reach-inl.hpp>
 
 namespace penumbra::test {
 namespace {

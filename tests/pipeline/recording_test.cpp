@@ -43,12 +43,10 @@ TEST(XArm7Recording, RobotStandsWhereTheMasksSayItDoes) {
   Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
 
   double sum = 0.0;
-  io::FrameData data;
   Image<std::uint8_t> mask;
   for (std::size_t i = 0; i < reader.size(); ++i) {
-    reader.read(i, false, data);
-    const FrameReport& report =
-        pipeline.process({.depth = data.depth_view(), .joints = data.positions});
+    const Frame frame = reader.read(i, false);
+    const FrameReport& report = pipeline.process(frame);
     ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
     io::read_png(folder / ("robot_mask_" + std::to_string(reader.index(i)) + ".png"), mask)
         .require();

@@ -84,11 +84,12 @@ TEST_P(RobotsTest, AreDrawnTogether) {
   EXPECT_EQ(std::vector<std::string>(links.begin(), links.end()),
             (std::vector<std::string>{"world", "slabs/base", "slabs/slab", "slabs/plate",
                                       "cart/rail", "cart/box"}));
-  for (const std::array positions : {std::array{0.0, 0.0}, {0.3, -0.2}, {-0.1, 0.15}}) {
+  for (const auto& positions :
+       std::vector<std::vector<double>>{{0.0, 0.0}, {0.3, -0.2}, {-0.1, 0.15}}) {
     const std::vector<SlabBox> boxes{cart_box(positions[1])};
     const Image<float> depth = scene_depth(camera, positions[0], boxes);
     const FrameReport& report =
-        pipeline.process({.depth = depth.view(), .joints = std::span<const double>(positions)});
+        pipeline.process({.depth = depth.view(), .pose = {.positions = positions}});
     ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
     for (int v = 0; v < depth.height(); ++v)
       for (int u = 0; u < depth.width(); ++u) {
@@ -120,15 +121,16 @@ TEST_P(RobotsTest, WhatOneOfUnknownPoseCanReachIsUnknown) {
   for (int v = 40; v < 45; ++v)  // a thing before the ball
     for (int u = 92; u < 98; ++u) depth(u, v) = 1.3F;
   const std::vector<double> positions{0.0, 0.0};
-  const std::array<std::size_t, 2> cart{4, 5};
+  const std::vector<std::size_t> cart{4, 5};
   const std::vector<Target> targets{region("free", PixelBox{3, 3, 6, 6}),
                                     region("at cart", PixelBox{86, 38, 4, 4}),
                                     region("behind slab", PixelBox{68, 54, 6, 6})};
-  const FrameReport& report = pipeline.process({.depth = depth.view(),
-                                                .joints = positions,
-                                                .targets = targets,
-                                                .uncertain_links = cart,
-                                                .uncertain_reason = "its joints are stale"});
+  const FrameReport& report =
+      pipeline.process({.depth = depth.view(),
+                        .pose = {.positions = positions,
+                                 .uncertain_links = cart,
+                                 .uncertain_reason = "its joints are stale"},
+                        .targets = targets});
   EXPECT_EQ(report.status, FrameStatus::missing_link);
   EXPECT_EQ(report.message,
             "link 'cart/rail' is not drawn, and what it could hide is unknown: its joints are "
@@ -148,16 +150,16 @@ TEST(Robots, WhatOneOfUnknownPoseCarriesReachesFarther) {
   Pipeline pipeline(cell(), slab_camera(), plain_config());
   const Image<float> depth = scene_depth(slab_camera(), 0.0);
   const std::vector<double> positions{0.0, 0.0};
-  const std::array<std::size_t, 2> cart{4, 5};
+  const std::vector<std::size_t> cart{4, 5};
   const Eigen::Vector3d size(0.1, 0.1, 0.1);
   const std::vector<AttachedBody> held{{"part", "cart/box",
                                         std::make_shared<PreparedMesh>(make_box(size)),
                                         Eigen::Isometry3d(Eigen::Translation3d(0.1, 0.0, 0.0))}};
   const FrameReport& report = pipeline.process({.depth = depth.view(),
-                                                .joints = positions,
-                                                .attached = held,
-                                                .uncertain_links = cart,
-                                                .uncertain_reason = "stale"});
+                                                .pose = {.positions = positions,
+                                                         .uncertain_links = cart,
+                                                         .uncertain_reason = "stale",
+                                                         .attached = held}});
   EXPECT_EQ(report.status, FrameStatus::missing_link);
   const Intrinsics& k = slab_camera().intrinsics;
   for (const double drive : {-0.2, -0.1, 0.0, 0.1, 0.15}) {
@@ -177,11 +179,10 @@ TEST(Robots, ACameraOnARobotOfUnknownPoseSeesNothing) {
   Pipeline pipeline(cell(), slab_camera(), config);
   const Image<float> depth = scene_depth(slab_camera(), 0.0);
   const std::vector<double> positions{0.0, 0.0};
-  const std::array<std::size_t, 2> cart{4, 5};
-  const FrameReport& report = pipeline.process({.depth = depth.view(),
-                                                .joints = positions,
-                                                .uncertain_links = cart,
-                                                .uncertain_reason = "stale"});
+  const std::vector<std::size_t> cart{4, 5};
+  const FrameReport& report = pipeline.process(
+      {.depth = depth.view(),
+       .pose = {.positions = positions, .uncertain_links = cart, .uncertain_reason = "stale"}});
   EXPECT_EQ(report.status, FrameStatus::missing_transform);
   EXPECT_EQ(report.labels(0, 0), unknown_label);
 }
@@ -204,7 +205,7 @@ class RobotsInTime : public testing::Test {
 
 TEST_F(RobotsInTime, ARobotWithStaleJointsIsUncertainAlone) {
   PoseLookup lookup(robot_, {});
-  PoseAnswer answer;
+  RobotPose answer;
   lookup.at(history_, 950 * ms, answer);
   EXPECT_EQ(answer.status, FrameStatus::ok);
   EXPECT_TRUE(answer.uncertain_links.empty());
@@ -216,7 +217,7 @@ TEST_F(RobotsInTime, ARobotWithStaleJointsIsUncertainAlone) {
 
 TEST_F(RobotsInTime, ARobotThatCarriesTheCameraIsNeeded) {
   PoseLookup lookup(robot_, {.camera_parent = "cart/box"});
-  PoseAnswer answer;
+  RobotPose answer;
   lookup.at(history_, 1850 * ms, answer);
   EXPECT_EQ(answer.status, FrameStatus::stale_joints);
 }
@@ -230,7 +231,7 @@ TEST(Robots, OfWhichTheTransformsOfOneEndAreUncertainAlone) {
     if (i <= 10) history.add_transform(i * 100 * ms, "cart/rail", "cart/box", at(0.1), "driver");
   }
   PoseLookup lookup(robot, {.source = PoseSource::transforms});
-  PoseAnswer answer;
+  RobotPose answer;
   lookup.at(history, 1850 * ms, answer);
   EXPECT_EQ(answer.status, FrameStatus::ok) << answer.message;
   EXPECT_EQ(answer.uncertain_links, (std::vector<std::size_t>{4, 5}));
@@ -246,7 +247,7 @@ TEST(Robots, WhoseTransformsAreLateAreAwaited) {
   };
   for (const std::int64_t stamp : {1000 * ms, 1050 * ms}) tell("slabs/base", "slabs/slab", stamp);
   tell("cart/rail", "cart/box", 1000 * ms);
-  QueuedFrame frame;
+  Frame frame;
   queue.push(0, 1050 * ms, 1051 * ms);
   EXPECT_FALSE(queue.next(1051 * ms, frame));
   tell("cart/rail", "cart/box", 1050 * ms);
@@ -257,8 +258,8 @@ TEST(Robots, WhoseTransformsAreLateAreAwaited) {
   queue.push(1, 1100 * ms, 1410 * ms);
   EXPECT_FALSE(queue.next(1410 * ms, frame));
   queue.push(2, 1300 * ms, 1410 * ms);
-  ASSERT_TRUE(queue.next(1410 * ms, frame)) << "the cart is silent for more than the longest wait";
-  EXPECT_EQ(frame.key, 2U);
+  EXPECT_EQ(queue.next(1410 * ms, frame), 2U)
+      << "the cart is silent for more than the longest wait";
   EXPECT_EQ(frame.pose.uncertain_links, (std::vector<std::size_t>{4, 5}));
 }
 

@@ -26,12 +26,14 @@ class TargetsTest : public testing::Test {
           return config;
         }()) {}
 
-  const FrameReport& process(std::int64_t stamp, std::span<const Target> targets) {
-    return pipeline_.process(
-        {.stamp = stamp, .depth = depth_.view(), .joints = positions_, .targets = targets});
+  const FrameReport& process(std::int64_t stamp, std::vector<Target> targets) {
+    return pipeline_.process({.stamp = stamp,
+                              .depth = depth_.view(),
+                              .pose = {.positions = positions_},
+                              .targets = std::move(targets)});
   }
   const TargetReport& judge(std::int64_t stamp, const Target& target) {
-    return process(stamp, {&target, 1}).targets[0];
+    return process(stamp, {target}).targets[0];
   }
 
   Image<float> depth_ = scene_depth(slab_camera(), 0.0);

@@ -29,7 +29,7 @@ TEST_F(TargetsTest, AreJudgedWhereTheySee) {
   EXPECT_EQ(hidden.judgement->inside, 240U);
   EXPECT_EQ(hidden.judgement->occluded, 1.0);
   ASSERT_EQ(hidden.judgement->blame.size(), 1U);
-  EXPECT_EQ(report.links[hidden.judgement->blame[0].link], "slab");
+  EXPECT_EQ(hidden.judgement->blame[0].name, "slab");
   EXPECT_FALSE(hidden.point) << "its depth is the robot's";
   EXPECT_EQ(report.targets[1].verdict, Verdict::visible);
   ASSERT_TRUE(report.targets[1].point);
@@ -50,7 +50,7 @@ TEST_F(TargetsTest, SolidsAreSeenAlikeFromEveryFrame) {
   in_camera.translation() = Eigen::Vector3d(0.02, 0.01, 1.6);
   Eigen::Isometry3d in_slab = in_camera;
   in_slab.translation().z() -= 1.1;
-  const auto mesh = std::make_shared<const TriangleMesh>(make_box({0.1, 0.1, 0.1}));
+  const auto mesh = std::make_shared<const PreparedMesh>(make_box({0.1, 0.1, 0.1}));
   const std::vector<Target> targets{
       {.name = "camera", .shape = BoxTarget{in_camera, {0.1, 0.1, 0.1}, {}}},
       {.name = "root", .shape = BoxTarget{in_camera, {0.1, 0.1, 0.1}, ReferenceFrame::root()}},
@@ -75,7 +75,7 @@ TEST_F(TargetsTest, SolidsAreSeenAlikeFromEveryFrame) {
 /// Hidden needs no sensor depth where the expected depth is known; without it the frame is unknown.
 TEST_F(TargetsTest, AreUnknownWithoutPoseOrDepth) {
   const Target target = region("target", beside_slab);
-  Frame frame{.stamp = 1, .depth = {}, .joints = positions_, .targets = {&target, 1}};
+  Frame frame{.stamp = 1, .depth = {}, .pose = {.positions = positions_}, .targets = {target}};
   const auto reason_of = [&](FrameStatus status) {
     const FrameReport& report = pipeline_.process(frame);
     EXPECT_EQ(report.status, status);
@@ -85,7 +85,7 @@ TEST_F(TargetsTest, AreUnknownWithoutPoseOrDepth) {
   };
   EXPECT_EQ(reason_of(FrameStatus::missing_depth), "missing_depth: no depth image");
   frame.depth = depth_.view();
-  frame.joints = {};
+  frame.pose.positions.clear();
   EXPECT_NE(reason_of(FrameStatus::missing_joints).find("missing_joints"), std::string::npos);
 }
 
@@ -105,8 +105,8 @@ TEST_F(TargetsTest, WithoutDepthWhatTheRobotHidesIsHidden) {
     target.thresholds.unknown_limit = 1;
   }
   targets[0].estimate = TargetEstimate{.frame = ReferenceFrame::root()};
-  const FrameReport& report =
-      pipeline_.process({.stamp = 1, .depth = {}, .joints = positions_, .targets = targets});
+  const FrameReport& report = pipeline_.process(
+      {.stamp = 1, .depth = {}, .pose = {.positions = positions_}, .targets = targets});
   ASSERT_EQ(report.status, FrameStatus::missing_depth);
   EXPECT_EQ(report.targets[0].verdict, Verdict::hidden) << report.targets[0].reason;
   EXPECT_EQ(report.targets[0].judgement->occluded, 1.0);
@@ -130,8 +130,9 @@ TEST_F(TargetsTest, TinySolidsCoverThePixelNextToThem) {
   Eigen::Isometry3d outside = Eigen::Isometry3d::Identity();
   outside.translation() = 2.0 * slab_camera().intrinsics.ray(-3.0, 56.3);
   const Eigen::Vector3d size(0.0005, 0.0005, 0.0005);
-  auto mesh = std::make_shared<TriangleMesh>(make_box(size));
-  for (Eigen::Vector3f& vertex : mesh->vertices) vertex.x() += 0.1F;
+  TriangleMesh box = make_box(size);
+  for (Eigen::Vector3f& vertex : box.vertices) vertex.x() += 0.1F;
+  const auto mesh = std::make_shared<PreparedMesh>(box);
   Eigen::Isometry3d mesh_pose = behind;
   mesh_pose.translation().x() -= 0.1;
   const std::vector<Target> targets{
@@ -243,8 +244,9 @@ TEST_F(TargetsTest, ANameOfNoObjectRemembersNone) {
   const PixelBox remnant{28, 47, 20, 20};  // what is left of the large one beside the slab
   std::int64_t stamp = 0;
   const auto verdicts = [&](bool has_identity, const PixelBox& first, const PixelBox& second) {
-    Target targets[] = {{.name = "cup", .shape = RegionTarget{first, Extent::modal, 2.0}},
-                        {.name = "cup 2", .shape = RegionTarget{second, Extent::modal, 2.0}}};
+    std::vector<Target> targets{
+        {.name = "cup", .shape = RegionTarget{first, Extent::modal, 2.0}},
+        {.name = "cup 2", .shape = RegionTarget{second, Extent::modal, 2.0}}};
     for (Target& target : targets) {
       target.has_identity = has_identity;
       target.thresholds.past_limit = 1;  // the model alone says it

@@ -14,15 +14,17 @@ class UncertainLinksTest : public TargetsTest {
  protected:
   UncertainLinksTest() : TargetsTest(0.5) {}
 
-  const FrameReport& frame_at(std::int64_t stamp, bool is_uncertain,
-                              std::span<const Target> targets) {
-    Frame frame{.stamp = stamp, .depth = depth_.view(), .joints = positions_, .targets = targets};
-    if (is_uncertain) frame.uncertain_links = plate_;
-    frame.uncertain_reason = "two publishers differ";
+  const FrameReport& frame_at(std::int64_t stamp, bool is_uncertain, std::vector<Target> targets) {
+    Frame frame{.stamp = stamp,
+                .depth = depth_.view(),
+                .pose = {.positions = positions_},
+                .targets = targets};
+    if (is_uncertain) frame.pose.uncertain_links = plate_;
+    frame.pose.uncertain_reason = "two publishers differ";
     return pipeline_.process(frame);
   }
   /// Behind the plate, or before it.
-  static Target point(const char* name, std::string_view link) {
+  static Target point(const char* name, const std::string& link) {
     return {
         .name = name,
         .shape = PointTarget{.position = {0.0, 0.0, 0.3}, .frame = ReferenceFrame::of_link(link)}};
@@ -34,7 +36,7 @@ class UncertainLinksTest : public TargetsTest {
       EXPECT_NE(report.reason.find(part), std::string_view::npos) << report.reason;
   }
 
-  const std::array<std::size_t, 1> plate_ = {*slab_robot().find_link("plate")};
+  const std::vector<std::size_t> plate_ = {*slab_robot().find_link("plate")};
 };
 
 TEST_F(UncertainLinksTest, AreUnknownInThatLinkAlone) {
@@ -53,9 +55,10 @@ TEST_F(UncertainLinksTest, AreUnknownInThatLinkAlone) {
 TEST_F(UncertainLinksTest, WhatIsNoLinkIsRefused) {
   const std::size_t count = slab_robot().links().size();
   const auto process = [&](std::size_t link) {
-    const std::array links = {plate_[0], link};
+    const std::vector<std::size_t> links = {plate_[0], link};
     return pipeline_
-        .process({.depth = depth_.view(), .joints = positions_, .uncertain_links = links})
+        .process(
+            {.depth = depth_.view(), .pose = {.positions = positions_, .uncertain_links = links}})
         .status;
   };
   EXPECT_EQ(process(plate_[0]), FrameStatus::missing_link);

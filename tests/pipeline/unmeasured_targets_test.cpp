@@ -90,7 +90,7 @@ TEST_F(TargetsWithoutALink, AreNeverVisible) {
   const std::vector<Target> targets{region("clear", beside_slab), region("hidden", behind_slab),
                                     region("half", half_behind), region("outside", outside)};
   const FrameReport& report = pipeline.process(
-      {.stamp = 1, .depth = depth.view(), .joints = positions, .targets = targets});
+      {.stamp = 1, .depth = depth.view(), .pose = {.positions = positions}, .targets = targets});
   ASSERT_EQ(report.status, FrameStatus::missing_link);
   EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
   EXPECT_NE(report.targets[0].reason.find("'gone'"), std::string_view::npos);

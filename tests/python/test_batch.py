@@ -163,7 +163,7 @@ def test_a_list_has_options_and_a_function_does_the_same(tmp_path):
     inputs.write_text(f"# a comment\n{SHIPPED} --frames 0:2\n")
     told = []
     records = penumbra.batch.run([inputs], tmp_path / "out", workers=1,
-                                 told=lambda done, all_inputs, record: told.append(done))
+                                 on_progress=lambda done, all_inputs, record: told.append(done))
     assert [record["frames"] for record in records] == [2]
     assert told == [1]
 

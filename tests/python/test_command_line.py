@@ -77,7 +77,7 @@ def test_targets_are_judged_alike(tmp_path):
     opened = Opened(SHIPPED)
     file = penumbra.TargetsFile.open(opened.recording.targets, robot=opened.robot,
                                      image=opened.config.image, images=opened.pipeline.intrinsics,
-                                     is_bent=False, beyond_hides=True)
+                                     has_distortion=False, beyond_hides=True)
     verdicts = set()
     for frame, expected in zip(opened.frames, told, strict=True):
         report = opened.pipeline.process(frame.frame.replace(targets=file.of_frame(frame.index)))

@@ -61,12 +61,12 @@ def test_arrays_that_were_pickled_are_taken():
 
 
 def test_doubts_of_what_is_no_link_are_refused(opened):
-    frame = opened.frames[0].frame.replace(doubt="two tell it")
+    frame = opened.frames[0].frame.replace(uncertain_reason="two tell it")
     count = len(opened.robot.links)
     for link in (count, 10**6):
         with pytest.raises(penumbra.InputError, match=f"link {link} .* below {count}"):
-            opened.pipeline.process(frame.replace(doubted_links=[count - 1, link]))
-    good = opened.pipeline.process(frame.replace(doubted_links=[count - 1]))
+            opened.pipeline.process(frame.replace(uncertain_links=[count - 1, link]))
+    good = opened.pipeline.process(frame.replace(uncertain_links=[count - 1]))
     assert good.status is penumbra.FrameStatus.ok
 
 
@@ -114,7 +114,7 @@ BAD_CALLS = [
     (lambda o: penumbra.LabelRule(front_min_width=None), TypeError, "front_min_width: int"),
     (lambda o: penumbra.Classifier(0, 480, penumbra.LabelRule()), ValueError, "1 to 32767"),
     (lambda o: penumbra.Classifier(64, 48, penumbra.LabelRule(beyond_factor=0)), ValueError,
-     "1 or more"),
+     "beyond_factor 0"),
     (lambda o: penumbra.Intrinsics(0, 0, 1, 1, 0, 0), ValueError, "1 .. 32767"),
     (lambda o: penumbra.Camera(o.camera.intrinsics, range=penumbra.DepthRange(near=2, far=1)),
      ValueError, "near"),

@@ -25,8 +25,8 @@ def test_robots_are_joined_and_fail_alone():
     report = pipeline.process(frame.replace(joints=joints + joints))
     assert report.status == penumbra.FrameStatus.ok
     of_b = [i for i, link in enumerate(both.links) if link.startswith("b/")]
-    report = pipeline.process(frame.replace(joints=joints + joints, doubted_links=of_b,
-                                            doubt="stale"))
+    report = pipeline.process(frame.replace(joints=joints + joints, uncertain_links=of_b,
+                                            uncertain_reason="stale"))
     assert report.status == penumbra.FrameStatus.missing_link and "b/base_link" in report.message
     with pytest.raises(penumbra.InputError, match="name"):
         penumbra.Robot.join([("a", opened.robot, np.eye(4)), ("a", opened.robot, aside)])

@@ -159,9 +159,9 @@ def test_targets_in_a_link_whose_place_is_doubted_are_unknown(shipped):
     link = shipped.robot.links[-1]
     target = penumbra.Target("t", penumbra.PointTarget([0, 0, 0.2], frame=link))
     frame = shipped.frames[0].frame.replace(targets=[target])
-    assert frame.doubted_links == () and frame.doubt == ""
+    assert frame.uncertain_links == () and frame.uncertain_reason == ""
     assert shipped.pipeline.process(frame).targets[0].judgement is not None
-    doubted = frame.replace(doubted_links=[len(shipped.robot.links) - 1], doubt="two tell it")
+    doubted = frame.replace(uncertain_links=[len(shipped.robot.links) - 1], uncertain_reason="two tell it")
     for given in (doubted, doubted.replace(index=7)):
         report = shipped.pipeline.process(given)
         assert report.status == penumbra.FrameStatus.ok

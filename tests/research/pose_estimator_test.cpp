@@ -21,16 +21,15 @@ const PixelBox everywhere{0, 0, 640, 480};
 Camera camera() { return {Intrinsics(640, 480, 600, 600, 310, 245), {}, {}, {}}; }
 
 /// Rectangles of random colours: corners at every scale.
-Image<io::Rgb8> busy_image(std::mt19937_64& random) {
-  Image<io::Rgb8> image(320, 240, {128, 128, 128});
+Image<Rgb8> busy_image(std::mt19937_64& random) {
+  Image<Rgb8> image(320, 240, {128, 128, 128});
   const auto below = [&](int most) {
     return static_cast<int>(random() % static_cast<unsigned>(most));
   };
   for (int i = 0; i < 400; ++i) {
     const int u0 = below(310), v0 = below(230), w = 4 + below(40), h = 4 + below(40);
-    const io::Rgb8 color{static_cast<std::uint8_t>(below(256)),
-                         static_cast<std::uint8_t>(below(256)),
-                         static_cast<std::uint8_t>(below(256))};
+    const Rgb8 color{static_cast<std::uint8_t>(below(256)), static_cast<std::uint8_t>(below(256)),
+                     static_cast<std::uint8_t>(below(256))};
     for (int v = v0; v < std::min(v0 + h, 240); ++v)
       for (int u = u0; u < std::min(u0 + w, 320); ++u) image(u, v) = color;
   }
@@ -38,7 +37,7 @@ Image<io::Rgb8> busy_image(std::mt19937_64& random) {
 }
 
 /// What the camera sees of the print at u, v; grey beside it.
-Eigen::Vector3d seen_at(const Image<io::Rgb8>& print, const Eigen::Isometry3d& T_object_camera,
+Eigen::Vector3d seen_at(const Image<Rgb8>& print, const Eigen::Isometry3d& T_object_camera,
                         double u, double v) {
   const Eigen::Vector3d from = T_object_camera.translation();
   const Eigen::Vector3d to = T_object_camera.linear() * camera().intrinsics.ray(u, v);
@@ -47,14 +46,14 @@ Eigen::Vector3d seen_at(const Image<io::Rgb8>& print, const Eigen::Isometry3d& T
   const int x = static_cast<int>(std::floor((p.x() / size.x() + 0.5) * print.width()));
   const int y = static_cast<int>(std::floor((0.5 - p.y() / size.y()) * print.height()));
   if (t <= 0 || x < 0 || y < 0 || x >= print.width() || y >= print.height()) return {90, 90, 90};
-  const io::Rgb8& c = print(x, y);
+  const Rgb8& c = print(x, y);
   return {static_cast<double>(c.r), static_cast<double>(c.g), static_cast<double>(c.b)};
 }
 
-Image<io::Rgb8> view_of(const Image<io::Rgb8>& print, const Eigen::Isometry3d& T_camera_object) {
+Image<Rgb8> view_of(const Image<Rgb8>& print, const Eigen::Isometry3d& T_camera_object) {
   constexpr int rays = 2;  // in each direction of a pixel
   const Eigen::Isometry3d T_object_camera = T_camera_object.inverse();
-  Image<io::Rgb8> image(640, 480);
+  Image<Rgb8> image(640, 480);
   for (int v = 0; v < 480; ++v)
     for (int u = 0; u < 640; ++u) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -89,12 +88,12 @@ constexpr double most_sigmas = 6.0;  // the claimed covariance holds features fo
 
 TEST(PoseEstimator, FindsThePoseThatARayCasterDrew) {
   auto random = seeded_random(4);
-  const Image<io::Rgb8> print = busy_image(random);
+  const Image<Rgb8> print = busy_image(random);
   const PoseEstimator estimator(camera(), print.view(), size);
   const Image<std::uint8_t> whole(640, 480, 255);
   for (int i = 0; i < 3; ++i) {
     const Eigen::Isometry3d truth = random_pose(random);
-    const Image<io::Rgb8> image = view_of(print, truth);
+    const Image<Rgb8> image = view_of(print, truth);
     const auto matches = estimator.match(image.view(), everywhere);
     const auto guess = estimator.estimate(matches, whole.view());
     ASSERT_TRUE(guess) << "view " << i << ", " << matches.size() << " matches";
@@ -110,9 +109,9 @@ TEST(PoseEstimator, FindsThePoseThatARayCasterDrew) {
 
 TEST(PoseEstimator, LooksOnlyWhereTheMaskIs) {
   auto random = seeded_random(5);
-  const Image<io::Rgb8> print = busy_image(random);
+  const Image<Rgb8> print = busy_image(random);
   const PoseEstimator estimator(camera(), print.view(), size);
-  const Image<io::Rgb8> image = view_of(print, random_pose(random));
+  const Image<Rgb8> image = view_of(print, random_pose(random));
   const auto matches = estimator.match(image.view(), everywhere);
   const Image<std::uint8_t> nowhere(640, 480, 0);
   EXPECT_FALSE(estimator.estimate(matches, nowhere.view()));
@@ -128,11 +127,11 @@ TEST(PoseEstimator, LooksOnlyWhereTheMaskIs) {
 
 TEST(PoseEstimator, ClaimsNothingWhereTheObjectIsNot) {
   auto random = seeded_random(6);
-  const Image<io::Rgb8> print = busy_image(random);
+  const Image<Rgb8> print = busy_image(random);
   const PoseEstimator estimator(camera(), print.view(), size);
   const Image<std::uint8_t> whole(640, 480, 255);
   for (int i = 0; i < 3; ++i) {
-    const Image<io::Rgb8> other = view_of(busy_image(random), random_pose(random));
+    const Image<Rgb8> other = view_of(busy_image(random), random_pose(random));
     EXPECT_FALSE(estimator.estimate(estimator.match(other.view(), everywhere), whole.view()));
   }
 }

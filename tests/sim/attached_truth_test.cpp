@@ -82,15 +82,16 @@ Both count(std::uint64_t seed, bool noisy, int frames) {
       held.T_link_body = poses[*robot.find_link("tool0")].inverse() * object.T_base_object;
     }
     const std::vector<AttachedBody> attached{held};
-    const Frame frame{.depth = std::as_const(truth.depth).view(), .joints = truth.joints};
+    const Frame frame{.depth = std::as_const(truth.depth).view(),
+                      .pose = {.positions = truth.joints}};
     // Its given position is wrong, the handled one is not.
     const Target target{.name = held.name,
                         .shape = PointTarget{.frame = ReferenceFrame::root()},
                         .handling = PointTrackerConfig{}};
     Frame carrying = frame;
     carrying.stamp = truth.stamp;
-    carrying.targets = {&target, 1};
-    carrying.attached = attached;
+    carrying.targets = {target};
+    carrying.pose.attached = attached;
     const FrameReport& report = with.process(carrying);
     add(truth, report, counts.attached);
     const TargetReport& handled = report.targets[0];

@@ -132,7 +132,7 @@ class Rig {
       const FrameReport& report =
           pipelines_[i].process({.stamp = frames[i].stamp,
                                  .depth = std::as_const(frames[i].depth).view(),
-                                 .joints = frames[i].joints,
+                                 .pose = {.positions = frames[i].joints},
                                  .targets = targets});
       fusion.add(i, report);
       for (const TargetReport& target : report.targets) said[std::string(target.name)][i] = target;

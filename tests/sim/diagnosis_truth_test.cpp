@@ -3,6 +3,7 @@
 #include "simulated.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -30,6 +31,16 @@ struct Given {
   std::vector<std::vector<double>> joints;
 };
 
+/// The camera is given elsewhere, by metres and degrees.
+std::function<void(Given&)> moved(double metres, double turn) {
+  return [=](Given& given) {
+    given.T_base_camera.translation() += metres * Eigen::Vector3d(1, -1, 1).normalized();
+    given.T_base_camera.linear() =
+        given.T_base_camera.linear() *
+        Eigen::AngleAxisd(turn * degree, Eigen::Vector3d(1, 1, 0).normalized()).matrix();
+  };
+}
+
 class DiagnosisTruth : public testing::Test {
  protected:
   void SetUp() override {
@@ -54,7 +65,8 @@ class DiagnosisTruth : public testing::Test {
     Pipeline pipeline(simulation_->robot(), camera, config);
     SetupCheck check(pipeline.robot(), camera, 0);
     for (std::size_t i = 0; i < given.depth.size(); ++i)
-      check.add(pipeline.process({.depth = given.depth[i].view(), .joints = given.joints[i]}),
+      check.add(pipeline.process(
+                    {.depth = given.depth[i].view(), .pose = {.positions = given.joints[i]}}),
                 given.joints[i]);
     return check.diagnose();
   }
@@ -82,17 +94,23 @@ TEST_F(DiagnosisTruth, NothingIsSaidOfARightSetup) {
 }
 
 TEST_F(DiagnosisTruth, ACameraThatIsElsewhere) {
-  const auto moved = [](double metres, double turn) {
-    return [=](Given& given) {
-      given.T_base_camera.translation() += metres * Eigen::Vector3d(1, -1, 1).normalized();
-      given.T_base_camera.linear() =
-          given.T_base_camera.linear() *
-          Eigen::AngleAxisd(turn * degree, Eigen::Vector3d(1, 1, 0).normalized()).matrix();
-    };
-  };
   expect(Cause::camera_pose, moved(0.02, 0.5));
   expect(Cause::camera_pose, moved(0.05, 3.0));
   expect(Cause::camera_pose, moved(0.25, 12.0));
+}
+
+/// The labels show nothing of it.
+TEST_F(DiagnosisTruth, ASmallErrorOfTheCameraHasItsErrorBar) {
+  const Diagnosis found = diagnosed(moved(0.010, 0.0));
+  ASSERT_EQ(to_string(found.cause), to_string(Cause::camera_pose)) << found.message;
+  int position = 0, error = 0;
+  ASSERT_EQ(std::sscanf(found.message.c_str(), "the camera's pose is about %d +- %d mm", &position,
+                        &error),
+            2)
+      << found.message;
+  EXPECT_LE(std::abs(position - 10), error);
+  EXPECT_LT(error, 8);
+  EXPECT_EQ(diagnosed(moved(0.004, 0.1)).message, "");
 }
 
 TEST_F(DiagnosisTruth, APoseWrittenInAnotherWay) {

@@ -99,7 +99,7 @@ class ModalBench {
     SimFrame frame;
     for (int i = 0; i < frames && simulation_.next(frame); ++i) {
       const FrameReport& report = pipeline_.process(
-          {.stamp = frame.stamp, .depth = frame.depth.view(), .joints = frame.joints});
+          {.stamp = frame.stamp, .depth = frame.depth.view(), .pose = {.positions = frame.joints}});
       ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
       std::vector<Case> cases;
       for (const ObjectTruth& object : frame.objects) add_cases(frame, object, cases);

@@ -85,13 +85,14 @@ Ways count(std::uint64_t seed, bool noisy, int frames) {
     const auto take = [&](const FrameReport& report, Counts& counts) {
       if (has_pose(report.status)) add(truth, report, links, right.first_link, counts);
     };
-    take(pipeline.process({.depth = depth, .joints = joints}), ways.both);
-    const std::span<const double> lefts(joints.data(), right.first_variable);
-    take(without.process({.depth = depth, .joints = lefts}), ways.left_alone);
+    take(pipeline.process({.depth = depth, .pose = {.positions = joints}}), ways.both);
+    const std::vector<double> lefts(
+        joints.begin(), joints.begin() + static_cast<std::ptrdiff_t>(right.first_variable));
+    take(without.process({.depth = depth, .pose = {.positions = lefts}}), ways.left_alone);
     take(pipeline.process({.depth = depth,
-                           .joints = joints,
-                           .uncertain_links = of_right,
-                           .uncertain_reason = "stale"}),
+                           .pose = {.positions = joints,
+                                    .uncertain_links = of_right,
+                                    .uncertain_reason = "stale"}}),
          ways.right_stale);
   }
   return ways;

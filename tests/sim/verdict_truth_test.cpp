@@ -191,7 +191,7 @@ TriangleMesh ball(double radius) {
 /// radius.
 struct Solids {
   std::array<std::string, 2> names;
-  std::shared_ptr<const TriangleMesh> mesh;
+  std::shared_ptr<const PreparedMesh> mesh;
 };
 
 class Bench {
@@ -207,7 +207,7 @@ class Bench {
       const std::vector<Target> solids = solids_of(frame);
       const FrameReport& report = pipeline_.process({.stamp = frame.stamp,
                                                      .depth = frame.depth.view(),
-                                                     .joints = frame.joints,
+                                                     .pose = {.positions = frame.joints},
                                                      .targets = solids});
       ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
       judge_.begin({labels_of(report), report.virtual_depth, frame.depth.view()});
@@ -247,7 +247,7 @@ class Bench {
       Solids& solid = solids_[k];
       if (!solid.mesh) {
         solid.names = {object.name + " mesh", object.name + (is_ball ? " point" : " box")};
-        solid.mesh = std::make_shared<const TriangleMesh>(is_ball ? ball(radius)
+        solid.mesh = std::make_shared<const PreparedMesh>(is_ball ? ball(radius)
                                                                   : cuboid(object.solid.size));
       }
       const Eigen::Isometry3d& pose = object.T_base_object;

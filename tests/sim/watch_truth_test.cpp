@@ -37,10 +37,10 @@ class Watched {
 
  private:
   void judge(const sim::SimFrame& frame, const Eigen::Isometry3d& motion) {
-    watch_.add(
-        pipeline_.process({.depth = frame.depth.view(),
-                           .joints = frame.joints,
-                           .T_parent_camera = simulation_.T_base_camera() * motion.inverse()}));
+    watch_.add(pipeline_.process(
+        {.depth = frame.depth.view(),
+         .pose = {.positions = frame.joints,
+                  .T_parent_camera = simulation_.T_base_camera() * motion.inverse()}}));
   }
 
   sim::Simulation simulation_{"random", without_color(3, true)};
@@ -83,10 +83,10 @@ class LateImages {
     for (std::size_t i = 0; i < frames && simulation_.next(frame); ++i) {
       waiting.push_back(frame);
       if (waiting.size() <= late) continue;
-      watch_.add(pipeline_.process({.stamp = waiting.front().stamp,
-                                    .depth = std::as_const(waiting.front().depth).view(),
-                                    .joints = frame.joints,
-                                    .T_parent_camera = simulation_.T_base_camera()}));
+      watch_.add(pipeline_.process(
+          {.stamp = waiting.front().stamp,
+           .depth = std::as_const(waiting.front().depth).view(),
+           .pose = {.positions = frame.joints, .T_parent_camera = simulation_.T_base_camera()}}));
       has_moved_ |= watch_.drift().has_moved || watch_.drift().bumped_at;
       waiting.pop_front();
     }

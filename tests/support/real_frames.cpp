@@ -40,18 +40,19 @@ std::vector<RealFrame> load_real_frames(const std::filesystem::path& folder) {
   const std::size_t parent = robot.find_link(recording.camera.parent).value();
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   std::vector<RealFrame> frames;
-  io::FrameData data;
   for (std::size_t i = 0; i < reader.size(); ++i) {
-    reader.read(i, false, data);
-    if (data.status != FrameStatus::ok) throw InputError(data.message);
-    robot.forward_kinematics(data.positions, poses);
+    const Frame frame = reader.read(i, false);
+    if (frame.pose.status != FrameStatus::ok) throw InputError(frame.pose.message);
+    if (frame.source_status != FrameStatus::ok) throw InputError(frame.source_message);
+    robot.forward_kinematics(frame.pose.positions, poses);
     const Eigen::Isometry3d T_camera_root =
         (poses[parent] * *recording.camera.T_parent_camera).inverse();
     for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
-    frames.push_back(real_frame(intrinsics, renderer->render(poses),
-                                std::get<Image<std::uint16_t>>(data.depth)));
+    frames.push_back(
+        real_frame(intrinsics, renderer->render(poses),
+                   io::copy_of(std::get<ImageView<const std::uint16_t>>(frame.depth.view))));
     Image<std::uint8_t> mask;
-    const auto name = "robot_mask_" + std::to_string(data.index) + ".png";
+    const auto name = "robot_mask_" + std::to_string(*frame.index) + ".png";
     io::read_png(recording.file.parent_path() / name, mask).require();
     frames.back().mask_pixels = static_cast<std::size_t>(
         std::count_if(mask.data(), mask.data() + mask.size(), [](auto m) { return m != 0; }));

@@ -76,15 +76,11 @@ inline TargetView box_target(const PixelBox& box, Extent extent = Extent::amodal
   return target;
 }
 
-/// By a judge of its own; the blame is overwritten by the next one.
+/// By a judge of its own.
 inline Judgement judge_once(TargetFrame& frame, const TargetView& target) {
-  static std::vector<Blame> blame;
   TargetJudge judge(TargetFrame::camera(), frame.rule, 3);
   judge.begin(frame.images());
-  Judgement judgement = judge.judge(target);
-  blame.assign(judgement.blame.begin(), judgement.blame.end());
-  judgement.blame = blame;
-  return judgement;
+  return judge.judge(target);
 }
 
 }  // namespace penumbra::test

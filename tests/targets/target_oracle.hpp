@@ -21,10 +21,7 @@ struct NaiveJudgement {
   std::map<std::size_t, std::size_t> blame;  // pixels by link
   std::vector<float> trusted;                // sorted
 
-  [[nodiscard]] double median() const {
-    const std::size_t n = trusted.size();
-    return 0.5 * (static_cast<double>(trusted[(n - 1) / 2]) + static_cast<double>(trusted[n / 2]));
-  }
+  [[nodiscard]] double median() const { return static_cast<double>(trusted[trusted.size() / 2]); }
   [[nodiscard]] double spread() const {
     NaiveJudgement deviations;
     for (const float d : trusted)

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/targets/target.hpp>
+#include <penumbra/targets/region.hpp>
 
 namespace penumbra::test {
 

@@ -241,7 +241,7 @@ TEST_F(TargetSearch, NothingHiddenIsCalledVisible) {
     std::cout << way_names[way] << ": visible " << visible[way] << " times, hidden by more than "
               << "its threshold " << behind[way] << " times\n";
     EXPECT_GT(visible[way], 2 * some) << "or the search says nothing";
-    EXPECT_GT(behind[way], some);
+    EXPECT_GT(behind[way], some / 4);
   }
   EXPECT_GT(absent, 2 * some);
 }

@@ -19,14 +19,14 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 TEST(TrackerConfig, SaysWhichFieldIsWrong) {
   using Config = PoseTrackerConfig;
   const std::vector<std::pair<std::string, Config>> faults{
-      {"position_sigma is 0", {.position_sigma = 0}},
-      {"orientation_sigma is nan", {.orientation_sigma = nan}},
-      {"acceleration is -1", {.acceleration = -1}},
-      {"angular_drift is -1", {.angular_drift = -1}},
-      {"timeout is 0", {.timeout = 0}},
-      {"gate_patience is 0", {.gate_patience = 0}},
-      {"max_estimates is 1", {.max_estimates = 1}},
-      {"worst is unknown", {.worst = Verdict::unknown}},
+      {"position_sigma 0", {.position_sigma = 0}},
+      {"orientation_sigma nan", {.orientation_sigma = nan}},
+      {"acceleration -1", {.acceleration = -1}},
+      {"angular_drift -1", {.angular_drift = -1}},
+      {"timeout 0", {.timeout = 0}},
+      {"gate_patience 0", {.gate_patience = 0}},
+      {"max_estimates 1", {.max_estimates = 1}},
+      {"worst unknown", {.worst = Verdict::unknown}},
       {"direction is (0, 0, 0)", {.motion = Motion::along_direction}},
       {"speed is given", {.speed = 1}}};
   for (const auto& [part, config] : faults) expect_refused([&c = config] { c.check(); }, {part});

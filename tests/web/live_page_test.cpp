@@ -41,9 +41,9 @@ class LivePage : public testing::Test, public io::FrameWatcher {
   void judge(std::int64_t stamp) {
     bench_.tell_joints(stamp - 10 * milliseconds);
     bench_.tell_joints(stamp + 10 * milliseconds);
-    const Image<io::Rgb8> red(64, 48, {200, 0, 0});
-    bench_.tell(color_topic, encoded(io::image_message(io::MessageHeader{stamp, "optical"}, "rgb8",
-                                                       red.view())));
+    const Image<Rgb8> red(64, 48, {200, 0, 0});
+    bench_.publish(color_topic, encoded(io::image_message(io::MessageHeader{stamp, "optical"},
+                                                          "rgb8", red.view())));
     bench_.tell_depth(stamp);
     ASSERT_TRUE(bench_.inbox.next(0, bench_.now, wants_color(), bench_.job));
     const auto outcome = bench_.worker.judge(bench_.job, bench_.results, this);
@@ -57,7 +57,7 @@ class LivePage : public testing::Test, public io::FrameWatcher {
     parts_ = {{"labels", bytes_of(report.labels)},
               {"links", bytes_of(report.virtual_depth.links)},
               {"vdi", bytes_of(report.virtual_depth.depth)}};
-    static_cast<void>(view_.show(job, depth, report, drift, job.pose.stamp));
+    static_cast<void>(view_.show(job, depth, report, drift, *job.frame.stamp));
   }
 
   std::unique_ptr<io::WebChannel> client(const std::string& with) {

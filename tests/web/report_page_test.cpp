@@ -54,7 +54,7 @@ TEST(ReportPage, NamesCannotEndItsScripts) {
 /// A report whose verdict changes every `period` frames.
 json key_frames_of(std::size_t frames, std::size_t period) {
   io::KeyFrames key_frames;
-  const Image<io::Rgb8> picture(16, 8);
+  const Image<Rgb8> picture(16, 8);
   for (std::size_t i = 0; i < frames; ++i) {
     TargetReport target;
     target.name = "cup";

@@ -13,6 +13,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <penumbra/base/error.hpp>
+
 #include <io/web/web_server.hpp>
 
 namespace penumbra::test {

@@ -145,7 +145,7 @@ TEST_F(ViewExampleTest, DepthAndColorAreTheRecordings) {
   }
   EXPECT_EQ(served.parts.at("depth"), metres);
 
-  Image<io::Rgb8> recorded, shown;
+  Image<Rgb8> recorded, shown;
   ASSERT_TRUE(io::read_png(example + "/color/5.png", recorded).ok());
   const std::string& jpeg = served.parts.at("color");
   ASSERT_FALSE(io::decode_jpeg(std::as_bytes(std::span(jpeg)), shown));

@@ -7,16 +7,20 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
 
 #include <io/assembly/bag_topics.hpp>
+#include <io/files/settings.hpp>
 
 namespace penumbra_ros {
 namespace {
 
 using penumbra::InputError;
+using penumbra::LabelRule;
+using penumbra::Setting;
 using rcl_interfaces::msg::ParameterDescriptor;
 using Texts = std::vector<std::string>;
 
@@ -35,20 +39,19 @@ class Declaration {
                bool can_change = false) {
     return node_.declare_parameter(name, value, descriptor(description, can_change));
   }
-  std::int64_t integer(const std::string& name, std::int64_t value, std::int64_t least,
-                       std::int64_t most, const std::string& description, bool can_change = false) {
+  template <typename T>
+  T number(const std::string& name, T value, T least, T most, const std::string& description,
+           bool can_change = false) {
     ParameterDescriptor described = descriptor(description, can_change);
-    described.integer_range.resize(1);
-    described.integer_range[0].from_value = least;
-    described.integer_range[0].to_value = most;
-    return node_.declare_parameter(name, value, described);
-  }
-  double number(const std::string& name, double value, double least, double most,
-                const std::string& description) {
-    ParameterDescriptor described = descriptor(description, false);
-    described.floating_point_range.resize(1);
-    described.floating_point_range[0].from_value = least;
-    described.floating_point_range[0].to_value = most;
+    const auto limit = [&](auto& ranges) {
+      ranges.resize(1);
+      ranges[0].from_value = least;
+      ranges[0].to_value = most;
+    };
+    if constexpr (std::is_integral_v<T>)
+      limit(described.integer_range);
+    else
+      limit(described.floating_point_range);
     return node_.declare_parameter(name, value, described);
   }
   template <typename T>
@@ -163,7 +166,7 @@ void declare_poses(Declaration& declare, penumbra::io::LiveOptions& live,
   camera.time_offset = declare.number("time_offset", 0.0, -10.0, 10.0,
                                       "seconds added to image stamps before poses are looked up");
   camera.max_frames = static_cast<std::size_t>(
-      declare.integer("queue", 8, 1, 1000, "images that may wait for their pose"));
+      declare.number<std::int64_t>("queue", 8, 1, 1000, "images that may wait for their pose"));
 }
 
 void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::LiveOptions& live,
@@ -202,22 +205,25 @@ void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::Live
       "rectified", false, "the images have no lens distortion, as those called image_rect...");
 }
 
+/// The type of a parameter that is a number.
+template <typename Value>
+using Stored = std::conditional_t<std::is_integral_v<Value>, std::int64_t, double>;
+
 void declare_rule(Declaration& declare) {
   declare("sensor", std::string(),
           "realsense_d4xx (the default), zed, tof, structured_light or none: sets tolerance and "
           "fringe_reach",
           changeable);
-  declare("tolerance", std::vector<double>{},
-          "A, B, C: depth that differs by less than A + B z + C z^2 metres is the same; empty: the "
-          "sensor's",
-          changeable);
-  declare.integer("front_min_width", -1, -1, penumbra::LabelRule::max_width,
-                  "front regions narrower than so many pixels become occluded; 0: off, -1: default",
-                  changeable);
-  declare.integer("fringe_reach", -1, -1, penumbra::LabelRule::max_fringe_reach,
-                  "pixels by which the sensor carries the robot's depth past its outline; 0: off, "
-                  "-1: the sensor's",
-                  changeable);
+  penumbra::for_each_setting<LabelRule>(
+      [&]<typename Value>(const Setting<LabelRule, Value>& setting) {
+        const std::string meaning = setting.meaning;
+        if constexpr (penumbra::NumberSetting<Value>)
+          declare.number<Stored<Value>>(setting.name, -1, -1,
+                                        static_cast<Stored<Value>>(setting.range.most),
+                                        meaning + "; -1: default", changeable);
+        else
+          declare(setting.name, std::vector<double>{}, meaning + "; empty: default", changeable);
+      });
   declare("labels", std::string("full"), "full or paper (constant 0.01 m, no clean-up)",
           changeable);
 }
@@ -225,27 +231,25 @@ void declare_rule(Declaration& declare) {
 }  // namespace
 
 penumbra::LabelRule read_rule(const rclcpp::Node& node, const Changes& changes) {
-  using penumbra::LabelRule;
   const auto labels = value_of<std::string>(node, changes, "labels");
   if (labels != "full" && labels != "paper")
     throw InputError("parameter 'labels' is '" + labels + "'; it must be one of full, paper");
-  LabelRule rule = labels == "paper" ? LabelRule::paper() : LabelRule();
-  if (const auto sensor = value_of<std::string>(node, changes, "sensor"); !sensor.empty()) {
-    const LabelRule of_sensor = LabelRule::for_sensor(sensor);
-    rule.tolerance = of_sensor.tolerance;
-    rule.fringe_reach = of_sensor.fringe_reach;
-  }
-  const auto abc = value_of<std::vector<double>>(node, changes, "tolerance");
-  if (!abc.empty() && abc.size() != 3)
-    throw InputError("parameter 'tolerance' has " + std::to_string(abc.size()) +
-                     " numbers; it must have three: A, B, C");
-  if (!abc.empty()) rule.tolerance = {abc[0], abc[1], abc[2]};
-  const auto width = value_of<std::int64_t>(node, changes, "front_min_width");
-  if (width >= 0) rule.front_min_width = static_cast<int>(width);
-  const auto reach = value_of<std::int64_t>(node, changes, "fringe_reach");
-  if (reach >= 0) rule.fringe_reach = static_cast<int>(reach);
-  rule.check();
-  return rule;
+  penumbra::io::RuleOptions options{.paper_labels = labels == "paper"};
+  if (const auto sensor = value_of<std::string>(node, changes, "sensor"); !sensor.empty())
+    options.sensor = sensor;
+  penumbra::for_each_setting<LabelRule>(
+      [&]<typename Value>(const Setting<LabelRule, Value>& setting) {
+        std::vector<double> numbers;
+        if constexpr (penumbra::NumberSetting<Value>)
+          numbers = {static_cast<double>(value_of<Stored<Value>>(node, changes, setting.name))};
+        else
+          numbers = value_of<std::vector<double>>(node, changes, setting.name);
+        const bool is_default = numbers.empty() || numbers == std::vector{-1.0};
+        if (!is_default && !options.give(setting, numbers))
+          throw InputError("parameter '" + std::string(setting.name) + "': expected " +
+                           expected_of(setting));
+      });
+  return options.applied_to({});
 }
 
 std::set<std::string> read_publish(const rclcpp::Node& node, const Changes& changes) {
@@ -273,8 +277,8 @@ Settings declare_settings(rclcpp::Node& node) {
       "renderer", "cpu",
       {{"cpu", Backend::cpu}, {"gl", Backend::gl}, {"reference", Backend::reference}},
       "renderer of the virtual depth");
-  settings.pipeline.renderer.threads =
-      static_cast<int>(declare.integer("threads", 1, 1, 64, "threads of the cpu renderer"));
+  settings.pipeline.renderer.threads = static_cast<int>(
+      declare.number<std::int64_t>("threads", 1, 1, 64, "threads of the cpu renderer"));
   if (!settings.live.target_topics.empty()) settings.pipeline.target_history = target_history;
   declare_rule(declare);
   settings.pipeline.rule = read_rule(node);
@@ -285,6 +289,7 @@ Settings declare_settings(rclcpp::Node& node) {
     throw InputError("parameter 'drift_limits' must have two numbers: millimetres, degrees");
   settings.live.drift = {.position = 1e-3 * drift[0],
                          .rotation = drift[1] * std::numbers::pi / 180.0};
+  settings.live.drift.check();
   declare("publish", Texts(output_names.begin(), output_names.end()),
           "results to publish; those without a subscriber are not computed", changeable);
   settings.publish = read_publish(node);

@@ -71,8 +71,7 @@ class NodeTest : public testing::Test {
   /// Plays a frame and returns its labels, or null.
   Image::ConstSharedPtr labels_of(std::size_t index) {
     later_ += 1'000'000'000;
-    penumbra::io::FrameData data;
-    player_->reader.read(index, false, data);
+    const penumbra::Frame data = player_->reader.read(index, false);
     const std::int64_t stamp = *data.stamp + later_;
     player_->play(index, later_);
     spin_until([&] { return received_.count(stamp) > 0; }, 5s);

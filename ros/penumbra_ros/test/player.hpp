@@ -71,20 +71,19 @@ class Player {
   /// Publishes a frame `later` nanoseconds after its recorded stamp. Returns the address of its
   /// pixels.
   const void* play(std::size_t index, std::int64_t later = 0) {
-    penumbra::io::FrameData data;
-    reader.read(index, false, data);
+    const penumbra::Frame data = reader.read(index, false);
     const rclcpp::Time stamp(*data.stamp + later);
     sensor_msgs::msg::JointState joints;
     joints.header.stamp = stamp;
     joints.name.assign(robot.variables().begin(), robot.variables().end());
-    joints.position = data.positions;
+    joints.position = data.pose.positions;
     joints_->publish(joints);
-    const auto& pixels = std::get<penumbra::Image<std::uint16_t>>(data.depth);
+    const auto pixels = std::get<penumbra::ImageView<const std::uint16_t>>(data.depth.view);
     sensor_msgs::msg::CameraInfo info;
     info.header.stamp = stamp;
     info.header.frame_id = frame_id;
-    info.width = static_cast<std::uint32_t>(pixels.width());
-    info.height = static_cast<std::uint32_t>(pixels.height());
+    info.width = static_cast<std::uint32_t>(pixels.width);
+    info.height = static_cast<std::uint32_t>(pixels.height);
     info.distortion_model = "plumb_bob";
     info.d.assign(5, 0.0);
     const penumbra::Intrinsics& lens = recording.camera.camera.intrinsics;
@@ -98,7 +97,7 @@ class Player {
     image->height = info.height;
     image->encoding = "16UC1";
     image->step = 2 * image->width;
-    const auto* first = reinterpret_cast<const std::uint8_t*>(pixels.view().data);
+    const auto* first = reinterpret_cast<const std::uint8_t*>(pixels.data);
     image->data.assign(first, first + image->step * image->height);
     const void* address = image->data.data();
     vision_msgs::msg::Detection2DArray boxes;

@@ -23,7 +23,7 @@ int main() {
   penumbra::Pipeline pipeline(penumbra::Robot::parse(urdf, "."), camera);
   const std::vector<double> joints{0.5};
   const penumbra::Image<float> depth(64, 48, 1.4F);
-  const auto& report = pipeline.process({.depth = depth.view(), .joints = joints});
+  const auto& report = pipeline.process({.depth = depth.view(), .pose = {.positions = joints}});
   std::cout << "penumbra " PENUMBRA_VERSION ": depth " << report.virtual_depth.depth(32, 24)
             << ", occluded " << report.pixels.occluded << '\n';
 }

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iterator>
+#include <utility>
+
+#include <io/run/input_session.hpp>
+
+namespace penumbra::io {
+namespace {
+
+/// The camera of the report's images.
+Camera camera_of_report(ImageSpace image, const Camera& camera) {
+  if (image == ImageSpace::raw || camera.distortion.is_none()) return camera;
+  return {.intrinsics = Rectification(camera).pinhole(),
+          .distortion = {},
+          .range = camera.range,
+          .frame_id = camera.frame_id};
+}
+
+/// Opens the targets of the options, else of the input, if there are any.
+std::optional<TargetsFile> open_targets(const SessionOptions& options, const RunInput& input,
+                                        const Camera& camera) {
+  const auto& file = options.targets ? options.targets : input.targets;
+  if (!file || options.no_targets) return std::nullopt;
+  return TargetsFile::open(*file, {.robot = input.robot,
+                                   .image = options.image,
+                                   .images = camera.intrinsics,
+                                   .has_distortion = !input.camera.distortion.is_none(),
+                                   .beyond_hides = input.beyond != BeyondMeans::visible,
+                                   .camera_frame = camera.frame_id});
+}
+
+/// Takes the input's robot.
+Session session_of(const SessionOptions& options, RunInput& input, double target_history) {
+  PipelineConfig config = input.config;
+  config.backend = options.backend;
+  config.renderer = options.renderer;
+  config.rule = options.rule.applied_to(config.rule);
+  config.image = options.image;
+  config.target_history = target_history;
+  return make_session(std::move(input.robot), input.camera, config, options.drift,
+                      input.camera_info);
+}
+
+void append(std::vector<std::string>& lines, std::vector<std::string> more) {
+  lines.insert(lines.end(), std::move_iterator(more.begin()), std::move_iterator(more.end()));
+}
+
+}  // namespace
+
+InputSession::InputSession(const SessionOptions& options, const LineSink& print)
+    : options_(options),
+      input_(open_input(options.input, print)),
+      camera_(camera_of_report(options.image, input_.camera)),
+      targets_(open_targets(options, input_, camera_)),
+      session_(session_of(options, input_, targets_ ? targets_->history() : input_.target_history)),
+      source_(input_.frames(pipeline().robot())) {}
+
+ReportHead InputSession::head() const {
+  UsedSettings settings{.rule = pipeline().rule(),
+                        .paper_labels = options_.rule.paper_labels,
+                        .beyond = input_.beyond.value_or(BeyondMeans::occluded),
+                        .image = options_.image,
+                        .robot = input_.robot_options,
+                        .targets = targets_ ? targets_->file().string() : std::string(),
+                        .target_history = targets_ ? targets_->history() : input_.target_history,
+                        .bag = input_.bag};
+  return {options_.input.path.string(), pipeline().renderer(),      std::move(settings),
+          pipeline().robot().links(),   pipeline().missing_links(), pipeline().robot().notes()};
+}
+
+RunResult InputSession::run(RunOutput& output, const std::function<bool()>& go_on) {
+  RunResult result;
+  judge_frames(output, go_on, result);
+  append(result.notes, source_->notes());
+  append(result.notes, session_.warnings());
+  if (!result.device_fault.empty()) result.notes.push_back(result.device_fault);
+  append(result.notes, output.notes());
+  if (result.is_stopped)
+    result.notes.push_back("stopped after " + std::to_string(result.statistics.frames()) +
+                           " frames: later ones are not judged");
+  output.finish(result.statistics, result.notes);
+  return result;
+}
+
+void InputSession::judge_frames(RunOutput& output, const std::function<bool()>& go_on,
+                                RunResult& result) {
+  Frame frame;
+  try {
+    while (!result.is_stopped && source_->next(frame)) {
+      if (targets_) {
+        frame.targets = targets_->of_frame(static_cast<std::int64_t>(*frame.index));
+      }
+      const FrameReport& report = session_.process(frame);
+      result.statistics.add(report);
+      if (!frame.color_message.empty() && result.frames_without_color++ == 0)
+        result.first_without_color = frame.color_message;
+      output.save(report, frame, {frame.targets, pipeline().robot(), camera_});
+      result.is_stopped = !go_on();
+    }
+  } catch (const DeviceError& error) {
+    if (result.statistics.frames() == 0) throw;
+    result.device_fault = "frame " + std::to_string(frame.index.value_or(0)) +
+                          " and later ones are not judged: " + without_device(error);
+  }
+  result.statistics.set_drift(session_.drift());
+  result.statistics.set_diagnosis(session_.diagnosis());
+}
+
+Session make_session(Robot robot, const Camera& camera, const PipelineConfig& config,
+                     const DriftLimits& limits, const std::filesystem::path& camera_info) {
+  try {
+    return {std::move(robot), camera, config, limits};
+  } catch (const LensError& error) {
+    throw InputError(camera_info.string() + ": " + error.what());
+  }
+}
+
+std::string without_device(const DeviceError& error) {
+  return std::string(error.what()) + "; run again, or with --renderer cpu";
+}
+
+}  // namespace penumbra::io

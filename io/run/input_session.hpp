@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/session/session.hpp>
+
+#include <io/files/run_output.hpp>
+#include <io/files/settings.hpp>
+#include <io/files/targets_file.hpp>
+#include <io/run/run_input.hpp>
+
+namespace penumbra::io {
+
+/// An input and the settings for judging its frames.
+struct SessionOptions {
+  InputOptions input;
+  Backend backend = Backend::cpu;
+  RendererOptions renderer;
+  RuleOptions rule;  ///< in place of the recording's
+  ImageSpace image = ImageSpace::raw;
+  DriftLimits drift = {};                        ///< beyond which a camera's motion is a note
+  std::optional<std::filesystem::path> targets;  ///< in place of the recording's
+  bool no_targets = false;                       ///< not the recording's either
+};
+
+/// The outcome of a run.
+struct RunResult {
+  Statistics statistics;
+  std::vector<std::string> notes;        ///< a line each
+  std::size_t frames_without_color = 0;  ///< whose recorded colour could not be shown
+  std::string first_without_color;       ///< why not, of the first
+  std::string device_fault;              ///< why later frames are not judged; empty: all are
+  bool is_stopped = false;               ///< by `go_on`
+};
+
+/// An input with its pipeline, judged frame by frame.
+class InputSession {
+ public:
+  /// Opens the input; `print` gets the used topics of a bag. `options` must outlive this. Throws
+  /// InputError that names the file.
+  InputSession(const SessionOptions& options, const LineSink& print);
+
+  [[nodiscard]] const Pipeline& pipeline() const { return session_.pipeline(); }
+  [[nodiscard]] const Camera& camera() const { return camera_; }  ///< of the report's images
+  [[nodiscard]] std::optional<std::size_t> size() const { return source_->size(); }
+  [[nodiscard]] ReportHead head() const;  ///< refers to this
+
+  /// Judges the frames into `output`, which has begun, and finishes it. Calls `go_on` after each
+  /// frame and stops if it returns false. Throws InputError if the first usable frame shows a fault
+  /// of the input, and what `output` throws.
+  [[nodiscard]] RunResult run(RunOutput& output, const std::function<bool()>& go_on);
+
+ private:
+  void judge_frames(RunOutput& output, const std::function<bool()>& go_on, RunResult& result);
+
+  const SessionOptions& options_;
+  RunInput input_;
+  Camera camera_;
+  std::optional<TargetsFile> targets_;
+  Session session_;
+  std::unique_ptr<FrameSource> source_;
+};
+
+/// Makes a session. Throws InputError that names the camera_info file for a fault of the lens.
+[[nodiscard]] Session make_session(Robot robot, const Camera& camera, const PipelineConfig& config,
+                                   const DriftLimits& limits,
+                                   const std::filesystem::path& camera_info);
+
+/// Returns the message of a graphics device's fault, with what the user can do about it.
+[[nodiscard]] std::string without_device(const DeviceError& error);
+
+}  // namespace penumbra::io

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/robot/robot.hpp>
+#include <penumbra/time/attachments.hpp>
+#include <penumbra/time/joint_buffer.hpp>
+
+namespace penumbra {
+
+/// Whether a frame is reliable and, if not, why: the worst of its faults, in this order.
+enum class FrameStatus {
+  ok,
+  missing_link,       ///< rendered without a link whose mesh could not be read or whose pose is
+                      ///< not known, or without an attached body
+  bad_depth,          ///< an unusable depth image, or one without any measurement within the
+                      ///< sensor's range: every robot pixel is unknown
+  missing_depth,      ///< no depth image: every robot pixel is unknown
+  poses_disagree,     ///< joint states and TF differ, or two publishers of one joint or transform:
+                      ///< the robot's pose is unknown
+  stale_transform,    ///< a transform has no state near the stamp: the robot's pose is unknown
+  missing_transform,  ///< the pose of the camera, or of a link in TF, is unknown or impossible: not
+                      ///< rigid, or the camera is inside a link
+  stale_joints,       ///< a joint has no state near the stamp: the robot's pose is unknown
+  missing_joints,     ///< a joint has no (finite) position: the robot's pose is unknown
+};
+
+/// The status's name in report.json.
+[[nodiscard]] std::string_view to_string(FrameStatus status);
+
+/// Returns whether the robot's pose is known in a frame of this status.
+[[nodiscard]] constexpr bool has_pose(FrameStatus status) {
+  return status < FrameStatus::poses_disagree;
+}
+
+/// Returns whether the depth image of a frame of this status can be compared.
+[[nodiscard]] constexpr bool has_depth(FrameStatus status) {
+  return status == FrameStatus::ok || status == FrameStatus::missing_link;
+}
+
+/// Bodies that may be attached at once.
+inline constexpr std::size_t max_attached = 128;
+
+/// The robot's pose at a stamp, and the camera's on it.
+struct RobotPose {
+  FrameStatus status = FrameStatus::ok;  ///< another one: the pose is unknown
+  std::string message = {};              ///< one line that says why; empty if the status is ok
+  /// Order of Robot::variables(), rad and m. Another number of them is `missing_joints`.
+  std::vector<double> positions = {};
+  std::optional<std::int64_t> age = {};  ///< nanoseconds from the stamp to the farthest state used
+  /// Poses of all links from another source than joints (TF); the root's is the identity. Empty:
+  /// poses follow from `positions`.
+  std::vector<Eigen::Isometry3d> T_root_link = {};
+  /// The camera's pose in its parent link; null: the configuration's.
+  std::optional<Eigen::Isometry3d> T_parent_camera = {};
+  /// Links whose pose is unknown although the robot's is known. Targets and estimates given in them
+  /// are not judged. Those with geometry are a `missing_link`: pixels are unknown wherever they or
+  /// what they carry could be within the limits of their joints, in front of what is measured.
+  /// Indices into Robot::links(); Pipeline::process() throws for other values.
+  std::vector<std::size_t> uncertain_links = {};
+  std::string uncertain_reason = {};  ///< one line
+  /// What the robot's links carry, at most max_attached bodies. One that cannot be drawn, because
+  /// it has no mesh or its link's pose is not known, is a `missing_link`.
+  std::vector<AttachedBody> attached = {};
+};
+
+/// Returns the status of a frame with joints of that status.
+[[nodiscard]] FrameStatus status_of(JointStatus joints);
+
+/// Returns one line about missing, stale or disputed joints.
+[[nodiscard]] std::string describe(const Robot& robot, const JointAnswer& joints);
+
+/// Returns a pose by joint states; why it is unknown if they are missing, stale or disputed.
+[[nodiscard]] RobotPose pose_of(const Robot& robot, const JointAnswer& joints);
+
+/// Returns the links' names and meshes, which refer to the robot, for make_depth_renderer.
+[[nodiscard]] std::vector<Body> bodies_of(const Robot& robot);
+
+}  // namespace penumbra

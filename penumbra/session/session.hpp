@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <penumbra/calibration/watch.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/session/warnings.hpp>
+
+namespace penumbra {
+
+/// A pipeline that watches the frames that it judges: for mistakes in the setup, and for a camera
+/// that moves. The command line, live topics, the ROS 2 node and Python all judge by this class.
+/// Serves one thread at a time.
+class Session {
+ public:
+  /// Throws InputError as Pipeline does.
+  Session(Robot robot, const Camera& camera, const PipelineConfig& config,
+          const DriftLimits& limits = {});
+
+  /// Judges a frame. Views in the report are valid until the next call.
+  const FrameReport& process(const Frame& frame);
+
+  [[nodiscard]] Pipeline& pipeline() { return pipeline_; }
+  [[nodiscard]] const Pipeline& pipeline() const { return pipeline_; }
+
+  /// Returns a line for each likely mistake in the frames so far. Diagnoses the setup.
+  [[nodiscard]] std::vector<std::string> warnings() const;
+  /// Takes a tenth of a second, or about a second if something looks wrong.
+  [[nodiscard]] const Diagnosis& diagnosis() const { return warnings_.diagnosis(); }
+  /// Returns how far the camera has moved from its calibration.
+  [[nodiscard]] const Drift& drift() const { return watch_.drift(); }
+
+  /// Returns the warnings about the frames since the last call, and begins them anew. For a
+  /// stream without an end; their lines can be made on another thread.
+  [[nodiscard]] Warnings take_warnings();
+
+  /// Returns the number of different poses of the robot, up to SetupCheck::most, that warnings are
+  /// based on.
+  [[nodiscard]] std::size_t poses() const { return warnings_.poses(); }
+
+  /// Forgets targets, warnings and drift: a new sequence begins.
+  void begin_sequence();
+
+ private:
+  Pipeline pipeline_;
+  PipelineConfig config_;
+  DriftLimits limits_;
+  Warnings warnings_;
+  CalibrationWatch watch_;
+};
+
+}  // namespace penumbra

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/diagnosis/diagnosis.hpp>
+#include <penumbra/pipeline/frame.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/robot/robot.hpp>
+#include <penumbra/tuning/missing_parts.hpp>
+
+namespace penumbra {
+
+/// Finds likely mistakes in the setup of a sequence of frames, each of which may be ok.
+class Warnings {
+ public:
+  /// Tolerance of joint limits, rad or m: limits are written with two decimals, and arms overshoot.
+  static constexpr double revolute_slack = 0.01;
+  static constexpr double prismatic_slack = 0.001;
+
+  /// A larger fraction of front or beyond in the robot's measured pixels makes pose and depth
+  /// doubtful; a smaller fraction of measured pixels makes the depth doubtful.
+  static constexpr double most = 0.5;
+  static constexpr double nearly_none = 0.05;
+
+  /// If all stamps are closer, nanoseconds, they have another unit: no depth camera gives 1000
+  /// images a second.
+  static constexpr std::uint64_t shortest_period = 1'000'000;
+
+  /// For frames whose depth no sensor measured.
+  explicit Warnings(const Robot& robot);
+  /// `pipeline`: which judges the frames; `config`: the pipeline's.
+  Warnings(const Pipeline& pipeline, const PipelineConfig& config);
+
+  /// `positions`: those of the frame, in the order of Robot::variables(); empty if not known.
+  void add(const FrameReport& report, std::span<const double> positions);
+
+  /// Returns a line for each likely mistake. What a wrong setup looks like is left out where the
+  /// diagnosis names the cause.
+  [[nodiscard]] std::vector<std::string> lines() const;
+  /// Takes a tenth of a second, or about a second if something looks wrong.
+  [[nodiscard]] const Diagnosis& diagnosis() const;
+
+  /// Returns the number of different poses of the robot, up to SetupCheck::most; 0 for frames whose
+  /// depth no sensor measured.
+  [[nodiscard]] std::size_t poses() const { return sensor_ ? sensor_->setup.poses() : 0; }
+
+ private:
+  /// A frame whose stamp is not after the one before.
+  struct LateStamp {
+    std::size_t index = 0;
+    std::int64_t stamp = 0, before = 0;  // nanoseconds
+  };
+
+  void add_stamp(const FrameReport& report);
+  void add_targets(const FrameReport& report);
+  [[nodiscard]] std::string depth_line() const;
+
+  /// What compares frames that a sensor measured.
+  struct Sensor {
+    MissingParts missing;
+    SetupCheck setup;
+    ImageSpace image;
+  };
+
+  Robot robot_;
+  std::optional<Sensor> sensor_;
+  mutable std::optional<Diagnosis> diagnosis_;  // of the frames so far
+  std::size_t posed_frames_ = 0;
+  bool robot_seen_ = false;
+  std::size_t robot_pixels_ = 0, measured_ = 0, front_ = 0, beyond_ = 0;  // of frames with depth
+  std::size_t uncovered_ = 0;  // pixels of the frame with the most of them
+  std::optional<std::int64_t> last_stamp_;
+  std::optional<LateStamp> first_late_;
+  std::size_t late_stamps_ = 0;
+  std::uint64_t longest_period_ = 0;        // nanoseconds between two stamps that rise
+  std::size_t forgotten_ = 0;               // times, with targets in the frame
+  std::size_t not_handled_ = 0;             // frames
+  std::vector<std::size_t> frames_beyond_;  // of each joint
+  std::vector<std::size_t> frames_near_;    // of each link
+};
+
+}  // namespace penumbra
