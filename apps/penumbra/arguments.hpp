@@ -30,7 +30,7 @@ struct NamedCamera {
 };
 
 struct RunArguments {
-  io::SessionOptions judging;
+  io::SessionOptions session;
   io::OutputOptions output;
   std::vector<NamedCamera> cameras = {};  ///< several of a bag
 };
@@ -58,7 +58,7 @@ struct InspectArguments {
 };
 
 struct TuneArguments {
-  io::SessionOptions judging;  ///< with the current rule
+  io::SessionOptions session;  ///< with the current rule
   std::filesystem::path output;
   bool force = false;  ///< advise although the setup looks wrong
 };
@@ -118,7 +118,7 @@ struct ServerArguments {
 [[nodiscard]] io::WebOptions web_options(const ServerArguments& server);
 
 struct LiveArguments {
-  io::SessionOptions judging;  ///< renderer, what is drawn, the rule of labels, topics
+  io::SessionOptions session;  ///< renderer, what is drawn, the rule of labels, topics
   io::ParticipantOptions graph;
   std::vector<NamedCamera> cameras;  ///< empty: one, found by type and name
   std::string name_space;
@@ -132,7 +132,7 @@ struct LiveArguments {
 };
 
 struct ViewArguments {
-  io::SessionOptions judging;
+  io::SessionOptions session;
   std::string judging_option;  ///< name of an option that was given; empty: none
   ServerArguments server;
 };

@@ -144,16 +144,16 @@ void add_live(CLI::App& app, LiveArguments& live) {
              "serve the viewer's page there; with several cameras, each further page gets the next "
              "port; 0: any free port; default: no page");
   add_graph(app, live);
-  add_judging(app, live.judging, "collision");
-  add_bag(app, live.judging.input.bag,
+  add_session(app, live.session, "collision");
+  add_bag(app, live.session.input.bag,
           {.group = "Of topics", .joints = "joint_states", .poses = "joints, never tf by itself"});
 }
 
 void check_live(const CLI::App& /*app*/, const LiveArguments& live) {
-  check_renderer(live.judging.backend, live.judging.renderer);
+  check_renderer(live.session.backend, live.session.renderer);
   if (live.server.address && !live.server.port)
     throw InputError("--address: belongs to the page that --port serves; give --port, too");
-  const io::BagOptions& topics = live.judging.input.bag;
+  const io::BagOptions& topics = live.session.input.bag;
   if (live.cameras.empty()) return;
   if (topics.depth_topic)
     throw InputError("--depth-topic: --camera is given too; leave one of them out");

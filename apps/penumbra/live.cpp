@@ -125,13 +125,13 @@ std::optional<io::CameraInputOptions> find_camera(const LiveArguments& arguments
 
 /// Draws a small box with the chosen renderer: a device that cannot draw would fail every image.
 /// Throws InputError if it cannot.
-void check_draws(const io::SessionOptions& judging) {
+void check_draws(const io::SessionOptions& session) {
   const PreparedMesh mesh(make_box({0.1, 0.1, 0.1}));
   const Body box{"box", {&mesh, 1}};
   const Intrinsics small(32, 24, 30.0, 30.0, 15.5, 11.5);
   const Eigen::Isometry3d pose(Eigen::Translation3d(0, 0, 1));
   try {
-    static_cast<void>(make_depth_renderer(judging.backend, small, {&box, 1}, judging.renderer)
+    static_cast<void>(make_depth_renderer(session.backend, small, {&box, 1}, session.renderer)
                           ->render({&pose, 1}));
   } catch (const DeviceError& fault) {
     throw InputError(fault.what());
@@ -140,11 +140,11 @@ void check_draws(const io::SessionOptions& judging) {
 
 PipelineConfig config_of(const LiveArguments& arguments) {
   PipelineConfig config;
-  const io::SessionOptions& judging = arguments.judging;
-  config.backend = judging.backend;
-  config.renderer = judging.renderer;
-  config.rule = judging.rule.applied_to(config.rule);
-  if (!judging.input.bag.target_topics.empty()) config.target_history = io::topic_target_history;
+  const io::SessionOptions& session = arguments.session;
+  config.backend = session.backend;
+  config.renderer = session.renderer;
+  config.rule = session.rule.applied_to(config.rule);
+  if (!session.input.bag.target_topics.empty()) config.target_history = io::topic_target_history;
   return config;
 }
 
@@ -319,7 +319,7 @@ void write_summary(io::PendingFile& file, const std::string& summary) {
 }  // namespace
 
 int execute(const LiveArguments& arguments) {
-  check_draws(arguments.judging);
+  check_draws(arguments.session);
   const io::NameResolver names = live_names(arguments);
   io::LiveOptions options = live_options(arguments, names);
   const io::CameraInputOptions common = camera_options(arguments);

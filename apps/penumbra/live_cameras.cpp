@@ -42,7 +42,7 @@ std::optional<std::string> resolved(const io::NameResolver& names,
 }  // namespace
 
 io::CameraInputOptions camera_options(const LiveArguments& arguments) {
-  const io::BagOptions& topics = arguments.judging.input.bag;
+  const io::BagOptions& topics = arguments.session.input.bag;
   io::CameraInputOptions options;
   options.mount = io::mount_options(topics);
   options.info_is_named = topics.camera_info_topic.has_value();
@@ -56,7 +56,7 @@ io::CameraInputOptions camera_options(const LiveArguments& arguments) {
 std::vector<io::CameraInputOptions> named_cameras(const LiveArguments& arguments,
                                                   const io::NameResolver& names,
                                                   const io::CameraInputOptions& common) {
-  const io::BagOptions& topics = arguments.judging.input.bag;
+  const io::BagOptions& topics = arguments.session.input.bag;
   auto named = arguments.cameras;
   if (topics.depth_topic) named.push_back({"", *topics.depth_topic});
   std::vector<io::CameraInputOptions> cameras;
@@ -76,7 +76,7 @@ std::vector<io::CameraInputOptions> named_cameras(const LiveArguments& arguments
 }
 
 io::BagOptions searched_topics(const LiveArguments& arguments, const io::NameResolver& names) {
-  io::BagOptions topics = arguments.judging.input.bag;
+  io::BagOptions topics = arguments.session.input.bag;
   for (auto* const name : {&topics.depth_topic, &topics.camera_info_topic, &topics.color_topic})
     *name = resolved(names, *name);
   return topics;

@@ -49,11 +49,11 @@ void check_remaps(const io::NameResolver& names,
 }
 
 io::LiveOptions live_options(const LiveArguments& arguments, const io::NameResolver& names) {
-  const io::BagOptions& topics = arguments.judging.input.bag;
+  const io::BagOptions& topics = arguments.session.input.bag;
   io::LiveOptions options;
-  options.drift = arguments.judging.drift;
+  options.drift = arguments.session.drift;
   options.robot.robot.packages = topics.packages;
-  arguments.judging.input.apply_to(options.robot.robot);
+  arguments.session.input.apply_to(options.robot.robot);
   options.robot.compare_sources = !topics.first_publisher;
   if (topics.robot) options.robot.given = Robot::load(*topics.robot, options.robot.robot);
   options.poses = topics.poses.value_or(PoseSource::joints);

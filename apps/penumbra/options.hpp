@@ -127,7 +127,7 @@ struct BagHelp {
 };
 
 /// How run, tune, view and live judge frames: renderer, geometry, tolerance, labels.
-void add_judging(CLI::App& app, io::SessionOptions& judging,
+void add_session(CLI::App& app, io::SessionOptions& session,
                  const std::string& geometry_default = "the recording's, else collision");
 /// Which topics run, tune, view and live use, and values that they lack.
 void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help = {});

@@ -23,9 +23,9 @@ namespace {
 std::atomic<int> interrupted_by = 0;  // a signal's number
 
 /// Judges all frames, with a bar on the terminal.
-io::RunResult judge_all(io::InputSession& judging, io::RunOutput& output) {
-  Progress progress(judging.size().value_or(0));
-  return judging.run(output, [&] {
+io::RunResult judge_all(io::InputSession& session, io::RunOutput& output) {
+  Progress progress(session.size().value_or(0));
+  return session.run(output, [&] {
     progress.step();
     return !was_interrupted();
   });
@@ -34,7 +34,7 @@ io::RunResult judge_all(io::InputSession& judging, io::RunOutput& output) {
 /// Throws InputError if results would replace the input.
 void check_place(const RunArguments& arguments) {
   std::error_code error;
-  const std::filesystem::path input = std::filesystem::absolute(arguments.judging.input.path);
+  const std::filesystem::path input = std::filesystem::absolute(arguments.session.input.path);
   const std::filesystem::path& output = arguments.output.path;
   if (io::is_output_bag(output)) {
     if (std::filesystem::equivalent(output, input, error))
@@ -55,11 +55,11 @@ void check_place(const RunArguments& arguments) {
 }  // namespace
 
 std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
-                                           const io::InputSession& judging) {
-  const Pipeline& pipeline = judging.pipeline();
+                                           const io::InputSession& session) {
+  const Pipeline& pipeline = session.pipeline();
   const std::string& root = pipeline.robot().links().front();
   if (io::is_output_bag(options.path))
-    return std::make_unique<io::OutputBag>(options.path, judging.camera(), root);
+    return std::make_unique<io::OutputBag>(options.path, session.camera(), root);
   if (!options.points_frame.empty() && !pipeline.robot().find_link(options.points_frame))
     throw InputError("--points-frame: no link '" + options.points_frame + "'; the root is '" +
                      root + "', and `penumbra inspect URDF` lists the others");
@@ -88,17 +88,17 @@ int execute(const RunArguments& arguments) {
   check_place(arguments);
   const std::filesystem::path& path = arguments.output.path;
   std::vector<NamedCamera> cameras = arguments.cameras;
-  if (cameras.empty() && arguments.judging.input.camera.empty())
-    for (const std::string& name : io::cameras_of(arguments.judging.input.path))
+  if (cameras.empty() && arguments.session.input.camera.empty())
+    for (const std::string& name : io::cameras_of(arguments.session.input.path))
       cameras.push_back({name, {}});
   if (!cameras.empty()) return run_cameras(arguments, cameras);
   if (!io::is_output_bag(path)) io::check_output_folder(arguments.output);
-  io::InputSession judging(arguments.judging, print_line);
-  const auto output = open_output(arguments.output, judging);
+  io::InputSession session(arguments.session, print_line);
+  const auto output = open_output(arguments.output, session);
   catch_interrupts();
-  output->begin(judging.head());
-  const io::RunResult result = judge_all(judging, *output);
-  print_result(result, judging.pipeline().robot(),
+  output->begin(session.head());
+  const io::RunResult result = judge_all(session, *output);
+  print_result(result, session.pipeline().robot(),
                io::is_output_bag(path) ? "results: " + path.string()
                                        : "report: " + (path / "report.json").string());
   return status_of(result, arguments.output.force);

@@ -22,11 +22,11 @@
 namespace penumbra::app {
 namespace {
 
-/// One camera's run. Its results stay with its judging.
+/// One camera's run. Its results stay with its session.
 struct CameraTask {
   std::string name;
   RunArguments arguments;
-  std::optional<io::InputSession> judging = {};
+  std::optional<io::InputSession> session = {};
   std::optional<io::CameraRun> views = {};
   io::RunResult result = {};
   std::exception_ptr fault = {};
@@ -34,25 +34,25 @@ struct CameraTask {
 
 RunArguments arguments_of(const RunArguments& all, const NamedCamera& camera, int threads) {
   RunArguments one = all;
-  io::InputOptions& input = one.judging.input;
+  io::InputOptions& input = one.session.input;
   if (camera.depth_topic.empty()) {
     input.camera = camera.name;
   } else {
     input.bag.depth_topic = camera.depth_topic;
     input.bag_option = "--camera NAME=TOPIC";
   }
-  one.judging.renderer.threads = 1;
+  one.session.renderer.threads = 1;
   one.output.path = all.output.path / camera.name;
   one.output.threads = threads;
   return one;
 }
 
 void judge(CameraTask& task, const std::function<bool()>& go_on) {
-  task.judging.emplace(task.arguments.judging, [](const std::string&) {});
-  const auto output = open_output(task.arguments.output, *task.judging);
-  io::ViewRecorder recorder(task.name, task.judging->pipeline(), *output);
-  recorder.begin(task.judging->head());
-  task.result = task.judging->run(recorder, go_on);
+  task.session.emplace(task.arguments.session, [](const std::string&) {});
+  const auto output = open_output(task.arguments.output, *task.session);
+  io::ViewRecorder recorder(task.name, task.session->pipeline(), *output);
+  recorder.begin(task.session->head());
+  task.result = task.session->run(recorder, go_on);
   task.views = recorder.run();
 }
 
@@ -132,12 +132,12 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
   int status = 0;
   for (CameraTask& task : tasks) {
     std::cout << "camera " << task.name << ":\n";
-    print_result(task.result, task.judging->pipeline().robot(),
+    print_result(task.result, task.session->pipeline().robot(),
                  "report: " + (task.arguments.output.path / "report.json").string());
     status = std::max(status, status_of(task.result, arguments.output.force));
     runs.push_back(std::move(*task.views));
   }
-  const io::CameraViews views = io::fuse_views(arguments.judging.input.path.string(), runs);
+  const io::CameraViews views = io::fuse_views(arguments.session.input.path.string(), runs);
   print_counts(io::counts_of(views), cameras.size());
   write(out / "views.json", io::views_json(views));
   if (arguments.output.report_page) write(out / "report.html", io::camera_views_page(views));

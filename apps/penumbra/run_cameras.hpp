@@ -18,7 +18,7 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
 
 /// Replaces earlier results: in a folder now, in a bag at the end.
 [[nodiscard]] std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
-                                                         const io::InputSession& judging);
+                                                         const io::InputSession& session);
 
 /// From now on the first Ctrl-C or SIGTERM only makes was_interrupted() true; a second one ends the
 /// program.

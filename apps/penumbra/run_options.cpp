@@ -36,23 +36,23 @@ void add_cameras(CLI::App& app, RunArguments& run) {
              const std::size_t middle = text.find('=');
              const std::string name = text.substr(0, middle);
              if (middle == std::string::npos) {
-               run.judging.input.camera = name;
+               run.session.input.camera = name;
                return;
              }
              add_camera(run.cameras, name, text.substr(middle + 1));
            });
 }
 
-void add_sequence(CLI::App& app, io::SessionOptions& judging) {
+void add_sequence(CLI::App& app, io::SessionOptions& session) {
   add_choice<ImageSpace>(
-      app, "--image", "raw (default): results fit the recorded images; or rectified", judging.image,
+      app, "--image", "raw (default): results fit the recorded images; or rectified", session.image,
       {{"raw", ImageSpace::raw}, {"rectified", ImageSpace::rectified}});
-  add_frames(app, judging.input.frames);
+  add_frames(app, session.input.frames);
   add_option(app, "--targets", "which targets to judge, or none; default: the recording's, if any",
              "YAML", [&](const std::string& text) {
                if (text.empty()) refuse_option("--targets", text, "a path, or none");
-               judging.no_targets = text == "none";
-               if (!judging.no_targets) judging.targets = text;
+               session.no_targets = text == "none";
+               if (!session.no_targets) session.targets = text;
              });
 }
 
@@ -116,15 +116,15 @@ void check_output_bag(const RunArguments& run) {
   if (!run.output.points_frame.empty()) refuse("--points-frame");
   if (run.output.report_page) refuse("--report");
   if (run.output.force) refuse("--force");
-  if (run.judging.image == ImageSpace::rectified) refuse("--image rectified");
+  if (run.session.image == ImageSpace::rectified) refuse("--image rectified");
 }
 
 /// Targets come from a file or from topics. Pixels in topics are those of the camera's images.
-void check_targets(const io::SessionOptions& judging) {
-  if (judging.input.bag.target_topics.empty()) return;
-  if (judging.targets || judging.no_targets)
+void check_targets(const io::SessionOptions& session) {
+  if (session.input.bag.target_topics.empty()) return;
+  if (session.targets || session.no_targets)
     throw InputError("--target-topic: --targets is given too; leave one of them out");
-  if (judging.image == ImageSpace::rectified)
+  if (session.image == ImageSpace::rectified)
     throw InputError(
         "--target-topic: its pixels are those of the camera's images; leave --image rectified out");
 }
@@ -137,10 +137,10 @@ void check_input(const CLI::App& app, io::InputOptions& input) {
 }
 
 /// Checks what run, tune and view have in common.
-void check_judging(const CLI::App& app, io::SessionOptions& judging) {
-  check_renderer(judging.backend, judging.renderer);
-  check_targets(judging);
-  check_input(app, judging.input);
+void check_session(const CLI::App& app, io::SessionOptions& session) {
+  check_renderer(session.backend, session.renderer);
+  check_targets(session);
+  check_input(app, session.input);
 }
 
 }  // namespace
@@ -205,10 +205,10 @@ void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
   for (std::size_t i = first; i < options.size(); ++i) options[i]->group(help.group);
 }
 
-void add_judging(CLI::App& app, io::SessionOptions& judging, const std::string& geometry_default) {
-  io::InputOptions& input = judging.input;
-  io::RuleOptions& rule = judging.rule;
-  add_renderer(app, judging.backend, judging.renderer);
+void add_session(CLI::App& app, io::SessionOptions& session, const std::string& geometry_default) {
+  io::InputOptions& input = session.input;
+  io::RuleOptions& rule = session.rule;
+  add_renderer(app, session.backend, session.renderer);
   add_geometry(app, input.geometry, geometry_default);
   add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
   add_extra(app, input.extra);
@@ -222,7 +222,7 @@ void add_judging(CLI::App& app, io::SessionOptions& judging, const std::string& 
              });
   add_option(app, "--drift-limits",
              "how far a camera may be from its calibration without a note; default 2,0.1",
-             "MM,DEGREES", [&](const std::string& text) { judging.drift = to_drift_limits(text); });
+             "MM,DEGREES", [&](const std::string& text) { session.drift = to_drift_limits(text); });
   add_choice<bool>(app, "--labels",
                    "full (default), or paper: constant 0.01 m, no clean-up, no fringe, no beyond; "
                    "--tolerance and the other settings override",
@@ -231,13 +231,13 @@ void add_judging(CLI::App& app, io::SessionOptions& judging, const std::string& 
 
 void add_tune(CLI::App& app, TuneArguments& tune) {
   app.footer(tune_examples);
-  add_input(app, tune.judging.input);
+  add_input(app, tune.session.input);
   add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", tune.output)
       ->required();
   app.add_flag("--force", tune.force, "advise although the setup looks wrong");
-  add_judging(app, tune.judging);
-  add_frames(app, tune.judging.input.frames);
-  add_bag(app, tune.judging.input.bag);
+  add_session(app, tune.session);
+  add_frames(app, tune.session.input.frames);
+  add_bag(app, tune.session.input.bag);
 }
 
 void add_calibrate(CLI::App& app, CalibrateArguments& calibrate) {
@@ -289,21 +289,21 @@ void add_view_planning(CLI::App& app, ViewPlanningArguments& planning) {
 
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
-  add_path(app, run.judging.input);
+  add_path(app, run.session.input);
   add_cameras(app, run);
   add_text(app, "-o,--output",
            "folder for the results, made if need be; or *.mcap: a bag of results", "OUT",
            run.output.path)
       ->required();
-  add_judging(app, run.judging);
+  add_session(app, run.session);
   app.get_option("--threads")
       ->description(
           "threads of the cpu renderer, default 1, and of those that write images, default one per "
           "core; results do not depend on it");
-  add_sequence(app, run.judging);
+  add_sequence(app, run.session);
   add_number(app, "--fps",
              "frames per second of a recording without stamps: frame i gets the stamp i / N s", "N",
-             run.judging.input.fps, 0.001, 1000.0);
+             run.session.input.fps, 0.001, 1000.0);
   add_option(app, "--save",
              "what to write for each frame: of vdi,labels,links,overlay, and without the robot "
              "filtered (depth) and points (PCD and PLY)",
@@ -316,14 +316,14 @@ void add_run(CLI::App& app, RunArguments& run) {
       "--force", run.output.force,
       "write into a folder that holds files and no report.json of penumbra; and exit with 0 "
       "although the images do not show the robot where the setup says");
-  add_bag(app, run.judging.input.bag);
+  add_bag(app, run.session.input.bag);
 }
 
 void check_tune(const CLI::App& app, TuneArguments& tune) {
-  check_judging(app, tune.judging);
-  tune.judging.input.with_color = true;  // for the picture
-  tune.judging.no_targets = true;
-  tune.judging.image = ImageSpace::rectified;  // tuning takes a pinhole camera's images
+  check_session(app, tune.session);
+  tune.session.input.with_color = true;  // for the picture
+  tune.session.no_targets = true;
+  tune.session.image = ImageSpace::rectified;  // tuning takes a pinhole camera's images
 }
 
 void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate) {
@@ -340,32 +340,32 @@ void check_view_planning(const CLI::App& app, ViewPlanningArguments& planning) {
 }
 
 void check_run(const CLI::App& app, RunArguments& run) {
-  check_judging(app, run.judging);
+  check_session(app, run.session);
   const io::Saves& saves = run.output.saves;
   const bool is_bag = io::is_output_bag(run.output.path);
   if (is_bag) check_output_bag(run);
   if (!run.output.points_frame.empty() && !saves.points)
     throw InputError("--points-frame: no points are saved; add --save points, or leave it out");
-  if (app.get_option("--threads")->count() > 0) run.output.threads = run.judging.renderer.threads;
-  run.judging.input.with_color = is_bag || saves.overlay || saves.points || run.output.report_page;
+  if (app.get_option("--threads")->count() > 0) run.output.threads = run.session.renderer.threads;
+  run.session.input.with_color = is_bag || saves.overlay || saves.points || run.output.report_page;
 }
 
 void add_view(CLI::App& app, ViewArguments& view) {
   app.footer(view_examples);
   add_text(app, "INPUT",
            "a recording folder or its recording.yaml, a bag of ROS 2, or a folder that run wrote",
-           "", view.judging.input.path)
+           "", view.session.input.path)
       ->required();
   add_server(app, view.server,
              "where the page is served; 0: any that is free; default 8470, or the next free one");
-  add_judging(app, view.judging);
-  add_sequence(app, view.judging);
-  add_bag(app, view.judging.input.bag);
+  add_session(app, view.session);
+  add_sequence(app, view.session);
+  add_bag(app, view.session.input.bag);
 }
 
 void check_view(const CLI::App& app, ViewArguments& view) {
-  check_judging(app, view.judging);
-  view.judging.input.with_color = true;
+  check_session(app, view.session);
+  view.session.input.with_color = true;
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();
     if (option->count() > 0 && name != "INPUT" && name != "--port" && name != "--address")

@@ -87,7 +87,7 @@ void print_measured(const Tuning& tuning, std::size_t frames, const Robot& robot
 void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& extras,
                     const TuneArguments& arguments) {
   const fs::path& folder = arguments.output;
-  const fs::path& input = arguments.judging.input.path;
+  const fs::path& input = arguments.session.input.path;
   const fs::path recording = fs::is_directory(input) ? input : input.parent_path();
   const Tolerance& e = tuning.rule.tolerance;
   const std::string a = short_number(e.a), c = short_number(e.c);
@@ -109,12 +109,12 @@ void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& e
 
 int execute(const TuneArguments& arguments) {
   const fs::path& folder = arguments.output;
-  io::InputSession judging(arguments.judging, print_line);
-  const Pipeline& pipeline = judging.pipeline();
+  io::InputSession session(arguments.session, print_line);
+  const Pipeline& pipeline = session.pipeline();
   KeptFrames kept(pipeline.rule().range);
   {
-    Progress progress(judging.size().value_or(0));
-    const io::RunResult result = judging.run(kept, [&] {
+    Progress progress(session.size().value_or(0));
+    const io::RunResult result = session.run(kept, [&] {
       progress.step();
       return true;
     });
@@ -125,7 +125,7 @@ int execute(const TuneArguments& arguments) {
     const Diagnosis& wrong = result.statistics.diagnosis();
     if (!wrong.message.empty() && !arguments.force)
       throw InputError(
-          arguments.judging.input.path.string() + ": not tuned: " + wrong.message +
+          arguments.session.input.path.string() + ": not tuned: " + wrong.message +
           "; tolerances and parts measured before that is mended would hide it (--force "
           "measures them)");
   }

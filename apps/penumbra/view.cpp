@@ -114,19 +114,19 @@ ViewSource::ViewSource(const ViewArguments& arguments, std::vector<std::string> 
                        const std::string& camera)
     : cameras_(std::move(cameras)) {
   ViewArguments own = arguments;
-  io::InputOptions& input = own.judging.input;
+  io::InputOptions& input = own.session.input;
   if (!cameras_.empty()) {
     if (has_views(input.path))
       input.path /= camera;
     else
       input.camera = camera;
-    own.judging.renderer.threads = 1;
+    own.session.renderer.threads = 1;
   }
   check_is_something(input.path);
   if (is_run_folder(input.path))
     open_run(own);
   else
-    open_input(own.judging, camera);
+    open_input(own.session, camera);
 }
 
 ViewSource::~ViewSource() {
@@ -152,7 +152,7 @@ void ViewSource::open_input(const io::SessionOptions& options, const std::string
 }
 
 void ViewSource::open_run(const ViewArguments& arguments) {
-  const fs::path& named = arguments.judging.input.path;
+  const fs::path& named = arguments.session.input.path;
   const fs::path folder = named.filename() == report_name ? named.parent_path() : named;
   if (!arguments.judging_option.empty())
     throw InputError(arguments.judging_option + ": " + folder.string() +
@@ -229,7 +229,7 @@ io::SharedBytes views_of(const io::InputOptions& input, const ViewSources& sourc
 
 int execute(const ViewArguments& arguments) {
   StopSignal stop;
-  const io::InputOptions& input = arguments.judging.input;
+  const io::InputOptions& input = arguments.session.input;
   const std::vector<std::string> cameras = cameras_of(input);
   ViewSources sources;
   std::vector<io::CameraPage> pages;

@@ -39,16 +39,14 @@ struct CameraSetup {
   TargetInbox targets;
 };
 
-/// A frame whose images are not decoded yet: DepthInput does that.
-struct AssembledFrame {
+/// A frame whose images are not decoded yet: DepthInput does that. Its index is the number of the
+/// camera's depth message, from 0. A source_message says why the image must not be used.
+struct AssembledFrame : Frame {
   std::shared_ptr<CameraSetup> setup;
-  /// Its index is the number of the camera's depth message, from 0. A source_message says why the
-  /// image must not be used.
-  Frame frame;
   KeptImage image;
-  std::optional<KeptImage> color;  ///< if it was requested and received
-  std::int64_t arrived = 0;        ///< on the caller's clock
-  TransformAnswer T_judged_depth;  ///< if the setup has a separate depth camera
+  std::optional<KeptImage> color_image;  ///< if it was requested and received
+  std::int64_t arrived = 0;              ///< on the caller's clock
+  TransformAnswer T_judged_depth;        ///< if the setup has a separate depth camera
 };
 
 }  // namespace penumbra::io

@@ -41,7 +41,8 @@ BagSource::BagSource(const std::filesystem::path& bag, const Robot& robot, BagSo
                   .compare_sources = options_.compare_sources,
                   .static_transforms = options_.static_transforms},
                  {camera_options(options_)}),
-      depth_(options_.camera.cameras) {
+      decoders_{Decoder{DepthInput(options_.camera.cameras)},
+                Decoder{DepthInput(options_.camera.cameras)}} {
   check_range();
 }
 
@@ -64,8 +65,10 @@ bool BagSource::is_in_range(std::int64_t image) const {
 }
 
 bool BagSource::next(Frame& frame) {
-  current_ = {};
-  while (!assembler_.next(0, now_, options_.with_color, current_)) {
+  turn_ = 1 - turn_;
+  auto& [depth, current, color] = decoders_[turn_];
+  current = {};
+  while (!assembler_.next(0, now_, options_.with_color, current)) {
     if (!ended_) {
       read_message();
       continue;
@@ -75,15 +78,15 @@ bool BagSource::next(Frame& frame) {
                      " depth images is in the range; change --frames");
   }
   given_ = true;
-  if (const auto fault = depth_.read(current_); !fault.empty())
-    assembler_.add_fault(options_.topics.depth.name, current_.arrived, fault);
-  frame = std::move(current_.frame);
+  if (const auto fault = depth.read(current); !fault.empty())
+    assembler_.add_fault(options_.topics.depth.name, current.arrived, fault);
+  frame = std::move(static_cast<Frame&>(current));
   *frame.index += static_cast<std::size_t>(options_.first.value_or(0));
   if (options_.topics.color && options_.with_color) {
-    frame.color_message =
-        current_.color ? decode_color(*current_.color, options_.camera.cameras.judged, color_)
-                       : ColorImages::none_near;
-    if (frame.color_message.empty()) frame.color = std::as_const(color_).view();
+    frame.color_message = current.color_image ? decode_color(*current.color_image,
+                                                             options_.camera.cameras.judged, color)
+                                              : ColorImages::none_near;
+    if (frame.color_message.empty()) frame.color = std::as_const(color).view();
   }
   assembler_.done(0, true);
   return true;

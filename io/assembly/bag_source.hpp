@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -44,6 +45,13 @@ class BagSource final : public FrameSource {
   [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:
+  /// What the images of a frame refer to.
+  struct Decoder {
+    DepthInput depth;
+    AssembledFrame current = {};
+    Image<Rgb8> color = {};
+  };
+
   void check_range();
   void read_message();
   [[nodiscard]] const std::optional<std::size_t>& input_of(std::size_t topic);
@@ -53,10 +61,9 @@ class BagSource final : public FrameSource {
   std::unique_ptr<BagReader> bag_;
   std::string name_;
   FrameAssembler assembler_;
-  DepthInput depth_;
   std::vector<std::optional<std::size_t>> inputs_;  // the assembler's topic of each of the bag's
-  AssembledFrame current_;                          // whose image the caller's frame refers to
-  Image<Rgb8> color_;                               // likewise
+  std::array<Decoder, 2> decoders_;                 // in turns
+  std::size_t turn_ = 0;
   std::optional<std::size_t> size_;
   std::int64_t images_ = 0;  // number read so far
   std::int64_t now_ = 0;     // current log time

@@ -54,15 +54,16 @@ void CameraInput::take_depth(KeptImage image, std::int64_t now) {
   const std::int64_t stamp = image.header().stamp;
   const std::string frame = image.header().frame_id;
   infos_.add_image(stamp);
-  Waiting waiting;
-  waiting.frame.index = index;
-  waiting.image = std::move(image);
-  waiting.arrived = now;
+  const auto waiting = std::make_shared<AssembledFrame>();
+  waiting->index = index;
+  waiting->stamp = stamp;
+  waiting->image = std::move(image);
+  waiting->arrived = now;
   if (is_lossless()) {
     color_infos_.add_image(stamp);
     if (frame_name(frame) != frame_name(depth_frame_))
-      waiting.frame.source_message = "the depth image is of the frame '" + printable(frame) +
-                                     "', the first one of '" + printable(depth_frame_) + "'";
+      waiting->source_message = "the depth image is of the frame '" + printable(frame) +
+                                "', the first one of '" + printable(depth_frame_) + "'";
   } else {
     note_arrival(now);
     depth_frame_ = frame;
@@ -70,18 +71,17 @@ void CameraInput::take_depth(KeptImage image, std::int64_t now) {
     if (!setup_) return drop(DropReason::not_ready);
     if (stamp < valid_from_) return drop(DropReason::changed);
   }
-  queued_.emplace(index, std::move(waiting));
-  setup_->queue.push(index, stamp, now);
+  setup_->queue.push(waiting, now);
 }
 
 void CameraInput::take_unreadable(const std::string& fault, std::int64_t now) {
   const std::uint64_t index = counts_.received++;
   if (!is_lossless()) return drop(DropReason::unreadable);
-  Waiting waiting;
-  waiting.frame.index = index;
-  waiting.frame.source_message = fault;
-  waiting.arrived = now;
-  hold_without_pose(std::move(waiting), "the depth image's message cannot be read");
+  const auto waiting = std::make_shared<AssembledFrame>();
+  waiting->index = index;
+  waiting->source_message = fault;
+  waiting->arrived = now;
+  hold_without_pose(waiting, "the depth image's message cannot be read");
 }
 
 bool CameraInput::take_info(const CameraInfoMessage& info) {
@@ -144,10 +144,9 @@ void CameraInput::refresh() {
 }
 
 void CameraInput::replace_setup(std::shared_ptr<CameraSetup> setup) {
-  drop(DropReason::changed, queued_.size() + held_.size());
-  queued_.clear();
-  held_.clear();
   if (setup_) {
+    drop(DropReason::changed, setup_->queue.waiting() + held_.size());
+    held_.clear();
     targets_.replaced += setup_->targets.replaced();
     targets_.discarded += setup_->targets.discarded() + setup_->targets.waiting();
   }
@@ -178,10 +177,11 @@ std::shared_ptr<CameraSetup> CameraInput::make_setup(JudgedCameras cameras, Came
                                           .frame_prefix = options_.mount.frame_prefix,
                                           .camera_parent = mount.parent,
                                           .camera_frame = mount.frame}};
-  const auto on_drop = [this](const DroppedFrame& frame) {
-    if (is_lossless()) return dropped_.push_back(frame);
-    queued_.erase(frame.key);
-    drop(frame.reason);
+  const auto on_drop = [this](const std::shared_ptr<Frame>& frame, DropReason reason) {
+    if (is_lossless())
+      hold_without_pose(frame, why_dropped(reason));
+    else
+      drop(reason);
   };
   return std::make_shared<CameraSetup>(robot_.posed(), std::move(cameras), std::move(mount), queue,
                                        options_.hidden_targets, on_drop);
@@ -205,44 +205,36 @@ void CameraInput::finish() {
   if (setup_) setup_->queue.finish();
 }
 
-void CameraInput::hold_without_pose(Waiting waiting, const std::string& why) {
-  if (!waiting.image.is_empty() && waiting.image.header().stamp > 0)
-    waiting.frame.stamp = waiting.image.header().stamp;
-  waiting.frame.pose.status = options_.poses == PoseSource::transforms
-                                  ? FrameStatus::missing_transform
-                                  : FrameStatus::missing_joints;
-  waiting.frame.pose.message = why;
-  held_.push_back(std::move(waiting));
+void CameraInput::hold(const std::shared_ptr<Frame>& frame) {
+  held_.push_back(std::static_pointer_cast<AssembledFrame>(frame));
+}
+
+void CameraInput::hold_without_pose(const std::shared_ptr<Frame>& frame, const std::string& why) {
+  if (frame->stamp.value_or(0) <= 0) frame->stamp.reset();
+  frame->pose = {.status = options_.poses == PoseSource::transforms ? FrameStatus::missing_transform
+                                                                    : FrameStatus::missing_joints,
+                 .message = why};
+  hold(frame);
 }
 
 void CameraInput::collect(std::int64_t now) {
-  const auto take_queued = [this](std::uint64_t index) {
-    return std::move(queued_.extract(index).mapped());
-  };
-  Frame posed;
-  while (const auto index = setup_ ? setup_->queue.next(now, posed) : std::nullopt) {
-    Waiting& held = held_.emplace_back(take_queued(*index));
-    held.frame.stamp = posed.stamp;
-    held.frame.pose = std::move(posed.pose);
-  }
-  for (const DroppedFrame& frame : std::exchange(dropped_, {}))
-    hold_without_pose(take_queued(frame.key), why_dropped(frame.reason));
+  while (const auto frame = setup_ ? setup_->queue.next(now) : nullptr) hold(frame);
   if (is_lossless()) return;
   for (; held_.size() > options_.max_frames; held_.pop_front()) drop(DropReason::overflow);
 }
 
-CameraInput::InfoState CameraInput::find_info(const Waiting& waiting, std::int64_t now) {
-  const std::int64_t stamp = waiting.frame.stamp.value_or(0);
+CameraInput::InfoState CameraInput::find_info(const AssembledFrame& frame, std::int64_t now) {
+  const std::int64_t stamp = frame.stamp.value_or(0);
   if (!infos_.are_likely() || infos_.covers(stamp)) return InfoState::known;
-  if (!finished_ && now - waiting.arrived < newest_companion_wait) return InfoState::awaited;
+  if (!finished_ && now - frame.arrived < newest_companion_wait) return InfoState::awaited;
   if (infos_.are_certain()) return InfoState::missing;
   infos_.note_missing();
   return InfoState::known;
 }
 
-bool CameraInput::find_newest(std::int64_t now, Waiting& found) {
+bool CameraInput::find_newest(std::int64_t now, AssembledFrame& found) {
   for (std::size_t i = held_.size(); i-- > 0;) {
-    const InfoState state = find_info(held_[i], now);
+    const InfoState state = find_info(*held_[i], now);
     if (state == InfoState::awaited) continue;
     const auto place = held_.begin() + static_cast<std::ptrdiff_t>(i);
     if (state == InfoState::missing) {
@@ -253,29 +245,29 @@ bool CameraInput::find_newest(std::int64_t now, Waiting& found) {
     }
     without_info_ = 0;
     drop(DropReason::superseded, i);
-    found = std::move(*place);
+    found = std::move(**place);
     held_.erase(held_.begin(), place + 1);
     return true;
   }
   return false;
 }
 
-bool CameraInput::awaits_companions(const Waiting& waiting, std::int64_t now,
+bool CameraInput::awaits_companions(const AssembledFrame& frame, std::int64_t now,
                                     bool with_color) const {
-  if (finished_ || waiting.image.is_empty() || held_.size() >= options_.max_frames ||
-      stamp_distance(now, waiting.arrived) > std::uint64_t{every_companion_wait})
+  if (finished_ || frame.image.is_empty() || held_.size() >= options_.max_frames ||
+      stamp_distance(now, frame.arrived) > std::uint64_t{every_companion_wait})
     return false;
-  const std::int64_t stamp = waiting.frame.stamp.value_or(0);
+  const std::int64_t stamp = frame.stamp.value_or(0);
   const bool has_info = infos_.are_certain() ? infos_.covers(stamp) : infos_.reaches(stamp);
   const bool has_color_info = options_.color_info_topic.empty() || color_infos_.reaches(stamp);
   const bool has_color = !with_color || options_.color_topic.empty() || colors_.reaches(stamp);
   return !has_info || !has_color_info || !has_color;
 }
 
-std::string CameraInput::fault_of(const Waiting& waiting) const {
-  const std::string& known = waiting.frame.source_message;
+std::string CameraInput::fault_of(const AssembledFrame& frame) const {
+  const std::string& known = frame.source_message;
   if (!is_lossless() || !known.empty()) return known;
-  const std::int64_t stamp = waiting.frame.stamp.value_or(0);
+  const std::int64_t stamp = frame.stamp.value_or(0);
   if (infos_.are_certain() && stamp > 0 && !infos_.covers(stamp))
     return "its camera_info is missing, although other images have one: it may be another camera's";
   if (infos_.differs(stamp) || color_infos_.differs(stamp))
@@ -283,11 +275,11 @@ std::string CameraInput::fault_of(const Waiting& waiting) const {
   return {};
 }
 
-bool CameraInput::find_next(std::int64_t now, bool with_color, Waiting& found) {
+bool CameraInput::find_next(std::int64_t now, bool with_color, AssembledFrame& found) {
   collect(now);
   if (!is_lossless()) return find_newest(now, found);
-  if (held_.empty() || awaits_companions(held_.front(), now, with_color)) return false;
-  found = std::move(held_.front());
+  if (held_.empty() || awaits_companions(*held_.front(), now, with_color)) return false;
+  found = std::move(*held_.front());
   held_.pop_front();
   return true;
 }
@@ -295,16 +287,15 @@ bool CameraInput::find_next(std::int64_t now, bool with_color, Waiting& found) {
 bool CameraInput::next(std::int64_t now, bool with_color, AssembledFrame& next) {
   if (!find_next(now, with_color, next)) return false;
   next.setup = setup_;
-  Frame& frame = next.frame;
-  frame.source_message = fault_of(next);
-  frame.targets = setup_->targets.take();
-  const std::int64_t stamp = frame.stamp.value_or(0);
-  if (setup_->cameras.depth && has_pose(frame.pose.status))
+  next.source_message = fault_of(next);
+  next.targets = setup_->targets.take();
+  const std::int64_t stamp = next.stamp.value_or(0);
+  if (setup_->cameras.depth && has_pose(next.pose.status))
     setup_->posed->history.transforms().at(setup_->queue.pose_stamp(stamp),
                                            setup_->cameras.judged.frame_id, depth_frame_,
                                            next.T_judged_depth);
   if (const KeptImage* const color = with_color ? colors_.find(stamp) : nullptr)
-    next.color = *color;
+    next.color_image = *color;
   colors_.forget_before(stamp);
   ++counts_.in_work;
   return true;
@@ -321,7 +312,7 @@ std::optional<std::int64_t> CameraInput::wake_at() const {
   if (setup_) first = setup_->queue.wake_at();
   if (!held_.empty()) {
     const std::int64_t alone =
-        held_.front().arrived + (is_lossless() ? every_companion_wait : newest_companion_wait);
+        held_.front()->arrived + (is_lossless() ? every_companion_wait : newest_companion_wait);
     first = std::min(first.value_or(alone), alone);
   }
   return first;
@@ -343,7 +334,7 @@ UnjudgedTargets CameraInput::targets() const {
 
 ImageCounts CameraInput::counts() const {
   ImageCounts counts = counts_;
-  counts.waiting = queued_.size() + held_.size();
+  counts.waiting = (setup_ ? setup_->queue.waiting() : 0) + held_.size();
   return counts;
 }
 

@@ -5,12 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/poses/pose_lookup.hpp>
@@ -127,8 +125,6 @@ class CameraInput {
   [[nodiscard]] UnjudgedTargets targets() const;
 
  private:
-  /// An image that waits for its pose, then, with its pose, for its camera_info.
-  using Waiting = AssembledFrame;
   /// The state of an image's own camera_info if the driver sends one with each image.
   enum class InfoState { known, awaited, missing };
   /// The inputs of a setup.
@@ -148,14 +144,15 @@ class CameraInput {
   void drop(DropReason reason, std::size_t images = 1) {
     counts_.dropped[static_cast<std::size_t>(reason)] += images;
   }
-  void hold_without_pose(Waiting waiting, const std::string& why);
+  void hold(const std::shared_ptr<Frame>& frame);
+  void hold_without_pose(const std::shared_ptr<Frame>& frame, const std::string& why);
   void collect(std::int64_t now);
-  [[nodiscard]] bool find_next(std::int64_t now, bool with_color, Waiting& found);
-  [[nodiscard]] bool find_newest(std::int64_t now, Waiting& found);
-  [[nodiscard]] InfoState find_info(const Waiting& waiting, std::int64_t now);
-  [[nodiscard]] bool awaits_companions(const Waiting& waiting, std::int64_t now,
+  [[nodiscard]] bool find_next(std::int64_t now, bool with_color, AssembledFrame& found);
+  [[nodiscard]] bool find_newest(std::int64_t now, AssembledFrame& found);
+  [[nodiscard]] InfoState find_info(const AssembledFrame& frame, std::int64_t now);
+  [[nodiscard]] bool awaits_companions(const AssembledFrame& frame, std::int64_t now,
                                        bool with_color) const;
-  [[nodiscard]] std::string fault_of(const Waiting& waiting) const;
+  [[nodiscard]] std::string fault_of(const AssembledFrame& frame) const;
 
   CameraInputOptions options_;
   const RobotInput& robot_;
@@ -170,9 +167,7 @@ class CameraInput {
   CameraInfos infos_, color_infos_;
   std::size_t without_info_ = 0;
   std::string depth_frame_;
-  std::map<std::uint64_t, Waiting> queued_;  // those in the setup's queue, by index
-  std::vector<DroppedFrame> dropped_;        // by the queue, to be given out nevertheless
-  std::deque<Waiting> held_;                 // those whose pose is decided
+  std::deque<std::shared_ptr<AssembledFrame>> held_;  // those whose pose is decided
   bool finished_ = false;
   ColorImages colors_;
   ImageCounts counts_;

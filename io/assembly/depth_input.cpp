@@ -22,14 +22,13 @@ DepthInput::DepthInput(const JudgedCameras& cameras) {
 }
 
 std::string DepthInput::read(AssembledFrame& job) {
-  Frame& frame = job.frame;
   std::string undecoded;
-  std::string& fault = frame.source_message;
-  if (fault.empty()) fault = undecoded = decode(job.image, frame.depth.view);
-  if (fault.empty()) fault = bring(job, frame.depth.view);
+  std::string& fault = job.source_message;
+  if (fault.empty()) fault = undecoded = decode(job.image, job.depth.view);
+  if (fault.empty()) fault = bring(job, job.depth.view);
   if (!fault.empty()) {
-    frame.source_status = FrameStatus::bad_depth;
-    frame.depth = empty_;
+    job.source_status = FrameStatus::bad_depth;
+    job.depth = empty_;
   }
   return undecoded;
 }
@@ -50,7 +49,7 @@ std::string DepthInput::bring(const AssembledFrame& from, DepthView& depth) {
     return "the depth image is " + size_text(width, height) + ", the camera " +
            size_text(width_, height_);
   if (!registration_) return {};
-  if (!has_pose(from.frame.pose.status)) {
+  if (!has_pose(from.pose.status)) {
     depth = empty_;  // the depth camera's position is not known
     return {};
   }

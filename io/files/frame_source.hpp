@@ -18,7 +18,8 @@ class FrameSource {
   FrameSource& operator=(const FrameSource&) = delete;
   virtual ~FrameSource() = default;
 
-  /// Reads the next frame. Returns false at the end.
+  /// Reads the next frame. Returns false at the end. Images without an owner are valid until the
+  /// call after the next one, so that one frame can be read ahead.
   virtual bool next(Frame& frame) = 0;
 
   /// Returns the number of frames, if it is known before the end.

@@ -172,7 +172,7 @@ void LiveRunner::work(std::size_t camera) {
         fusion_->add(camera, outcome.views, job.setup->posed->robot.links().front());
       const std::int64_t now = steady_now(), system = system_now();
       job.image = {};
-      job.color.reset();
+      job.color_image.reset();
       lock.lock();
       if (outcome.find_warnings) {
         pending_warnings_.push_back({camera, job.setup, std::exchange(outcome.find_warnings, {})});

@@ -43,24 +43,23 @@ bool LiveWorker::follow(const std::shared_ptr<CameraSetup>& setup) {
 
 LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatcher* watcher) {
   LiveOutcome outcome;
-  outcome.stamp = job.frame.stamp.value_or(0);
+  outcome.stamp = job.stamp.value_or(0);
   outcome.arrived = job.arrived;
   if (!follow(job.setup)) {
     outcome.fault = fault_;
-    outcome.unjudged_targets = job.frame.targets.size();
+    outcome.unjudged_targets = job.targets.size();
     return outcome;
   }
   static_cast<void>(tools_->depth.read(job));
-  Frame& frame = job.frame;
-  frame.index = judged_++;
+  job.index = judged_++;
   Session& session = tools_->session;
   const Pipeline& pipeline = session.pipeline();
-  const FrameReport& report = session.process(frame);
+  const FrameReport& report = session.process(job);
   show_color(job, sink.wants(Result::overlay));
-  tools_->encoder.encode(report, {frame.depth.view, std::as_const(color_).view()},
-                         {frame.targets, pipeline.robot(), job.setup->cameras.judged}, sink);
+  tools_->encoder.encode(report, {job.depth.view, std::as_const(color_).view()},
+                         {job.targets, pipeline.robot(), job.setup->cameras.judged}, sink);
   outcome.drift = session.drift();
-  if (watcher != nullptr) watcher->take(job, frame.depth.view, report, outcome.drift);
+  if (watcher != nullptr) watcher->take(job, job.depth.view, report, outcome.drift);
   outcome.is_published = true;
   outcome.views = views_of({{}, pipeline.intrinsics(), pipeline.rule().tolerance}, report);
   outcome.status = report.status;
@@ -84,8 +83,8 @@ void LiveWorker::find_warnings(std::int64_t now, LiveOutcome& outcome) {
 }
 
 void LiveWorker::show_color(const AssembledFrame& job, bool wanted) {
-  const bool shown =
-      wanted && job.color && decode_color(*job.color, job.setup->cameras.judged, color_).empty();
+  const bool shown = wanted && job.color_image &&
+                     decode_color(*job.color_image, job.setup->cameras.judged, color_).empty();
   if (!shown) color_ = {};
 }
 

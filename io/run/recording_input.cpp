@@ -12,6 +12,7 @@
 #include <io/bag/bag_reader.hpp>
 #include <io/files/frame_reader.hpp>
 #include <io/files/names.hpp>
+#include <io/run/read_ahead.hpp>
 #include <io/run/run_input.hpp>
 
 namespace penumbra::io {
@@ -132,6 +133,17 @@ RunInput open_recording_input(const InputOptions& options) {
           }};
 }
 
+RunInput open_folder_or_bag(const InputOptions& options, const LineSink& print) {
+  if (!is_bag(options.path)) return open_recording_input(options);
+  if (!options.camera.empty())
+    throw InputError(
+        "--camera: is for recording folders; choose a bag's by --depth-topic, or "
+        "several by --camera NAME=TOPIC");
+  if (options.fps)
+    throw InputError("--fps: is for recording folders; the messages of a bag have stamps");
+  return open_bag_input(options, print);
+}
+
 }  // namespace
 
 void InputOptions::apply_to(RobotOptions& robot, const std::string& name) const {
@@ -149,14 +161,11 @@ std::vector<std::string> cameras_of(const std::filesystem::path& input) {
 }
 
 RunInput open_input(const InputOptions& options, const LineSink& print) {
-  if (!is_bag(options.path)) return open_recording_input(options);
-  if (!options.camera.empty())
-    throw InputError(
-        "--camera: is for recording folders; choose a bag's by --depth-topic, or "
-        "several by --camera NAME=TOPIC");
-  if (options.fps)
-    throw InputError("--fps: is for recording folders; the messages of a bag have stamps");
-  return open_bag_input(options, print);
+  RunInput input = open_folder_or_bag(options, print);
+  input.frames = [open = std::move(input.frames)](const Robot& robot) {
+    return std::make_unique<ReadAhead>(open(robot));
+  };
+  return input;
 }
 
 }  // namespace penumbra::io

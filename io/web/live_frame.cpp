@@ -51,7 +51,7 @@ LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFram
     : scene_(std::move(scene)),
       kept_(kept),
       index_(report.index),
-      stamp_(job.frame.stamp.value_or(0)),
+      stamp_(job.stamp.value_or(0)),
       report_(report_frame(report)),
       T_root_camera_(report.T_root_camera),
       T_root_link_(report.T_root_link.begin(), report.T_root_link.end()) {
@@ -61,7 +61,7 @@ LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFram
   if (keeps(Part::vdi)) virtual_depth_ = part_of(report.virtual_depth.depth, "f32");
   if (keeps(Part::depth))
     std::visit([this](const auto& image) { raw_depth_ = copy_of(image); }, depth);
-  if (keeps(Part::color)) raw_color_ = job.color;
+  if (keeps(Part::color)) raw_color_ = job.color_image;
 }
 
 PacketFrame LiveFrame::packet_frame() const {

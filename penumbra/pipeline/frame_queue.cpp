@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -29,87 +30,76 @@ FrameQueue::FrameQueue(const Robot& robot, PoseHistory& history, const FrameQueu
       time_offset_(span_nanoseconds(options.time_offset, "frame queue: time_offset", -1e9)),
       max_wait_(span_nanoseconds(options.max_wait, "frame queue: max_wait")),
       lookup_(robot, options.poses),
-      on_drop_(std::move(on_drop)),
+      on_drop_(on_drop ? std::move(on_drop) : [](const auto&, DropReason) {}),
       epoch_(history.epoch()) {
   if (options_.max_frames == 0)
     throw InputError("frame queue: max_frames is 0; expected at least 1");
 }
 
-void FrameQueue::push(std::uint64_t key, std::int64_t stamp, std::int64_t now) {
+void FrameQueue::push(std::shared_ptr<Frame> frame, std::int64_t now) {
   follow(now);
-  ++counts_.pushed;
-  const Waiting frame{key, stamp, now, never_tried};
-  if (stamp <= 0) return drop(frame, DropReason::no_stamp);
+  const std::int64_t stamp = frame->stamp.value_or(0);
+  if (stamp <= 0) return on_drop_(std::move(frame), DropReason::no_stamp);
   if (newest_ && history_.note_stamp(stamp, *newest_, "depth images")) follow(now);
   newest_ = std::max(newest_.value_or(stamp), stamp);
   if (!first_) first_ = pose_stamp(stamp);
-  if (options_.policy == DropPolicy::every) {
-    if (waiting_.size() == options_.max_frames) return drop(frame, DropReason::overflow);
-    waiting_.push_back(frame);
-    return;
-  }
-  if (given_out_ && stamp <= *given_out_) return drop(frame, DropReason::late);
-  const auto later = [](std::int64_t wanted, const Waiting& other) { return wanted < other.stamp; };
-  waiting_.insert(std::upper_bound(waiting_.begin(), waiting_.end(), stamp, later), frame);
+  const bool every = options_.policy == DropPolicy::every;
+  if (every && waiting_.size() == options_.max_frames)
+    return on_drop_(std::move(frame), DropReason::overflow);
+  if (!every && given_out_ && stamp <= *given_out_)
+    return on_drop_(std::move(frame), DropReason::late);
+  const auto later = [](std::int64_t wanted, const Waiting& other) {
+    return wanted < *other.frame->stamp;
+  };
+  const auto place =
+      every ? waiting_.end() : std::upper_bound(waiting_.begin(), waiting_.end(), stamp, later);
+  waiting_.insert(place, {std::move(frame), now, never_tried});
   if (waiting_.size() <= options_.max_frames) return;
-  drop(waiting_.front(), DropReason::overflow);
+  on_drop_(std::move(waiting_.front().frame), DropReason::overflow);
   waiting_.erase(waiting_.begin());
 }
 
 void FrameQueue::follow(std::int64_t now) {
   now_ = now;
-  for (Waiting& frame : waiting_) frame.arrived = std::min(frame.arrived, now);
+  for (Waiting& waiting : waiting_) waiting.arrived = std::min(waiting.arrived, now);
   if (epoch_ == history_.epoch()) return;
   epoch_ = history_.epoch();
   newest_.reset();
   first_.reset();
   given_out_.reset();
-  for (const Waiting& frame : waiting_) drop(frame, DropReason::clock_jump);
+  for (Waiting& waiting : waiting_) on_drop_(std::move(waiting.frame), DropReason::clock_jump);
   waiting_.clear();
-}
-
-void FrameQueue::drop(const Waiting& frame, DropReason reason) {
-  ++counts_.dropped[static_cast<std::size_t>(reason)];
-  if (on_drop_) on_drop_({frame.key, frame.stamp, reason});
 }
 
 std::int64_t FrameQueue::pose_stamp(std::int64_t stamp) const {
   return stamp_after(stamp, time_offset_);
 }
 
-std::optional<std::uint64_t> FrameQueue::next(std::int64_t now, Frame& frame) {
+std::shared_ptr<Frame> FrameQueue::next(std::int64_t now) {
   follow(now);
-  const auto key = options_.policy == DropPolicy::every ? next_in_order(frame) : next_newest(frame);
-  if (!key) return key;
-  ++counts_.given_out;
-  if (!has_pose(frame.pose.status)) ++counts_.without_pose;
-  given_out_ = std::max(given_out_.value_or(*frame.stamp), *frame.stamp);
-  return key;
+  const auto found = find_next();
+  if (found == waiting_.end()) return nullptr;
+  for (auto before = waiting_.begin(); before != found; ++before)
+    on_drop_(std::move(before->frame), DropReason::superseded);
+  std::shared_ptr<Frame> frame = std::move(found->frame);
+  given_out_ = std::max(given_out_.value_or(*frame->stamp), *frame->stamp);
+  waiting_.erase(waiting_.begin(), found + 1);
+  return frame;
 }
 
-std::optional<std::uint64_t> FrameQueue::next_in_order(Frame& out) {
-  if (waiting_.empty() || !decide(waiting_.front(), out)) return std::nullopt;
-  const std::uint64_t key = waiting_.front().key;
-  waiting_.erase(waiting_.begin());
-  return key;
+/// Returns the first frame (every) or the newest one whose pose is decided.
+std::vector<FrameQueue::Waiting>::iterator FrameQueue::find_next() {
+  if (options_.policy == DropPolicy::every)
+    return !waiting_.empty() && decide(waiting_.front()) ? waiting_.begin() : waiting_.end();
+  const auto found = std::find_if(waiting_.rbegin(), waiting_.rend(),
+                                  [this](Waiting& waiting) { return decide(waiting); });
+  return found == waiting_.rend() ? waiting_.end() : std::prev(found.base());
 }
 
-std::optional<std::uint64_t> FrameQueue::next_newest(Frame& out) {
-  for (auto frame = waiting_.end(); frame != waiting_.begin();) {
-    if (!decide(*--frame, out)) continue;
-    for (auto before = waiting_.begin(); before != frame; ++before)
-      drop(*before, DropReason::superseded);
-    const std::uint64_t key = frame->key;
-    waiting_.erase(waiting_.begin(), frame + 1);
-    return key;
-  }
-  return std::nullopt;
-}
-
-bool FrameQueue::is_over(const Waiting& frame) const {
+bool FrameQueue::is_over(const Waiting& waiting) const {
   const bool full = options_.policy == DropPolicy::every && waiting_.size() == options_.max_frames;
   return finished_ || full ||
-         stamp_distance(frame.arrived, now_) >= static_cast<std::uint64_t>(max_wait_);
+         stamp_distance(waiting.arrived, now_) >= static_cast<std::uint64_t>(max_wait_);
 }
 
 /// Whether states of an uncertain robot may still come in time. A robot that has been silent for
@@ -120,32 +110,25 @@ bool FrameQueue::awaits_robot(std::int64_t at) const {
          stamp_distance(std::max(*since, *first_), at) <= static_cast<std::uint64_t>(max_wait_);
 }
 
-bool FrameQueue::decide(Waiting& frame, Frame& out) {
-  const bool over = is_over(frame);
-  if (frame.revision == history_.revision() && !over) return false;
-  frame.revision = history_.revision();
-  const std::int64_t at = pose_stamp(frame.stamp);
-  lookup_.at(history_, at, out.pose);
-  const bool known = out.pose.status == FrameStatus::poses_disagree ||
-                     (has_pose(out.pose.status) && !awaits_robot(at));
-  if (!known && !over) return false;
-  out.stamp = frame.stamp;
-  return true;
+/// Looks up the pose of a frame. Returns whether it is known or is no longer awaited.
+bool FrameQueue::decide(Waiting& waiting) {
+  const bool over = is_over(waiting);
+  if (waiting.revision == history_.revision() && !over) return false;
+  waiting.revision = history_.revision();
+  const std::int64_t at = pose_stamp(*waiting.frame->stamp);
+  RobotPose& pose = waiting.frame->pose;
+  lookup_.at(history_, at, pose);
+  return over || pose.status == FrameStatus::poses_disagree ||
+         (has_pose(pose.status) && !awaits_robot(at));
 }
 
 std::optional<std::int64_t> FrameQueue::wake_at() const {
   std::optional<std::int64_t> first;
-  for (const Waiting& frame : waiting_) {
-    const std::int64_t over = stamp_after(frame.arrived, max_wait_);
+  for (const Waiting& waiting : waiting_) {
+    const std::int64_t over = stamp_after(waiting.arrived, max_wait_);
     first = std::min(first.value_or(over), over);
   }
   return first;
-}
-
-FrameCounts FrameQueue::counts() const {
-  FrameCounts counts = counts_;
-  counts.waiting = waiting_.size();
-  return counts;
 }
 
 }  // namespace penumbra

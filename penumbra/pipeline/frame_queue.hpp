@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <penumbra/pipeline/frame.hpp>
@@ -47,51 +48,33 @@ struct FrameQueueOptions {
   PoseOptions poses = {};
 };
 
-struct DroppedFrame {
-  std::uint64_t key = 0;
-  std::int64_t stamp = 0;  ///< nanoseconds
-  DropReason reason = DropReason::superseded;
-};
-
-/// Counts frames by result: pushed = given_out + dropped + waiting.
-struct FrameCounts {
-  std::size_t pushed = 0;
-  std::size_t given_out = 0;
-  std::size_t without_pose = 0;  ///< of those given out
-  std::size_t waiting = 0;
-  std::array<std::size_t, drop_reasons> dropped{};
-
-  [[nodiscard]] std::size_t of(DropReason reason) const {
-    return dropped[static_cast<std::size_t>(reason)];
-  }
-};
-
 /// Holds depth images until the joint states or transforms around their stamps have arrived. Never
 /// extrapolates: a frame is returned with its pose, or after max_wait with the status. A robot
 /// (Robot::join) that is uncertain is awaited as well, unless its last state is older than the
 /// image by more than max_wait.
 ///
-/// The caller keeps the images and gives each a key, which comes back once: from next(), or in a
-/// DroppedFrame. Times `now` are nanoseconds of any clock (log times of a bag, a steady clock); if
-/// it goes back, waits start again. One instance serves one thread at a time, as do all users of
-/// one history together.
+/// Each frame comes back once: from next(), or by OnDrop. It may be of a class derived from Frame.
+/// Times `now` are nanoseconds of any clock (log times of a bag, a steady clock); if it goes back,
+/// waits start again. One instance serves one thread at a time, as do all users of one history
+/// together.
 class FrameQueue {
  public:
-  using OnDrop = std::function<void(const DroppedFrame&)>;  ///< must not call the queue
+  /// Must not call the queue.
+  using OnDrop = std::function<void(std::shared_ptr<Frame>, DropReason)>;
 
   /// Throws InputError as PoseLookup does, and for times that are not finite, negative (except
   /// time_offset) or above 1e9 s, and max_frames 0. `robot` and `history` must outlive this.
   FrameQueue(const Robot& robot, PoseHistory& history, const FrameQueueOptions& options = {},
              OnDrop on_drop = {});
 
-  /// Adds a frame. A stamp that is a clock jump before the newest clears the history and drops all
-  /// waiting frames.
-  void push(std::uint64_t key, std::int64_t stamp, std::int64_t now);
+  /// Adds a frame, by its stamp; without one it is dropped. A stamp that is a clock jump before the
+  /// newest clears the history and drops all waiting frames.
+  void push(std::shared_ptr<Frame> frame, std::int64_t now);
+  void push(Frame frame, std::int64_t now) { push(std::make_shared<Frame>(std::move(frame)), now); }
 
-  /// Sets stamp and pose of the next frame to process, and returns its key; null if there is none
-  /// yet. Call it until null after each push, after adding states to the history, and at wake_at().
-  /// Allocates nothing for a frame that is ok, once `frame` has been used.
-  std::optional<std::uint64_t> next(std::int64_t now, Frame& frame);
+  /// Returns the next frame to process, with its pose; null if there is none yet. Call it until
+  /// null after each push, after adding states to the history, and at wake_at().
+  [[nodiscard]] std::shared_ptr<Frame> next(std::int64_t now);
 
   /// Returns the stamp, with time_offset, of the pose of an image with this stamp.
   [[nodiscard]] std::int64_t pose_stamp(std::int64_t stamp) const;
@@ -102,22 +85,20 @@ class FrameQueue {
   /// Returns when next() has a frame even without new states; null if no frame waits.
   [[nodiscard]] std::optional<std::int64_t> wake_at() const;
 
-  [[nodiscard]] FrameCounts counts() const;
+  /// Returns how many frames wait.
+  [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
 
  private:
   struct Waiting {
-    std::uint64_t key;
-    std::int64_t stamp;
+    std::shared_ptr<Frame> frame;
     std::int64_t arrived;    // on the caller's clock
     std::uint64_t revision;  // of the history when its pose was last looked up
   };
 
   void follow(std::int64_t now);
-  void drop(const Waiting& frame, DropReason reason);
-  std::optional<std::uint64_t> next_in_order(Frame& out);
-  std::optional<std::uint64_t> next_newest(Frame& out);
-  bool decide(Waiting& frame, Frame& out);
-  [[nodiscard]] bool is_over(const Waiting& frame) const;
+  [[nodiscard]] std::vector<Waiting>::iterator find_next();
+  bool decide(Waiting& waiting);
+  [[nodiscard]] bool is_over(const Waiting& waiting) const;
   [[nodiscard]] bool awaits_robot(std::int64_t at) const;
 
   PoseHistory& history_;
@@ -133,7 +114,6 @@ class FrameQueue {
   std::optional<std::int64_t> first_;      // pose's stamp of the first one pushed in this epoch
   std::optional<std::int64_t> given_out_;  // newest returned stamp of this epoch
   bool finished_ = false;
-  FrameCounts counts_;
 };
 
 }  // namespace penumbra

@@ -25,5 +25,4 @@ extern std::vector<std::string> names;
 extern std::vector<double> positions;
 extern std::string parent, child;
 extern std::int64_t stamp, now, image_stamp, clock_now;
-extern std::uint64_t key;
-penumbra::DepthView image_of(std::uint64_t key);
+extern std::shared_ptr<const void> owner;

@@ -38,7 +38,7 @@ class LateRobotsTest : public testing::Test {
       if (ms % 50 == 0) bench_.tell_depth(bench_.now);
       if (bench_.work() == 0) continue;
       ++statuses[bench_.results.last<io::TargetsMessage>(io::Result::targets).status];
-      delay_ = bench_.now - *bench_.job.frame.stamp;
+      delay_ = bench_.now - *bench_.job.stamp;
     }
     return statuses;
   }

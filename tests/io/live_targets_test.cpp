@@ -56,7 +56,7 @@ TEST(LiveTargets, GoToTheCamerasThatKnowTheirFrame) {
   };
   const auto received = [&](std::size_t camera) {
     EXPECT_TRUE(bench.inbox.next(camera, bench.now, false, bench.job));
-    const std::size_t targets = bench.job.frame.targets.size();
+    const std::size_t targets = bench.job.targets.size();
     bench.inbox.done(camera, {}, bench.now, bench.now);
     return targets;
   };

@@ -190,20 +190,21 @@ TEST(Attached, FramesOfAQueueHaveWhatIsAttachedAtTheirStamp) {
   const auto move = [&](std::int64_t from) {
     for (std::int64_t t = 0; t < 400; t += 20) history.add_joints((from + t) * ms, names, position);
   };
-  for (const std::int64_t stamp : {5100, 5200, 5300}) queue.push(0, stamp * ms, 0);
+  for (const std::int64_t stamp : {5100, 5200, 5300}) queue.push({.stamp = stamp * ms}, 0);
   history.attachments().detach(5250 * ms, "part");
   history.attachments().attach(5150 * ms, part());
   move(5000);
-  Frame frame;
   for (const std::size_t count : {0U, 1U, 0U}) {
-    ASSERT_TRUE(queue.next(0, frame));
-    EXPECT_EQ(frame.pose.attached.size(), count);
+    const auto frame = queue.next(0);
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->pose.attached.size(), count);
   }
   history.attachments().attach(5500 * ms, part());
   move(1000);  // the clock is set back
-  queue.push(0, 1100 * ms, 0);
-  ASSERT_TRUE(queue.next(0, frame));
-  EXPECT_EQ(frame.pose.attached.size(), 1U) << "what was attached last still is";
+  queue.push({.stamp = 1100 * ms}, 0);
+  const auto frame = queue.next(0);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->pose.attached.size(), 1U) << "what was attached last still is";
 }
 
 /// Against a model that looks at all changes every time, with late ones.

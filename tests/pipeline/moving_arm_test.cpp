@@ -65,10 +65,10 @@ class MovingArm : public testing::TestWithParam<PoseSource> {
   }
 
   void judge_queue(FrameQueue& queue, std::int64_t now) {
-    while (queue.next(now, queued_)) {
-      const FrameReport& report = process(queued_, *queued_.stamp);
+    while (const auto queued = queue.next(now)) {
+      const FrameReport& report = process(*queued, *queued->stamp);
       ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
-      EXPECT_EQ(report.stamp, queued_.stamp);
+      EXPECT_EQ(report.stamp, queued->stamp);
       EXPECT_EQ(wrong_share(report), 0.0) << "frame " << judged_;
       ++judged_;
     }
@@ -82,7 +82,7 @@ class MovingArm : public testing::TestWithParam<PoseSource> {
     auto image = events.images.begin();
     for (const auto& [arrival, stamp] : events.joints) {
       for (; image != events.images.end() && image->first <= arrival; ++image) {
-        queue.push(0, image->second, image->first);
+        queue.push({.stamp = image->second}, image->first);
         judge_queue(queue, image->first);
         judge_latest(image->second);
       }
@@ -105,7 +105,6 @@ class MovingArm : public testing::TestWithParam<PoseSource> {
   Pipeline pipeline_{slab_robot(), camera_, plain_config()};
   PoseHistory history_{robot_};
   Image<float> depth_;
-  Frame queued_;
   double latest_ = 0;
   int judged_ = 0;
   int wrong_by_latest_ = 0;

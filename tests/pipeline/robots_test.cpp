@@ -247,20 +247,21 @@ TEST(Robots, WhoseTransformsAreLateAreAwaited) {
   };
   for (const std::int64_t stamp : {1000 * ms, 1050 * ms}) tell("slabs/base", "slabs/slab", stamp);
   tell("cart/rail", "cart/box", 1000 * ms);
-  Frame frame;
-  queue.push(0, 1050 * ms, 1051 * ms);
-  EXPECT_FALSE(queue.next(1051 * ms, frame));
+  queue.push({.stamp = 1050 * ms}, 1051 * ms);
+  EXPECT_FALSE(queue.next(1051 * ms));
   tell("cart/rail", "cart/box", 1050 * ms);
-  ASSERT_TRUE(queue.next(1059 * ms, frame));
-  EXPECT_TRUE(frame.pose.uncertain_links.empty());
+  auto frame = queue.next(1059 * ms);
+  ASSERT_TRUE(frame);
+  EXPECT_TRUE(frame->pose.uncertain_links.empty());
   tell("slabs/base", "slabs/slab", 1300 * ms);
   tell("slabs/base", "slabs/slab", 1400 * ms);
-  queue.push(1, 1100 * ms, 1410 * ms);
-  EXPECT_FALSE(queue.next(1410 * ms, frame));
-  queue.push(2, 1300 * ms, 1410 * ms);
-  EXPECT_EQ(queue.next(1410 * ms, frame), 2U)
-      << "the cart is silent for more than the longest wait";
-  EXPECT_EQ(frame.pose.uncertain_links, (std::vector<std::size_t>{4, 5}));
+  queue.push({.stamp = 1100 * ms}, 1410 * ms);
+  EXPECT_FALSE(queue.next(1410 * ms));
+  queue.push({.stamp = 1300 * ms}, 1410 * ms);
+  frame = queue.next(1410 * ms);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->stamp, 1300 * ms) << "the cart is silent for more than the longest wait";
+  EXPECT_EQ(frame->pose.uncertain_links, (std::vector<std::size_t>{4, 5}));
 }
 
 TEST(Robots, MoveAsTheyDoAlone) {

@@ -57,7 +57,7 @@ class LivePage : public testing::Test, public io::FrameWatcher {
     parts_ = {{"labels", bytes_of(report.labels)},
               {"links", bytes_of(report.virtual_depth.links)},
               {"vdi", bytes_of(report.virtual_depth.depth)}};
-    static_cast<void>(view_.show(job, depth, report, drift, *job.frame.stamp));
+    static_cast<void>(view_.show(job, depth, report, drift, *job.stamp));
   }
 
   std::unique_ptr<io::WebChannel> client(const std::string& with) {

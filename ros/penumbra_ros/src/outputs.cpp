@@ -122,7 +122,7 @@ void Outputs::publish_detections(const penumbra::io::AssembledFrame& job,
                                  const penumbra::FrameReport& report) {
   const bool has_listener = is_selected("detections") && detections_->get_subscription_count() > 0;
   if (!has_listener && !frames_) return;
-  auto detections = handled_detections(report, job.frame.targets, frame_prefix_);
+  auto detections = handled_detections(report, job.targets, frame_prefix_);
   if (frames_) frames_->sendTransform(frames_of(*detections));
   if (has_listener) detections_->publish(std::move(detections));
 }
