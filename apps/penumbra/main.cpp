@@ -6,6 +6,8 @@
 #include <new>
 #include <string>
 
+#include <malloc.h>
+
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/commands.hpp>
@@ -24,6 +26,10 @@ int fail(int status, std::string message) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Memory of images is kept for the next frame's: to get it anew costs more than to fill it.
+  constexpr int largest_image = 32 << 20, kept = 512 << 20;  // bytes
+  mallopt(M_MMAP_THRESHOLD, largest_image);
+  mallopt(M_TRIM_THRESHOLD, kept);
   // Errors are one line: Mesa adds none of its own, unless the user chooses a level.
   setenv("EGL_LOG_LEVEL", "fatal", 0);
   try {

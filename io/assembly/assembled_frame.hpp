@@ -39,8 +39,8 @@ struct CameraSetup {
   TargetInbox targets;
 };
 
-/// A frame whose images are not decoded yet: DepthInput does that. Its index is the number of the
-/// camera's depth message, from 0. A source_message says why the image must not be used.
+/// A frame whose images are not decoded yet: DepthInput does that. Its index counts the camera's
+/// depth messages from 0. A source_message says why the image must not be used.
 struct AssembledFrame : Frame {
   std::shared_ptr<CameraSetup> setup;
   KeptImage image;

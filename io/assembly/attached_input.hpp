@@ -17,7 +17,7 @@ namespace penumbra::io {
 struct PosedRobot;
 
 /// Reads what MoveIt attaches to a robot. A message holds from the stamp of its object on, else of
-/// the robot's state in it, else from `now`, the newest stamp known.
+/// the robot's state in it, else from `now`, the last stamp received.
 ///
 /// A message may name an object without its shape. Then the object keeps the shape with which it is
 /// attached, else it has that of the world's object of that name, else that of the next message.

@@ -64,7 +64,7 @@ bool BagSource::is_in_range(std::int64_t image) const {
          image < options_.end.value_or(std::numeric_limits<std::int64_t>::max());
 }
 
-bool BagSource::next(Frame& frame) {
+bool BagSource::read(std::size_t /*number*/, Frame& frame) {
   turn_ = 1 - turn_;
   auto& [depth, current, color] = decoders_[turn_];
   current = {};

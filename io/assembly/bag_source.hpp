@@ -40,7 +40,7 @@ class BagSource final : public FrameSource {
 
   /// Reads the next frame. Throws InputError at the end if the bag has none of the requested
   /// frames.
-  bool next(Frame& frame) override;
+  bool read(std::size_t number, Frame& frame) override;
   [[nodiscard]] std::optional<std::size_t> size() const override { return size_; }
   [[nodiscard]] std::vector<std::string> notes() const override;
 

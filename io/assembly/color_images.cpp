@@ -62,7 +62,7 @@ std::string decode_color(const KeptImage& color, const Camera& camera, Image<Rgb
     return "the color image is of the frame '" + printable(frame) + "', the depth image of '" +
            camera.frame_id + "'; --color-topic would bring depth into the color image";
   const auto fault =
-      color.image ? decode_colour(*color.image, image) : decode_colour(*color.compressed, image);
+      color.image ? decode_color(*color.image, image) : decode_color(*color.compressed, image);
   if (fault) return *fault;
   const Intrinsics& wanted = camera.intrinsics;
   if (image.width() == wanted.width() && image.height() == wanted.height()) return {};

@@ -187,7 +187,7 @@ void RobotInput::take(const JointStateMessage& message, const std::string& robot
     return take(named, {}, source, now);
   }
   last_joints_ = now;
-  newest_stamp_ = message.header.stamp;
+  last_stamp_ = message.header.stamp;
   if (!posed_) return;
   if (posed_->history.add_joints(message.header.stamp, message.names, message.positions, source) >
       0)
@@ -201,7 +201,7 @@ void RobotInput::take(const TfMessage& message, bool is_static, std::string_view
   last_transforms_ = now;
   for (const TransformMessage& t : message.transforms) {
     if (frames_.add(t.header.frame_id, t.child_frame_id)) ++frames_revision_;
-    if (!is_static) newest_stamp_ = t.header.stamp;
+    if (!is_static) last_stamp_ = t.header.stamp;
     if (is_static && (static_transforms_.contains(t.child_frame_id) ||
                       static_transforms_.size() < FrameTree::max_frames))
       static_transforms_[t.child_frame_id] = t;

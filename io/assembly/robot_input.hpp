@@ -116,7 +116,7 @@ class RobotInput {
   /// cannot be drawn, one line, or nothing. `robot`: its name among several.
   template <typename M>
   std::string take_attached(const M& message, const std::string& robot) {
-    std::string fault = attached_.take(message, newest_stamp_, attachments_, robot, posed_.get());
+    std::string fault = attached_.take(message, last_stamp_, attachments_, robot, posed_.get());
     if (posed_) posed_->history.attachments() = attachments_;
     return fault;
   }
@@ -156,8 +156,8 @@ class RobotInput {
   std::uint64_t frames_revision_ = 0;
   std::map<std::string, TransformMessage> static_transforms_;  // by child; published only once
   AttachedInput attached_;
-  Attachments attachments_;        // of this and of later robots
-  std::int64_t newest_stamp_ = 0;  // of joint states and moving transforms
+  Attachments attachments_;      // of this and of later robots
+  std::int64_t last_stamp_ = 0;  // of joint states and moving transforms
   std::size_t robots_ = 0;
   std::optional<std::int64_t> last_joints_, last_transforms_, last_used_joints_;
   std::string unused_joints_;

@@ -136,7 +136,7 @@ void add_renderer(Status& status, const RendererInfo& renderer) {
 bool is_of_robot(TopicRole role) {
   return role == TopicRole::description || role == TopicRole::joints ||
          role == TopicRole::transforms || role == TopicRole::static_transforms ||
-         role == TopicRole::targets;
+         role == TopicRole::targets || role == TopicRole::attached;
 }
 
 std::string name_of(const CameraInput& camera) {

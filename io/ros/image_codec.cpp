@@ -178,7 +178,7 @@ std::optional<std::string> decode_depth(const CompressedImageMessage& message,
   return std::nullopt;
 }
 
-std::optional<std::string> decode_colour(const ImageMessage& message, Image<Rgb8>& image) {
+std::optional<std::string> decode_color(const ImageMessage& message, Image<Rgb8>& image) {
   const ColourFormat* format = find_colour_format(message.encoding);
   if (format == nullptr)
     return "colour image has encoding '" + printable(message.encoding) +
@@ -195,8 +195,7 @@ std::optional<std::string> decode_colour(const ImageMessage& message, Image<Rgb8
   return std::nullopt;
 }
 
-std::optional<std::string> decode_colour(const CompressedImageMessage& message,
-                                         Image<Rgb8>& image) {
+std::optional<std::string> decode_color(const CompressedImageMessage& message, Image<Rgb8>& image) {
   if (begins_with(message.data, "\x89PNG"))
     return of_image("colour image", decode_png(message.data, image));
   if (begins_with(message.data, "\xff\xd8\xff"))

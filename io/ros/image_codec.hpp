@@ -36,12 +36,12 @@ struct DecodedDepth {
 
 /// rgb8, bgr8, rgba8, bgra8 (without alpha), mono8, yuv422 (UYVY) and yuv422_yuy2 (YUYV), the last
 /// two in BT.601's narrow range.
-[[nodiscard]] std::optional<std::string> decode_colour(const ImageMessage& message,
-                                                       Image<Rgb8>& image);
+[[nodiscard]] std::optional<std::string> decode_color(const ImageMessage& message,
+                                                      Image<Rgb8>& image);
 
 /// PNG and JPEG, whatever the message's format says.
-[[nodiscard]] std::optional<std::string> decode_colour(const CompressedImageMessage& message,
-                                                       Image<Rgb8>& image);
+[[nodiscard]] std::optional<std::string> decode_color(const CompressedImageMessage& message,
+                                                      Image<Rgb8>& image);
 
 /// Returns a message that refers to an image without gaps between its rows. `encoding`: ROS's name
 /// of the pixel format.

@@ -24,6 +24,9 @@ enum class HiddenTargets {
   hold      ///< the last trusted point
 };
 
+/// PipelineConfig::target_history for targets of topics: the largest delay of a detector, seconds.
+inline constexpr double topic_target_history = 0.5;
+
 /// Makes targets from messages. A target keeps the stamp of its image, so that it is judged on the
 /// frame of that stamp even if it comes late.
 ///
@@ -34,7 +37,7 @@ enum class HiddenTargets {
 class TargetInbox {
  public:
   /// Targets that are older than the newest of their topic by more are dropped, nanoseconds: the
-  /// frame of their stamp is no longer kept (0.5 s) and does not wait for its pose (0.2 s).
+  /// frame of their stamp is no longer kept and does not wait for its pose (0.2 s).
   static constexpr std::int64_t longest_lag = 1'000'000'000;
   /// If so many wait, the oldest are dropped before the next message is taken.
   static constexpr std::size_t most_waiting = 1000;

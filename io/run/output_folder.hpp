@@ -13,7 +13,7 @@
 #include <io/files/overlay_painter.hpp>
 #include <io/files/pending_file.hpp>
 #include <io/files/run_output.hpp>
-#include <io/run/file_writers.hpp>
+#include <io/run/background_jobs.hpp>
 #include <io/web/key_frames.hpp>
 
 namespace penumbra::io {
@@ -83,7 +83,7 @@ class OutputFolder final : public RunOutput {
   std::vector<std::size_t> saved_;  // frames whose images may be written
   bool finished_ = false;
   std::optional<ReportWriter> report_;
-  std::optional<FileWriters> writers_;
+  std::optional<BackgroundJobs> writers_;
 };
 
 }  // namespace penumbra::io

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <deque>
 #include <future>
 #include <memory>
 #include <optional>
@@ -9,40 +11,50 @@
 #include <vector>
 
 #include <io/files/frame_source.hpp>
+#include <io/run/background_jobs.hpp>
 
 namespace penumbra::io {
 
-/// Reads each frame of a source on another thread while the frame before it is judged.
+/// Reads the next frames of a source on other threads while one is judged.
 class ReadAhead final : public FrameSource {
  public:
-  explicit ReadAhead(std::unique_ptr<FrameSource> source) : source_(std::move(source)) {}
+  explicit ReadAhead(std::unique_ptr<FrameSource> source)
+      : source_(std::move(source)), readers_(source_->at_once()) {}
 
-  /// Throws what the source throws, in the place of the frame that it could not read.
-  bool next(Frame& frame) override {
-    if (!ahead_.valid()) begin();
-    std::optional<Frame> read = ahead_.get();
-    if (!read) return false;
-    frame = std::move(*read);
-    begin();
-    return true;
-  }
   [[nodiscard]] std::optional<std::size_t> size() const override { return source_->size(); }
   [[nodiscard]] std::vector<std::string> notes() const override {
-    if (ahead_.valid()) ahead_.wait();
+    for (const auto& frame : ahead_) frame.wait();
     return source_->notes();
   }
 
  private:
+  /// Throws what the source throws, in the place of the frame that it could not read.
+  bool read(std::size_t /*number*/, Frame& frame) override {
+    if (ahead_.empty()) begin();
+    std::future<std::optional<Frame>> first = std::move(ahead_.front());
+    ahead_.pop_front();
+    std::optional<Frame> read = first.get();
+    if (!read) return false;
+    frame = std::move(*read);
+    while (ahead_.size() < source_->at_once()) begin();
+    return true;
+  }
+
   void begin() {
-    ahead_ = std::async(std::launch::async, [this] {
-      std::optional<Frame> frame(std::in_place);
-      if (!source_->next(*frame)) frame.reset();
-      return frame;
-    });
+    const auto task =
+        std::make_shared<std::packaged_task<std::optional<Frame>()>>([this, number = begun_++] {
+          std::optional<Frame> frame(std::in_place);
+          if (!source_->read(number, *frame)) frame.reset();
+          return frame;
+        });
+    ahead_.push_back(task->get_future());
+    readers_.add([task] { (*task)(); });
   }
 
   std::unique_ptr<FrameSource> source_;
-  std::future<std::optional<Frame>> ahead_;  // goes first: its end waits for the thread
+  std::deque<std::future<std::optional<Frame>>> ahead_;  // null: the end
+  std::size_t begun_ = 0;
+  BackgroundJobs readers_;  // goes first: it waits for its jobs
 };
 
 }  // namespace penumbra::io

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -83,9 +84,9 @@ class RecordingSource final : public FrameSource {
       : reader_(reader), selected_(selected), with_color_(options.with_color), fps_(options.fps) {}
 
   /// Throws InputError if the recording has stamps of its own and --fps is given.
-  bool next(Frame& frame) override {
-    if (next_ == selected_.size()) return false;
-    frame = reader_.read(selected_[next_++], with_color_);
+  bool read(std::size_t number, Frame& frame) override {
+    if (number >= selected_.size()) return false;
+    frame = reader_.read(selected_[number], with_color_);
     if (fps_ && frame.stamp)
       throw InputError("frame " + std::to_string(*frame.index) +
                        " has a stamp of its own: leave --fps out");
@@ -95,13 +96,18 @@ class RecordingSource final : public FrameSource {
     }
     return true;
   }
+  /// Most of the time goes into decoding.
+  [[nodiscard]] std::size_t at_once() const override {
+    return std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, most_at_once);
+  }
   [[nodiscard]] std::optional<std::size_t> size() const override { return selected_.size(); }
   [[nodiscard]] std::vector<std::string> notes() const override { return {}; }
 
  private:
+  static constexpr std::size_t most_at_once = 8;  // each has images in memory
+
   FrameReader reader_;
   std::vector<std::size_t> selected_;
-  std::size_t next_ = 0;
   bool with_color_;
   std::optional<double> fps_;
 };

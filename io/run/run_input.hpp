@@ -74,7 +74,4 @@ using LineSink = std::function<void(const std::string&)>;
 /// The same for a bag.
 [[nodiscard]] RunInput open_bag_input(const InputOptions& options, const LineSink& print);
 
-/// The largest delay of a detector's targets in topics, seconds.
-inline constexpr double topic_target_history = 0.5;
-
 }  // namespace penumbra::io

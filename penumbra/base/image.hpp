@@ -174,6 +174,11 @@ struct TileMask {
       rows[static_cast<std::size_t>(j)] |= bits;
   }
 
+  /// Returns whether the tile of a pixel is marked.
+  [[nodiscard]] bool holds(int u, int v) const {
+    return (rows[static_cast<std::size_t>(v / tile_height)] >> (u / tile_width) & 1U) != 0;
+  }
+
   /// Calls f(u0, u1, v0, v1) for every run of marked tiles in a tile row: the pixels u0 <= u < u1,
   /// v0 <= v < v1, cut to the image.
   template <typename F>

@@ -22,6 +22,12 @@ constexpr int most_missing = 4;           // pixels without measurement at an ed
 constexpr int mask_reach = 40;            // pixels
 constexpr double agreeing_depth = 0.02;   // metres
 
+/// As std::lround, without a call. For coordinates of pixels.
+int nearest(double coordinate) {
+  constexpr int positive = 1 << 16;
+  return static_cast<int>(coordinate + (positive + 0.5)) - positive;
+}
+
 }  // namespace
 
 /// A frame with its robot rendered at a state.
@@ -142,9 +148,15 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
   const auto& z = view.robot.depth;
   constexpr int around = 3;  // pixels of the window that gives the outline's direction
   const auto robot = [&](int u, int v) { return z(u, v) > 0.0f; };
+  std::vector<int> on_normal;
 
+  const TileMask& touched = *view.robot.touched;
   for (int v = around; v + around < z.height; ++v)
     for (int u = around; u + around < z.width; ++u) {
+      if (!touched.holds(u, v)) {
+        u |= touched.tile_width - 1;  // the tile's last pixel
+        continue;
+      }
       if (!robot(u, v) ||
           (robot(u - 1, v) && robot(u + 1, v) && robot(u, v - 1) && robot(u, v + 1)) ||
           (u + v) % stride_ != 0)
@@ -160,15 +172,22 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
       // What is on the normal at each step: 1 robot's depth or mask, 0 none, -1 not measured or
       // something else; nothing is looked at past another part of the robot.
       const auto step_of = [&](const auto& sample, int radius) -> std::optional<double> {
+        const int first = -radius - run;
+        on_normal.clear();
+        for (int step = first; step <= radius + most_missing + run; ++step)
+          on_normal.push_back(sample(step));
+        const auto at_step = [&](int step) {
+          return on_normal[static_cast<std::size_t>(step - first)];
+        };
         std::optional<double> best;
         for (int last = -radius; last <= radius; ++last) {
-          if (sample(last) != 1) continue;
+          if (at_step(last) != 1) continue;
           int next = last + 1;
-          while (next - last <= most_missing && sample(next) < 0) ++next;
+          while (next - last <= most_missing && at_step(next) < 0) ++next;
           int robots = 0, others = 0;  // with what is before and behind the step
           for (int i = 0; i < run; ++i) {
-            robots += sample(last - i);
-            others += sample(next + i) == 0;
+            robots += at_step(last - i);
+            others += at_step(next + i) == 0;
           }
           const bool is_step = robots >= least_of_run && others >= least_of_run;
           const double at = 0.5 * (last + next) - 0.5;
@@ -177,8 +196,7 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
         return best;
       };
       const auto pixel = [&](int step) {
-        return std::pair{static_cast<int>(std::lround(u + step * normal.x())),
-                         static_cast<int>(std::lround(v + step * normal.y()))};
+        return std::pair{nearest(u + step * normal.x()), nearest(v + step * normal.y())};
       };
       const auto is_free = [&](int step) {
         const auto [x, y] = pixel(step);

@@ -23,7 +23,7 @@ enum class DropPolicy {
   every    ///< all, in the order of arrival. For bags
 };
 
-/// The reason why an image was dropped: the first five by a FrameQueue, the others before or after.
+/// The reason why an image was dropped. A FrameQueue has the first five, its callers may have all.
 enum class DropReason {
   superseded,     ///< a newer one was returned instead (newest)
   late,           ///< it came after one of its stamp or later was returned (newest)

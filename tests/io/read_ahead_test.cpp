@@ -18,7 +18,7 @@ namespace {
 /// Frames 0 to 4, then a file that cannot be read. Alternates between two images, as bags do.
 class FiveFrames final : public FrameSource {
  public:
-  bool next(Frame& frame) override {
+  bool read(std::size_t /*number*/, Frame& frame) override {
     if (count_ == ends_at_) return false;
     if (count_ == 5) throw InputError("frame 5 cannot be read");
     Image<float>& image = images_[count_ % 2];

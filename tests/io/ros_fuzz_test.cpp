@@ -98,7 +98,7 @@ void fuzz_images(int rounds, std::uint64_t seed) {
   Image<Rgb8> small(24, 16, Rgb8{90, 120, 30});
   for (const Bytes& file : {test::jpeg_of(small, false), test::jpeg_of(small, true), colour_png()})
     fuzz(file, rounds, random, [&](auto bytes) {
-      return decode_colour(CompressedImageMessage{.format = "any", .data = bytes}, colours);
+      return decode_color(CompressedImageMessage{.format = "any", .data = bytes}, colours);
     });
   EXPECT_EQ(shortage.asked(), 0U);
 }

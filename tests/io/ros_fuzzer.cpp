@@ -43,7 +43,7 @@ void decode_image(Bytes bytes) {
                                   "16UC1; png compressed", "jpeg"};
   const CompressedImageMessage message{.format = formats[kind], .data = bytes};
   if (kind == 3)
-    static_cast<void>(decode_colour(message, colours));
+    static_cast<void>(decode_color(message, colours));
   else
     static_cast<void>(decode_depth(message, depth));
 }

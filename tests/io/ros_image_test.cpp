@@ -121,7 +121,7 @@ TEST(RosImage, Colours) {
     ImageMessage message{.height = height, .width = width, .encoding = encoding, .data = data};
     message.step = static_cast<std::uint32_t>(data.size()) / height;
     Image<Rgb8> image;
-    const auto fault = decode_colour(message, image);
+    const auto fault = decode_color(message, image);
     EXPECT_FALSE(fault) << *fault;
     return image;
   };
@@ -166,7 +166,7 @@ TEST(RosImage, YuvIsBt601) {
                                      .encoding = uv_first ? "yuv422" : "yuv422_yuy2",
                                      .step = 4,
                                      .data = data};
-          ASSERT_FALSE(decode_colour(message, image));
+          ASSERT_FALSE(decode_color(message, image));
           for (int i = 0; i < 2; ++i) {
             const Rgb8 wanted = bt601(i == 0 ? y : other, u, v), got = image(i, 0);
             ASSERT_TRUE(near(wanted.r, got.r) && near(wanted.g, got.g) && near(wanted.b, got.b))
@@ -191,12 +191,12 @@ TEST(RosImage, PngThereAndBack) {
   const auto message = png_message(test::sample_header(), image.view(), png);
   EXPECT_EQ(message.format, "png");
   Image<Rgb8> read;
-  const auto fault = decode_colour(message, read);
+  const auto fault = decode_color(message, read);
   ASSERT_FALSE(fault) << *fault;
   EXPECT_TRUE(same(image, std::as_const(read).view()));
   for (std::size_t size = 0; size < png.size(); ++size) {
     const test::ExactCopy cut{std::span(png).first(size)};
-    EXPECT_TRUE(decode_colour(CompressedImageMessage{.data = cut.bytes()}, read)) << size;
+    EXPECT_TRUE(decode_color(CompressedImageMessage{.data = cut.bytes()}, read)) << size;
   }
 }
 
@@ -207,7 +207,7 @@ TEST(RosImage, Jpeg) {
     const auto file = test::jpeg_of(image, progressive);
     Image<Rgb8> read;
     const CompressedImageMessage message{.format = "rgb8; jpeg compressed bgr8", .data = file};
-    const auto fault = decode_colour(message, read);
+    const auto fault = decode_color(message, read);
     ASSERT_FALSE(fault) << *fault;
     ASSERT_EQ(read.width(), 40);
     for (int v = 0; v < 30; ++v)
@@ -218,7 +218,7 @@ TEST(RosImage, Jpeg) {
       }
     for (std::size_t size = 0; size < file.size(); ++size) {
       const test::ExactCopy cut{std::span(file).first(size)};
-      EXPECT_TRUE(decode_colour(CompressedImageMessage{.data = cut.bytes()}, read)) << size;
+      EXPECT_TRUE(decode_color(CompressedImageMessage{.data = cut.bytes()}, read)) << size;
     }
   }
 }

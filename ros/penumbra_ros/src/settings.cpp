@@ -24,9 +24,6 @@ using penumbra::Setting;
 using rcl_interfaces::msg::ParameterDescriptor;
 using Texts = std::vector<std::string>;
 
-/// Seconds for which frames are stored for late targets.
-constexpr double target_history = 0.5;
-
 constexpr bool changeable = true;
 
 /// Declares parameters. They are read-only if they are not declared as `changeable`.
@@ -279,7 +276,8 @@ Settings declare_settings(rclcpp::Node& node) {
       "renderer of the virtual depth");
   settings.pipeline.renderer.threads = static_cast<int>(
       declare.number<std::int64_t>("threads", 1, 1, 64, "threads of the cpu renderer"));
-  if (!settings.live.target_topics.empty()) settings.pipeline.target_history = target_history;
+  if (!settings.live.target_topics.empty())
+    settings.pipeline.target_history = penumbra::io::topic_target_history;
   declare_rule(declare);
   settings.pipeline.rule = read_rule(node);
 

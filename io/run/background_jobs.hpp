@@ -12,15 +12,15 @@
 
 namespace penumbra::io {
 
-/// Runs jobs that write files on its own threads. At most twice as many jobs as threads wait, so
+/// Runs jobs on its own threads. At most twice as many jobs as threads wait, so
 /// that memory stays bounded. After a job has failed no other one begins.
-class FileWriters {
+class BackgroundJobs {
  public:
   /// `threads`: how many at most; they start with the first jobs.
-  explicit FileWriters(std::size_t threads) : most_(threads) {}
-  ~FileWriters();  ///< drops the jobs that have not begun
-  FileWriters(const FileWriters&) = delete;
-  FileWriters& operator=(const FileWriters&) = delete;
+  explicit BackgroundJobs(std::size_t threads) : most_(threads) {}
+  ~BackgroundJobs();  ///< drops the jobs that have not begun
+  BackgroundJobs(const BackgroundJobs&) = delete;
+  BackgroundJobs& operator=(const BackgroundJobs&) = delete;
 
   /// Queues a job, and waits while the queue is full. Throws what a job threw.
   void add(std::function<void()> job);

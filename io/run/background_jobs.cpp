@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
-#include <io/run/file_writers.hpp>
+#include <io/run/background_jobs.hpp>
 
 namespace penumbra::io {
 
-FileWriters::~FileWriters() {
+BackgroundJobs::~BackgroundJobs() {
   {
     const std::lock_guard lock(mutex_);
     ends_ = true;
@@ -15,7 +15,7 @@ FileWriters::~FileWriters() {
   for (std::thread& thread : threads_) thread.join();
 }
 
-void FileWriters::add(std::function<void()> job) {
+void BackgroundJobs::add(std::function<void()> job) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return fault_ || jobs_.size() < 2 * most_; });
   if (fault_) std::rethrow_exception(fault_);
@@ -25,13 +25,13 @@ void FileWriters::add(std::function<void()> job) {
   changed_.notify_all();
 }
 
-void FileWriters::finish() {
+void BackgroundJobs::finish() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return jobs_.empty() && running_ == 0; });
   if (fault_) std::rethrow_exception(fault_);
 }
 
-void FileWriters::work() {
+void BackgroundJobs::work() {
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [&] { return ends_ || !jobs_.empty(); });

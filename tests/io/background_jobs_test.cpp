@@ -10,38 +10,38 @@
 
 #include <gtest/gtest.h>
 
-#include <io/run/file_writers.hpp>
+#include <io/run/background_jobs.hpp>
 
 namespace penumbra::io {
 namespace {
 
 using namespace std::chrono_literals;
 
-TEST(FileWriters, DoEveryJobAndKeepFewWaiting) {
+TEST(BackgroundJobs, DoEveryJobAndKeepFewWaiting) {
   constexpr int threads = 3, jobs = 200;
   std::atomic<int> done = 0;
   int most_waiting = 0;
-  FileWriters writers(threads);
+  BackgroundJobs background(threads);
   for (int i = 0; i < jobs; ++i) {
-    writers.add([&done] {
+    background.add([&done] {
       std::this_thread::sleep_for(100us);
       ++done;
     });
     most_waiting = std::max(most_waiting, i + 1 - done);
   }
-  writers.finish();
+  background.finish();
   EXPECT_EQ(done, jobs);
   EXPECT_LE(most_waiting, 3 * threads) << "one runs and two wait for each thread";
 }
 
-TEST(FileWriters, ThrowWhatAJobThrew) {
-  FileWriters writers(4);
+TEST(BackgroundJobs, ThrowWhatAJobThrew) {
+  BackgroundJobs background(4);
   const auto write = [&] {
     for (int i = 0; i < 40; ++i)
-      writers.add([i] {
+      background.add([i] {
         if (i == 5) throw std::runtime_error("job 5");
       });
-    writers.finish();
+    background.finish();
   };
   EXPECT_THROW(write(), std::runtime_error);
 }
