@@ -25,11 +25,12 @@ namespace penumbra::io {
 /// read at any time; see FrameAssembler for the others.
 struct CameraSetup {
   CameraSetup(std::shared_ptr<PosedRobot> of, JudgedCameras cameras_, CameraMount where,
-              const FrameQueueOptions& options, HiddenTargets hidden, FrameQueue::OnDrop on_drop)
+              const FrameQueueOptions& options, HiddenTargets hidden, FrameQueue::OnDrop on_drop,
+              FrameQueue::Check check)
       : posed(std::move(of)),
         cameras(std::move(cameras_)),
         mount(std::move(where)),
-        queue(posed->robot, posed->history, options, std::move(on_drop)),
+        queue(posed->robot, posed->history, options, std::move(on_drop), std::move(check)),
         targets(posed->robot, cameras.judged.frame_id, options.poses.frame_prefix, hidden) {}
 
   const std::shared_ptr<PosedRobot> posed;

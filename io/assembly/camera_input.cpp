@@ -11,10 +11,9 @@
 namespace penumbra::io {
 namespace {
 
-/// How long images wait for the camera_info and colour image with their stamp, in nanoseconds of
-/// the caller's clock. Drivers send them together, but some send one camera_info for all images.
-constexpr std::int64_t newest_companion_wait = 100'000'000;
-constexpr std::int64_t every_companion_wait = 200'000'000;
+/// How long images wait for the camera_info and colour image with their stamp, in seconds of the
+/// caller's clock. Drivers send them together, but some send one camera_info for all images.
+constexpr double newest_companion_wait = 0.1, every_companion_wait = 0.2;
 constexpr std::size_t newest_most_colors = 8, every_most_colors = 64;
 constexpr std::size_t most_intervals = 4;
 
@@ -81,7 +80,7 @@ void CameraInput::take_unreadable(const std::string& fault, std::int64_t now) {
   waiting->index = index;
   waiting->source_message = fault;
   waiting->arrived = now;
-  hold_without_pose(waiting, "the depth image's message cannot be read");
+  keep_without_pose(waiting, "the depth image's message cannot be read");
 }
 
 bool CameraInput::take_info(const CameraInfoMessage& info) {
@@ -145,8 +144,7 @@ void CameraInput::refresh() {
 
 void CameraInput::replace_setup(std::shared_ptr<CameraSetup> setup) {
   if (setup_) {
-    drop(DropReason::changed, setup_->queue.waiting() + held_.size());
-    held_.clear();
+    drop(DropReason::changed, setup_->queue.waiting());
     targets_.replaced += setup_->targets.replaced();
     targets_.discarded += setup_->targets.discarded() + setup_->targets.waiting();
   }
@@ -169,22 +167,26 @@ std::shared_ptr<CameraSetup> CameraInput::find_setup() {
 }
 
 std::shared_ptr<CameraSetup> CameraInput::make_setup(JudgedCameras cameras, CameraMount mount) {
-  const FrameQueueOptions queue{.policy = is_lossless() ? DropPolicy::every : DropPolicy::newest,
-                                .time_offset = options_.time_offset,
-                                .max_wait = options_.max_wait,
-                                .max_frames = options_.max_frames,
-                                .poses = {.source = options_.poses,
-                                          .frame_prefix = options_.mount.frame_prefix,
-                                          .camera_parent = mount.parent,
-                                          .camera_frame = mount.frame}};
-  const auto on_drop = [this](const std::shared_ptr<Frame>& frame, DropReason reason) {
-    if (is_lossless())
-      hold_without_pose(frame, why_dropped(reason));
-    else
-      drop(reason);
+  const FrameQueueOptions queue{
+      .policy = is_lossless() ? DropPolicy::every : DropPolicy::newest,
+      .time_offset = options_.time_offset,
+      .max_wait = options_.max_wait,
+      .companion_wait = is_lossless() ? every_companion_wait : newest_companion_wait,
+      .max_frames = options_.max_frames,
+      .poses = {.source = options_.poses,
+                .frame_prefix = options_.mount.frame_prefix,
+                .camera_parent = mount.parent,
+                .camera_frame = mount.frame}};
+  const auto on_drop = [this](std::shared_ptr<Frame> frame, DropReason reason) {
+    if (is_lossless()) return keep_without_pose(std::move(frame), why_dropped(reason));
+    drop(reason);
+    if (reason == DropReason::no_camera_info) ++without_info_;
+  };
+  const auto check = [this](const Frame& frame, bool over) {
+    return is_lossless() ? check_all(frame, over) : check_info(frame, over);
   };
   return std::make_shared<CameraSetup>(robot_.posed(), std::move(cameras), std::move(mount), queue,
-                                       options_.hidden_targets, on_drop);
+                                       options_.hidden_targets, on_drop, check);
 }
 
 JudgedCameras CameraInput::find_cameras() const {
@@ -205,66 +207,34 @@ void CameraInput::finish() {
   if (setup_) setup_->queue.finish();
 }
 
-void CameraInput::hold(const std::shared_ptr<Frame>& frame) {
-  held_.push_back(std::static_pointer_cast<AssembledFrame>(frame));
-}
-
-void CameraInput::hold_without_pose(const std::shared_ptr<Frame>& frame, const std::string& why) {
+void CameraInput::keep_without_pose(std::shared_ptr<Frame> frame, const std::string& why) {
   if (frame->stamp.value_or(0) <= 0) frame->stamp.reset();
   frame->pose = {.status = options_.poses == PoseSource::transforms ? FrameStatus::missing_transform
                                                                     : FrameStatus::missing_joints,
                  .message = why};
-  hold(frame);
+  without_pose_.push_back(std::move(frame));
 }
 
-void CameraInput::collect(std::int64_t now) {
-  while (const auto frame = setup_ ? setup_->queue.next(now) : nullptr) hold(frame);
-  if (is_lossless()) return;
-  for (; held_.size() > options_.max_frames; held_.pop_front()) drop(DropReason::overflow);
-}
-
-CameraInput::InfoState CameraInput::find_info(const AssembledFrame& frame, std::int64_t now) {
-  const std::int64_t stamp = frame.stamp.value_or(0);
-  if (!infos_.are_likely() || infos_.covers(stamp)) return InfoState::known;
-  if (!finished_ && now - frame.arrived < newest_companion_wait) return InfoState::awaited;
-  if (infos_.are_certain()) return InfoState::missing;
+/// Checks an image's own camera_info, if the driver sends one with each image.
+Companions CameraInput::check_info(const Frame& frame, bool over) {
+  if (!infos_.are_likely() || infos_.covers(*frame.stamp)) return Companions::complete;
+  if (!over) return Companions::awaited;
+  if (infos_.are_certain()) return Companions::missing;
   infos_.note_missing();
-  return InfoState::known;
+  return Companions::complete;
 }
 
-bool CameraInput::find_newest(std::int64_t now, AssembledFrame& found) {
-  for (std::size_t i = held_.size(); i-- > 0;) {
-    const InfoState state = find_info(*held_[i], now);
-    if (state == InfoState::awaited) continue;
-    const auto place = held_.begin() + static_cast<std::ptrdiff_t>(i);
-    if (state == InfoState::missing) {
-      ++without_info_;
-      drop(DropReason::no_camera_info);
-      held_.erase(place);
-      continue;
-    }
-    without_info_ = 0;
-    drop(DropReason::superseded, i);
-    found = std::move(**place);
-    held_.erase(held_.begin(), place + 1);
-    return true;
-  }
-  return false;
-}
-
-bool CameraInput::awaits_companions(const AssembledFrame& frame, std::int64_t now,
-                                    bool with_color) const {
-  if (finished_ || frame.image.is_empty() || held_.size() >= options_.max_frames ||
-      stamp_distance(now, frame.arrived) > std::uint64_t{every_companion_wait})
-    return false;
-  const std::int64_t stamp = frame.stamp.value_or(0);
+/// Also awaits the colour image. An image without camera_info has a fault instead.
+Companions CameraInput::check_all(const Frame& frame, bool over) const {
+  const std::int64_t stamp = *frame.stamp;
   const bool has_info = infos_.are_certain() ? infos_.covers(stamp) : infos_.reaches(stamp);
   const bool has_color_info = options_.color_info_topic.empty() || color_infos_.reaches(stamp);
-  const bool has_color = !with_color || options_.color_topic.empty() || colors_.reaches(stamp);
-  return !has_info || !has_color_info || !has_color;
+  const bool has_color = !with_color_ || options_.color_topic.empty() || colors_.reaches(stamp);
+  return over || (has_info && has_color_info && has_color) ? Companions::complete
+                                                           : Companions::awaited;
 }
 
-std::string CameraInput::fault_of(const AssembledFrame& frame) const {
+std::string CameraInput::fault_of(const Frame& frame) const {
   const std::string& known = frame.source_message;
   if (!is_lossless() || !known.empty()) return known;
   const std::int64_t stamp = frame.stamp.value_or(0);
@@ -275,17 +245,17 @@ std::string CameraInput::fault_of(const AssembledFrame& frame) const {
   return {};
 }
 
-bool CameraInput::find_next(std::int64_t now, bool with_color, AssembledFrame& found) {
-  collect(now);
-  if (!is_lossless()) return find_newest(now, found);
-  if (held_.empty() || awaits_companions(*held_.front(), now, with_color)) return false;
-  found = std::move(*held_.front());
-  held_.pop_front();
-  return true;
-}
-
 bool CameraInput::next(std::int64_t now, bool with_color, AssembledFrame& next) {
-  if (!find_next(now, with_color, next)) return false;
+  with_color_ = with_color;
+  std::shared_ptr<Frame> found;
+  if (setup_ && without_pose_.empty()) found = setup_->queue.next(now);
+  if (!found && !without_pose_.empty()) {
+    found = std::move(without_pose_.front());
+    without_pose_.pop_front();
+  }
+  if (!found) return false;
+  without_info_ = 0;
+  next = std::move(static_cast<AssembledFrame&>(*found));
   next.setup = setup_;
   next.source_message = fault_of(next);
   next.targets = setup_->targets.take();
@@ -307,17 +277,6 @@ void CameraInput::done(bool is_judged, std::size_t unjudged_targets) {
   targets_.discarded += unjudged_targets;
 }
 
-std::optional<std::int64_t> CameraInput::wake_at() const {
-  std::optional<std::int64_t> first;
-  if (setup_) first = setup_->queue.wake_at();
-  if (!held_.empty()) {
-    const std::int64_t alone =
-        held_.front()->arrived + (is_lossless() ? every_companion_wait : newest_companion_wait);
-    first = std::min(first.value_or(alone), alone);
-  }
-  return first;
-}
-
 std::optional<std::int64_t> CameraInput::depth_period() const {
   if (intervals_.empty()) return std::nullopt;
   return *std::min_element(intervals_.begin(), intervals_.end());
@@ -334,7 +293,7 @@ UnjudgedTargets CameraInput::targets() const {
 
 ImageCounts CameraInput::counts() const {
   ImageCounts counts = counts_;
-  counts.waiting = (setup_ ? setup_->queue.waiting() : 0) + held_.size();
+  counts.waiting = (setup_ ? setup_->queue.waiting() : 0) + without_pose_.size();
   return counts;
 }
 

@@ -74,8 +74,8 @@ struct UnjudgedTargets {
   std::size_t early = 0;  ///< messages received before robot and camera were known
 };
 
-/// The messages of one camera: keeps depth images until their pose is known, then until their
-/// camera_info has come. Part of FrameAssembler; uses no threads and no clock.
+/// The messages of one camera: keeps depth images until their pose is known and their camera_info
+/// has come. Part of FrameAssembler; uses no threads and no clock.
 class CameraInput {
  public:
   /// `robot` must outlive this. Throws InputError for options that FrameQueue refuses.
@@ -104,7 +104,9 @@ class CameraInput {
   /// See FrameAssembler.
   bool next(std::int64_t now, bool with_color, AssembledFrame& next);
   void done(bool is_judged, std::size_t unjudged_targets);
-  [[nodiscard]] std::optional<std::int64_t> wake_at() const;
+  [[nodiscard]] std::optional<std::int64_t> wake_at() const {
+    return setup_ ? setup_->queue.wake_at() : std::nullopt;
+  }
 
   [[nodiscard]] const CameraInputOptions& options() const { return options_; }
   [[nodiscard]] ImageCounts counts() const;
@@ -125,8 +127,6 @@ class CameraInput {
   [[nodiscard]] UnjudgedTargets targets() const;
 
  private:
-  /// The state of an image's own camera_info if the driver sends one with each image.
-  enum class InfoState { known, awaited, missing };
   /// The inputs of a setup.
   struct Basis {
     const PosedRobot* robot = nullptr;
@@ -144,15 +144,10 @@ class CameraInput {
   void drop(DropReason reason, std::size_t images = 1) {
     counts_.dropped[static_cast<std::size_t>(reason)] += images;
   }
-  void hold(const std::shared_ptr<Frame>& frame);
-  void hold_without_pose(const std::shared_ptr<Frame>& frame, const std::string& why);
-  void collect(std::int64_t now);
-  [[nodiscard]] bool find_next(std::int64_t now, bool with_color, AssembledFrame& found);
-  [[nodiscard]] bool find_newest(std::int64_t now, AssembledFrame& found);
-  [[nodiscard]] InfoState find_info(const AssembledFrame& frame, std::int64_t now);
-  [[nodiscard]] bool awaits_companions(const AssembledFrame& frame, std::int64_t now,
-                                       bool with_color) const;
-  [[nodiscard]] std::string fault_of(const AssembledFrame& frame) const;
+  void keep_without_pose(std::shared_ptr<Frame> frame, const std::string& why);
+  [[nodiscard]] Companions check_info(const Frame& frame, bool over);
+  [[nodiscard]] Companions check_all(const Frame& frame, bool over) const;
+  [[nodiscard]] std::string fault_of(const Frame& frame) const;
 
   CameraInputOptions options_;
   const RobotInput& robot_;
@@ -167,7 +162,8 @@ class CameraInput {
   CameraInfos infos_, color_infos_;
   std::size_t without_info_ = 0;
   std::string depth_frame_;
-  std::deque<std::shared_ptr<AssembledFrame>> held_;  // those whose pose is decided
+  std::deque<std::shared_ptr<Frame>> without_pose_;  // not in the queue, to be given out first
+  bool with_color_ = false;
   bool finished_ = false;
   ColorImages colors_;
   ImageCounts counts_;

@@ -24,13 +24,16 @@ std::string_view to_string(DropReason reason) {
 }
 
 FrameQueue::FrameQueue(const Robot& robot, PoseHistory& history, const FrameQueueOptions& options,
-                       OnDrop on_drop)
+                       OnDrop on_drop, Check check)
     : history_(history),
       options_(options),
       time_offset_(span_nanoseconds(options.time_offset, "frame queue: time_offset", -1e9)),
       max_wait_(span_nanoseconds(options.max_wait, "frame queue: max_wait")),
+      companion_wait_(span_nanoseconds(options.companion_wait, "frame queue: companion_wait")),
       lookup_(robot, options.poses),
       on_drop_(on_drop ? std::move(on_drop) : [](const auto&, DropReason) {}),
+      check_(check ? std::move(check)
+                   : [](const Frame&, bool /*over*/) { return Companions::complete; }),
       epoch_(history.epoch()) {
   if (options_.max_frames == 0)
     throw InputError("frame queue: max_frames is 0; expected at least 1");
@@ -67,8 +70,11 @@ void FrameQueue::follow(std::int64_t now) {
   newest_.reset();
   first_.reset();
   given_out_.reset();
-  for (Waiting& waiting : waiting_) on_drop_(std::move(waiting.frame), DropReason::clock_jump);
-  waiting_.clear();
+  std::erase_if(waiting_, [this](Waiting& waiting) {
+    if (options_.policy == DropPolicy::every && waiting.has_result) return false;
+    on_drop_(std::move(waiting.frame), DropReason::clock_jump);
+    return true;
+  });
 }
 
 std::int64_t FrameQueue::pose_stamp(std::int64_t stamp) const {
@@ -87,19 +93,28 @@ std::shared_ptr<Frame> FrameQueue::next(std::int64_t now) {
   return frame;
 }
 
-/// Returns the first frame (every) or the newest one whose pose is decided.
+/// Returns the first frame (every) or the newest one that is decided.
 std::vector<FrameQueue::Waiting>::iterator FrameQueue::find_next() {
-  if (options_.policy == DropPolicy::every)
-    return !waiting_.empty() && decide(waiting_.front()) ? waiting_.begin() : waiting_.end();
-  const auto found = std::find_if(waiting_.rbegin(), waiting_.rend(),
-                                  [this](Waiting& waiting) { return decide(waiting); });
-  return found == waiting_.rend() ? waiting_.end() : std::prev(found.base());
+  const bool every = options_.policy == DropPolicy::every;
+  for (std::size_t left = waiting_.size(); left-- > 0;) {
+    const auto waiting =
+        every ? waiting_.begin() : waiting_.begin() + static_cast<std::ptrdiff_t>(left);
+    const Companions companions = decide(*waiting);
+    if (companions == Companions::complete) return waiting;
+    if (companions == Companions::missing) {
+      on_drop_(std::move(waiting->frame), DropReason::no_camera_info);
+      waiting_.erase(waiting);
+    } else if (every) {
+      break;
+    }
+  }
+  return waiting_.end();
 }
 
-bool FrameQueue::is_over(const Waiting& waiting) const {
+bool FrameQueue::is_over(const Waiting& waiting, std::int64_t max_wait) const {
   const bool full = options_.policy == DropPolicy::every && waiting_.size() == options_.max_frames;
   return finished_ || full ||
-         stamp_distance(waiting.arrived, now_) >= static_cast<std::uint64_t>(max_wait_);
+         stamp_distance(waiting.arrived, now_) >= static_cast<std::uint64_t>(max_wait);
 }
 
 /// Whether states of an uncertain robot may still come in time. A robot that has been silent for
@@ -110,22 +125,29 @@ bool FrameQueue::awaits_robot(std::int64_t at) const {
          stamp_distance(std::max(*since, *first_), at) <= static_cast<std::uint64_t>(max_wait_);
 }
 
-/// Looks up the pose of a frame. Returns whether it is known or is no longer awaited.
-bool FrameQueue::decide(Waiting& waiting) {
-  const bool over = is_over(waiting);
-  if (waiting.revision == history_.revision() && !over) return false;
+/// A frame is decided if its pose and its companions are, or are no longer awaited.
+Companions FrameQueue::decide(Waiting& waiting) {
+  if (!waiting.has_result) find_pose(waiting);
+  return waiting.has_result ? check_(*waiting.frame, is_over(waiting, companion_wait_))
+                            : Companions::awaited;
+}
+
+void FrameQueue::find_pose(Waiting& waiting) {
+  const bool over = is_over(waiting, max_wait_);
+  if (waiting.revision == history_.revision() && !over) return;
   waiting.revision = history_.revision();
   const std::int64_t at = pose_stamp(*waiting.frame->stamp);
   RobotPose& pose = waiting.frame->pose;
   lookup_.at(history_, at, pose);
-  return over || pose.status == FrameStatus::poses_disagree ||
-         (has_pose(pose.status) && !awaits_robot(at));
+  waiting.has_result = over || pose.status == FrameStatus::poses_disagree ||
+                       (has_pose(pose.status) && !awaits_robot(at));
 }
 
 std::optional<std::int64_t> FrameQueue::wake_at() const {
   std::optional<std::int64_t> first;
   for (const Waiting& waiting : waiting_) {
-    const std::int64_t over = stamp_after(waiting.arrived, max_wait_);
+    const std::int64_t over =
+        stamp_after(waiting.arrived, waiting.has_result ? companion_wait_ : max_wait_);
     first = std::min(first.value_or(over), over);
   }
   return first;

@@ -44,8 +44,16 @@ struct FrameQueueOptions {
   /// later than they are taken.
   double time_offset = 0.0;
   double max_wait = 0.2;        ///< seconds on the caller's clock that an image waits for its pose
+  double companion_wait = 0.0;  ///< likewise, for what comes with it (FrameQueue::Check)
   std::size_t max_frames = 32;  ///< waiting at once; with `every`, the first waits no longer then
   PoseOptions poses = {};
+};
+
+/// Messages that come with an image, such as its camera_info.
+enum class Companions {
+  complete,
+  awaited,
+  missing  ///< the image is dropped (no_camera_info)
 };
 
 /// Holds depth images until the joint states or transforms around their stamps have arrived. Never
@@ -61,11 +69,13 @@ class FrameQueue {
  public:
   /// Must not call the queue.
   using OnDrop = std::function<void(std::shared_ptr<Frame>, DropReason)>;
+  /// Returns whether a frame's companions are there. It is awaited no longer if it is `over`.
+  using Check = std::function<Companions(const Frame&, bool over)>;
 
   /// Throws InputError as PoseLookup does, and for times that are not finite, negative (except
   /// time_offset) or above 1e9 s, and max_frames 0. `robot` and `history` must outlive this.
   FrameQueue(const Robot& robot, PoseHistory& history, const FrameQueueOptions& options = {},
-             OnDrop on_drop = {});
+             OnDrop on_drop = {}, Check check = {});
 
   /// Adds a frame, by its stamp; without one it is dropped. A stamp that is a clock jump before the
   /// newest clears the history and drops all waiting frames.
@@ -91,22 +101,25 @@ class FrameQueue {
  private:
   struct Waiting {
     std::shared_ptr<Frame> frame;
-    std::int64_t arrived;    // on the caller's clock
-    std::uint64_t revision;  // of the history when its pose was last looked up
+    std::int64_t arrived;     // on the caller's clock
+    std::uint64_t revision;   // of the history when its pose was last looked up
+    bool has_result = false;  // its pose is known, or is no longer awaited
   };
 
   void follow(std::int64_t now);
   [[nodiscard]] std::vector<Waiting>::iterator find_next();
-  bool decide(Waiting& waiting);
-  [[nodiscard]] bool is_over(const Waiting& waiting) const;
+  [[nodiscard]] Companions decide(Waiting& waiting);
+  void find_pose(Waiting& waiting);
+  [[nodiscard]] bool is_over(const Waiting& waiting, std::int64_t max_wait) const;
   [[nodiscard]] bool awaits_robot(std::int64_t at) const;
 
   PoseHistory& history_;
   FrameQueueOptions options_;
-  std::int64_t time_offset_;  // nanoseconds
-  std::int64_t max_wait_;     // nanoseconds
+  std::int64_t time_offset_;                // nanoseconds
+  std::int64_t max_wait_, companion_wait_;  // likewise
   PoseLookup lookup_;
   OnDrop on_drop_;
+  Check check_;
   std::vector<Waiting> waiting_;  // in order of arrival, or (newest) by stamp
   std::uint64_t epoch_;
   std::int64_t now_ = 0;
