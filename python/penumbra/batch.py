@@ -20,6 +20,7 @@ import pathlib
 import shlex
 import shutil
 import signal
+import stat
 import subprocess
 import sys
 import time
@@ -33,6 +34,7 @@ __all__ = ["run"]
 
 program = pathlib.Path(__file__).parent.absolute() / "bin" / "penumbra"
 record_name = "batch.json"
+most_record_bytes = 1 << 20
 part_name = ".part"  # folder of unfinished results
 nothing_judged = 2  # exit status of penumbra run
 libc = ctypes.CDLL(None)
@@ -73,10 +75,10 @@ def _fingerprint(path: str, options: Sequence[str]) -> str:
     hashed = hashlib.sha256(json.dumps([__version__, path, options]).encode())
     for file in _files_of(path):
         try:
-            stat = file.stat()
+            status = file.stat()
         except OSError:  # `penumbra run` says what is wrong
             continue
-        hashed.update(f"{file}\0{stat.st_size}\0{stat.st_mtime_ns}\n".encode())
+        hashed.update(f"{file}\0{status.st_size}\0{status.st_mtime_ns}\n".encode())
     return hashed.hexdigest()
 
 
@@ -88,6 +90,11 @@ def _result_name(path: str) -> str:
 def _die_with_parent() -> None:
     set_death_signal = 1
     libc.prctl(set_death_signal, signal.SIGKILL)
+
+
+def _reports(result: pathlib.Path) -> Iterator[pathlib.Path]:
+    """Of one camera in run/, of several in run/CAMERA/."""
+    return (result / "run").rglob("report.json")
 
 
 def _numbers(reports: Iterable[pathlib.Path]) -> dict[str, Any]:
@@ -127,12 +134,13 @@ def _judge(
         start_new_session=True, check=False, cwd=working_folder,
     )  # fmt: skip
     fault = (done.stderr.strip().splitlines() or ["no message"])[-1].removeprefix("penumbra: ")
-    if done.returncode not in (0, nothing_judged):  # not the input's fault: it is not kept
+    reports = list(_reports(part)) if done.returncode == 0 else []
+    if not reports and done.returncode != nothing_judged:  # not the input's fault: it is not kept
         shutil.rmtree(part, ignore_errors=True)
-        raise RuntimeError(f"penumbra run ended with status {done.returncode}: {fault}")
+        raise RuntimeError(f"penumbra run gave no result (status {done.returncode}): {fault}")
     record: dict[str, Any] = {"input": path, "result": folder.name, "penumbra": __version__}
-    if done.returncode == 0:
-        record |= {"status": "done", **_numbers((part / "run").rglob("report.json"))}
+    if reports:
+        record |= {"status": "done", **_numbers(reports)}
     else:
         record |= {"status": "failed", "fault": fault}
         shutil.rmtree(part / "run", ignore_errors=True)
@@ -148,13 +156,25 @@ def _judge(
     return record
 
 
-def _former_record(folder: pathlib.Path, fingerprint: str) -> dict[str, Any] | None:
-    """The record of a result that is still valid."""
+def _read_regular(file: pathlib.Path) -> bytes:
+    """Returns the file's first bytes; refuses a link, and a pipe without waiting for it."""
+    guards = os.O_NOFOLLOW | os.O_NONBLOCK
+    with open(file, "rb", opener=lambda path, flags: os.open(path, flags | guards)) as opened:
+        if not stat.S_ISREG(os.fstat(opened.fileno()).st_mode):
+            raise OSError
+        return opened.read(most_record_bytes)
+
+
+def _former_record(path: str, fingerprint: str, folder: pathlib.Path) -> dict[str, Any] | None:
+    """Returns the record of a result that is whole and still valid."""
     try:
-        kept = json.loads((folder / record_name).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        kept = json.loads(_read_regular(folder / record_name))
+        record: dict[str, Any] = kept["record"]
+        is_valid = kept["fingerprint"] == fingerprint and record["input"] == path
+        is_whole = {"done": any(_reports(folder)), "failed": "fault" in record}[record["status"]]
+    except (OSError, ValueError, TypeError, LookupError, RecursionError):
         return None
-    return kept["record"] if kept.get("fingerprint") == fingerprint else None
+    return record if is_valid and is_whole else None
 
 
 def _inputs(given: Iterable[str]) -> list[tuple[str, list[str]]]:
@@ -242,7 +262,7 @@ def run(
             all_options = [*options, *own]
             fingerprint = _fingerprint(path, all_options)
             result = folder / _result_name(path)
-            former = _former_record(result, fingerprint)
+            former = _former_record(path, fingerprint, result)
             if former and not (retry_failed and former["status"] == "failed"):
                 keep(former)
             else:

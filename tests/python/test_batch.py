@@ -25,6 +25,7 @@ BROKEN = 5
 RESULTS_BETWEEN_KILLS = 20 if IN_FULL else 4
 OPTIONS = ["--save", "labels,overlay"]
 TARGETS = "targets: [{name: it, box: [460, 172, 38, 98], expected_depth: 1.87, depth_margin: 0.1}]"
+ONE_FRAME = ["--frames", "0:1"]
 NO_SCHEDULER = "tcp://127.0.0.1:1"
 
 
@@ -202,6 +203,42 @@ def test_failed_inputs_are_done_again_if_asked(tmp_path, scheduler):
     assert status(retry_failed=True) == "done"
     targets.unlink()
     assert status(retry_failed=True) == "done", "it did not fail"
+
+
+def judge(out, scheduler, *options):
+    [record] = penumbra.batch.run([SHIPPED], out, [*ONE_FRAME, *options], scheduler=scheduler)
+    return record
+
+
+@pytest.mark.parametrize("damage", [
+    "nothing", "pipe", "link", "no report", "[]", "null", "[" * 100_000,
+    '{"fingerprint": "VALID"}', '{"fingerprint": "VALID", "record": [1]}',
+], ids=lambda damage: damage[:40])
+def test_a_damaged_result_is_made_again(damage, tmp_path, scheduler):
+    result = tmp_path / "out" / judge(tmp_path / "out", scheduler)["result"]
+    kept = result / "batch.json"
+    text = kept.read_text()
+    if damage == "no report":
+        shutil.rmtree(result / "run")
+    elif damage == "pipe":
+        kept.unlink()
+        os.mkfifo(kept)
+    elif damage == "link":
+        kept.rename(tmp_path / "batch.json")
+        kept.symlink_to(tmp_path / "batch.json")
+    elif damage != "nothing":
+        kept.write_text(damage.replace("VALID", json.loads(text)["fingerprint"]))
+    record = judge(tmp_path / "out", scheduler)
+    assert record["status"] == "done" and (result / "run" / "report.json").exists()
+    assert json.loads(kept.read_text())["record"] == record
+    assert (kept.read_text() == text) == (damage == "nothing")
+
+
+def test_a_run_that_writes_no_report_fails_and_the_good_result_stays(tmp_path, scheduler):
+    good = judge(tmp_path / "out", scheduler)
+    assert judge(tmp_path / "out", scheduler, "--help")["status"] == "failed"
+    assert (tmp_path / "out" / good["result"] / "run" / "report.json").exists()
+    assert judge(tmp_path / "out", scheduler) == good
 
 
 @pytest.mark.parametrize("arguments, word", [
