@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import argparse
 import collections
+import contextlib
 import csv
 import ctypes
+import fcntl
 import glob
 import hashlib
 import importlib
@@ -36,6 +38,7 @@ program = pathlib.Path(__file__).parent.absolute() / "bin" / "penumbra"
 record_name = "batch.json"
 most_record_bytes = 1 << 20
 part_name = ".part"  # folder of unfinished results
+summary_name = "summary.csv"
 nothing_judged = 2  # exit status of penumbra run
 libc = ctypes.CDLL(None)
 dask_settings = {
@@ -113,10 +116,29 @@ def _numbers(reports: Iterable[pathlib.Path]) -> dict[str, Any]:
 
 def _remove_parts(output: pathlib.Path) -> None:
     """Renames them first, so that no job that still runs can complete a half-removed result."""
-    if (output / part_name).exists():
-        removed = output / f"{part_name}-{uuid.uuid4().hex}"
+    removed = output / f"{part_name}-{uuid.uuid4().hex}"
+    with contextlib.suppress(FileNotFoundError):
         (output / part_name).rename(removed)
         shutil.rmtree(removed, ignore_errors=True)
+
+
+@contextlib.contextmanager
+def _alone_in(output: pathlib.Path) -> Iterator[None]:
+    """Makes the folder and that of unfinished results, and keeps other batches out."""
+    with contextlib.ExitStack() as at_end:
+        try:
+            output.mkdir(parents=True, exist_ok=True)
+            descriptor = os.open(output, os.O_DIRECTORY)
+            at_end.callback(os.close, descriptor)
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            _remove_parts(output)
+            (output / part_name).mkdir()
+        except BlockingIOError:
+            raise InputError(f"{output}: another batch is writing into it") from None
+        except OSError as error:
+            raise InputError(f"{output}: cannot be written: {error.strerror}") from None
+        at_end.callback(_remove_parts, output)
+        yield
 
 
 def _judge(
@@ -149,7 +171,7 @@ def _judge(
     with (part / record_name).open("r+", encoding="utf-8") as file:  # fails if it was removed
         json.dump({"fingerprint": fingerprint, "record": record}, file, indent=1)
     former = part.with_name(f"{part.name}-former")
-    if folder.exists():
+    with contextlib.suppress(FileNotFoundError):
         folder.rename(former)
     part.rename(folder)
     shutil.rmtree(former, ignore_errors=True)
@@ -202,13 +224,13 @@ def _inputs(given: Iterable[str]) -> list[tuple[str, list[str]]]:
     return list(found.items())
 
 
-def _write_summary(file: pathlib.Path, records: Sequence[dict[str, Any]]) -> None:
-    part = file.with_name(f".{file.name}")
-    with part.open("w", encoding="utf-8", newline="") as out:
+def _write_summary(output: pathlib.Path, records: Sequence[dict[str, Any]]) -> None:
+    part = output / part_name / summary_name
+    with part.open("x", encoding="utf-8", newline="") as out:
         writer = csv.DictWriter(out, columns, extrasaction="ignore")
         writer.writeheader()
         writer.writerows(records)
-    part.replace(file)
+    part.replace(output / summary_name)
 
 
 def run(
@@ -238,19 +260,13 @@ def run(
 
     A record has "status": "done" or "failed" with a "fault"; "seconds", "bytes" of the result,
     "frames", "bad_frames", numbers of pixels by label and of verdicts over all targets.
-    Raises InputError for no input, an output that cannot be written, and a scheduler that does not
-    answer.
+    Raises InputError for no input, an output that cannot be written or that another call writes,
+    and a scheduler that does not answer.
     """
     given = _inputs(str(name) for name in inputs)
     if not program.exists():
         raise InputError(f"{program} is not there; install the package again")
     folder = pathlib.Path(output).absolute()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        _remove_parts(folder)
-        (folder / part_name).mkdir()
-    except OSError as error:
-        raise InputError(f"{folder}: cannot be written: {error.strerror}") from None
     records: dict[str, dict[str, Any]] = {}
 
     def keep(record: dict[str, Any]) -> None:
@@ -268,12 +284,10 @@ def run(
             else:
                 yield path, all_options, os.getcwd(), fingerprint, result
 
-    try:
+    with _alone_in(folder):
         _run_on_cluster(jobs(), keep, workers, scheduler)
-    finally:
-        _remove_parts(folder)
-    ordered = [records[path] for path, _ in given]
-    _write_summary(folder / "summary.csv", ordered)
+        ordered = [records[path] for path, _ in given]
+        _write_summary(folder, ordered)
     return ordered
 
 

@@ -241,6 +241,37 @@ def test_a_run_that_writes_no_report_fails_and_the_good_result_stays(tmp_path, s
     assert judge(tmp_path / "out", scheduler) == good
 
 
+def test_nothing_is_written_through_a_link(tmp_path, scheduler):
+    out, others = tmp_path / "out", tmp_path / "others"
+    result = out / judge(out, scheduler)["result"]
+    others.mkdir()
+    (others / "file").write_text("mine")
+    for name in (".summary.csv", "summary.csv"):
+        (out / name).unlink(missing_ok=True)
+        (out / name).symlink_to(others / "file")
+    (out / ".part").symlink_to(others / "none")
+    shutil.rmtree(result)
+    result.symlink_to(others / "none")
+    assert judge(out, scheduler)["status"] == "done"
+    assert [path.name for path in others.iterdir()] == ["file"]
+    assert (others / "file").read_text() == "mine"
+    assert len(rows_of(out)) == 1
+
+
+def test_one_batch_at_a_time_writes_into_a_folder(tmp_path, scheduler):
+    refused = []
+
+    def judge_meanwhile(*_):
+        with pytest.raises(penumbra.InputError) as error:
+            penumbra.batch.run([SHIPPED], tmp_path / "out", scheduler=scheduler)
+        refused.append(error)
+
+    records = penumbra.batch.run([SHIPPED], tmp_path / "out", ONE_FRAME, scheduler=scheduler,
+                                 on_progress=judge_meanwhile)
+    assert refused and records[0]["status"] == "done"
+    assert judge(tmp_path / "out", scheduler) == records[0], "the lock is free again"
+
+
 @pytest.mark.parametrize("arguments, word", [
     (["-o", "out"], "no input"),
     (["none.txt", "-o", "out"], "none.txt"),
