@@ -81,13 +81,13 @@ def _fingerprint(path: str, options: Sequence[str]) -> str:
             status = file.stat()
         except OSError:  # `penumbra run` says what is wrong
             continue
-        hashed.update(f"{file}\0{status.st_size}\0{status.st_mtime_ns}\n".encode())
+        hashed.update(os.fsencode(f"{file}\0{status.st_size}\0{status.st_mtime_ns}\n"))
     return hashed.hexdigest()
 
 
 def _result_name(path: str) -> str:
     """Two inputs of one name have results of two."""
-    return f"{pathlib.Path(path).name}-{hashlib.sha256(path.encode()).hexdigest()[:8]}"
+    return f"{pathlib.Path(path).name}-{hashlib.sha256(os.fsencode(path)).hexdigest()[:8]}"
 
 
 def _die_with_parent() -> None:
@@ -152,7 +152,7 @@ def _judge(
     start = time.monotonic()
     done = subprocess.run(
         [program, "run", path, "-o", part / "run", *threads, *options],
-        capture_output=True, text=True, errors="replace", preexec_fn=_die_with_parent,
+        capture_output=True, text=True, errors="surrogateescape", preexec_fn=_die_with_parent,
         start_new_session=True, check=False, cwd=working_folder,
     )  # fmt: skip
     fault = (done.stderr.strip().splitlines() or ["no message"])[-1].removeprefix("penumbra: ")
@@ -226,7 +226,7 @@ def _inputs(given: Iterable[str]) -> list[tuple[str, list[str]]]:
 
 def _write_summary(output: pathlib.Path, records: Sequence[dict[str, Any]]) -> None:
     part = output / part_name / summary_name
-    with part.open("x", encoding="utf-8", newline="") as out:
+    with part.open("x", encoding="utf-8", errors="backslashreplace", newline="") as out:
         writer = csv.DictWriter(out, columns, extrasaction="ignore")
         writer.writeheader()
         writer.writerows(records)
@@ -334,9 +334,14 @@ def _run_on_cluster(
                 submit(itertools.islice(jobs, 1))
 
 
+def _printable(text: object) -> str:
+    """Returns foreign text for a terminal: question marks for control characters."""
+    return "".join(c if c.isprintable() else "?" for c in str(text))
+
+
 def _print_progress(done: int, all_inputs: int, record: dict[str, Any]) -> None:
     if record["status"] == "failed":
-        path, fault = record["input"], record["fault"]
+        path, fault = _printable(record["input"]), _printable(record["fault"])
         print(f"\rpenumbra: {fault if path in fault else f'{path}: {fault}'}", file=sys.stderr)
     if sys.stderr.isatty():
         bar = "#" * (40 * done // all_inputs)
@@ -371,12 +376,13 @@ def main() -> int:
                       scheduler=known.scheduler, retry_failed=known.retry_failed,
                       on_progress=_print_progress)  # fmt: skip
     except InputError as error:
-        print(f"penumbra: {error}", file=sys.stderr)
+        print(f"penumbra: {_printable(error)}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         return 128 + signal.SIGINT
     failed = sum(record["status"] == "failed" for record in records)
-    print(f"{len(records) - failed} done, {failed} failed: {known.output}/summary.csv")
+    summary = _printable(pathlib.Path(known.output, summary_name))
+    print(f"{len(records) - failed} done, {failed} failed: {summary}")
     return 0 if failed == 0 else 2 if failed == len(records) else 1
 
 

@@ -241,6 +241,19 @@ def test_a_run_that_writes_no_report_fails_and_the_good_result_stays(tmp_path, s
     assert judge(tmp_path / "out", scheduler) == good
 
 
+def test_names_are_bytes_and_nothing_printed_controls_a_terminal(tmp_path, scheduler):
+    folder, out = tmp_path / "in", tmp_path / os.fsdecode(b"out\xff\x1b[31m")
+    folder.mkdir()
+    for name, target in ((b"good\xff\x1b[31m", SHIPPED), (b"none\xff\x1b[31m", "nowhere")):
+        (folder / os.fsdecode(name)).symlink_to(target)
+    for _ in range(2):
+        batch = subprocess.run([sys.executable, "-m", "penumbra.batch", folder / "*", "-o", out,
+                                "--scheduler", scheduler, "--", *ONE_FRAME], capture_output=True)
+        assert batch.returncode == 1, batch.stderr
+        assert b"\x1b" not in batch.stdout + batch.stderr
+        assert [row["status"] for row in rows_of(out)] == ["done", "failed"]
+
+
 def test_nothing_is_written_through_a_link(tmp_path, scheduler):
     out, others = tmp_path / "out", tmp_path / "others"
     result = out / judge(out, scheduler)["result"]
