@@ -203,7 +203,6 @@ JudgedCameras CameraInput::find_cameras() const {
 }
 
 void CameraInput::finish() {
-  finished_ = true;
   if (setup_) setup_->queue.finish();
 }
 
@@ -247,9 +246,14 @@ std::string CameraInput::fault_of(const Frame& frame) const {
 
 bool CameraInput::next(std::int64_t now, bool with_color, AssembledFrame& next) {
   with_color_ = with_color;
+  const auto is_without_pose = [this] {
+    const Frame* const first = setup_ ? setup_->queue.first() : nullptr;
+    return !without_pose_.empty() &&
+           (first == nullptr || without_pose_.front()->index < first->index);
+  };
   std::shared_ptr<Frame> found;
-  if (setup_ && without_pose_.empty()) found = setup_->queue.next(now);
-  if (!found && !without_pose_.empty()) {
+  if (setup_ && !is_without_pose()) found = setup_->queue.next(now);
+  if (!found && is_without_pose()) {
     found = std::move(without_pose_.front());
     without_pose_.pop_front();
   }

@@ -162,9 +162,8 @@ class CameraInput {
   CameraInfos infos_, color_infos_;
   std::size_t without_info_ = 0;
   std::string depth_frame_;
-  std::deque<std::shared_ptr<Frame>> without_pose_;  // not in the queue, to be given out first
+  std::deque<std::shared_ptr<Frame>> without_pose_;  // not in the queue
   bool with_color_ = false;
-  bool finished_ = false;
   ColorImages colors_;
   ImageCounts counts_;
   std::optional<std::int64_t> last_depth_;

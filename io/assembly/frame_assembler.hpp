@@ -27,8 +27,7 @@ namespace penumbra::io {
 /// time. What is not known is a status of the frame. Images that do not become frames are counted
 /// with the reason.
 /// Which frames come out is the camera's choice (CameraInputOptions::known): the newest image that
-/// can be judged, with the current setup (live), or every image, with one setup (bags). Those that
-/// cannot be read come before images that wait for a pose.
+/// can be judged, with the current setup (live), or every image, with one setup (bags).
 ///
 /// This class knows no transport, starts no thread and reads no clock. Its callers are the bag
 /// reader (BagSource), the DDS subscriptions (LiveRunner) and, like them, any other node. One

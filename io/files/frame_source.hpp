@@ -22,8 +22,8 @@ class FrameSource {
   bool next(Frame& frame) { return read(next_++, frame); }
 
   /// Reads the frame with a number, from 0. Returns false after the last. At most at_once() frames
-  /// may be read at the same time; if that is 1, in order. Images without an owner are valid until
-  /// the call after the next one, so that one frame can be read ahead.
+  /// may be read at the same time, and have owners of their images; if that is 1, in order. Then
+  /// images without an owner are valid until the call after the next one.
   virtual bool read(std::size_t number, Frame& frame) = 0;
   [[nodiscard]] virtual std::size_t at_once() const { return 1; }
 

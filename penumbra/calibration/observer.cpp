@@ -22,7 +22,7 @@ constexpr int most_missing = 4;           // pixels without measurement at an ed
 constexpr int mask_reach = 40;            // pixels
 constexpr double agreeing_depth = 0.02;   // metres
 
-/// As std::lround, without a call. For coordinates of pixels.
+/// As std::lround of a pixel's coordinate, without a call.
 int nearest(double coordinate) {
   constexpr int positive = 1 << 16;
   return static_cast<int>(coordinate + (positive + 0.5)) - positive;

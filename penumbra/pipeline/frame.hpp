@@ -16,8 +16,8 @@
 
 namespace penumbra {
 
-/// An image, and all that is needed to judge it. Images without an owner must stay valid until the
-/// next frame is judged.
+/// An image, and all that is needed to judge it. A source's images without an owner are valid until
+/// its next frame.
 struct Frame {
   std::optional<std::size_t> index = {};   ///< in its source; null: the number of the call
   std::optional<std::int64_t> stamp = {};  ///< of the depth image, nanoseconds

@@ -83,6 +83,8 @@ std::int64_t FrameQueue::pose_stamp(std::int64_t stamp) const {
 
 std::shared_ptr<Frame> FrameQueue::next(std::int64_t now) {
   follow(now);
+  if (options_.policy == DropPolicy::every)  // before the clock jumps
+    for (Waiting& waiting : waiting_) find_pose(waiting);
   const auto found = find_next();
   if (found == waiting_.end()) return nullptr;
   for (auto before = waiting_.begin(); before != found; ++before)
@@ -112,8 +114,8 @@ std::vector<FrameQueue::Waiting>::iterator FrameQueue::find_next() {
 }
 
 bool FrameQueue::is_over(const Waiting& waiting, std::int64_t max_wait) const {
-  const bool full = options_.policy == DropPolicy::every && waiting_.size() == options_.max_frames;
-  return finished_ || full ||
+  const bool is_first = options_.policy == DropPolicy::every && &waiting == waiting_.data();
+  return finished_ || (is_first && waiting_.size() == options_.max_frames) ||
          stamp_distance(waiting.arrived, now_) >= static_cast<std::uint64_t>(max_wait);
 }
 
@@ -127,12 +129,13 @@ bool FrameQueue::awaits_robot(std::int64_t at) const {
 
 /// A frame is decided if its pose and its companions are, or are no longer awaited.
 Companions FrameQueue::decide(Waiting& waiting) {
-  if (!waiting.has_result) find_pose(waiting);
+  find_pose(waiting);
   return waiting.has_result ? check_(*waiting.frame, is_over(waiting, companion_wait_))
                             : Companions::awaited;
 }
 
 void FrameQueue::find_pose(Waiting& waiting) {
+  if (waiting.has_result) return;
   const bool over = is_over(waiting, max_wait_);
   if (waiting.revision == history_.revision() && !over) return;
   waiting.revision = history_.revision();

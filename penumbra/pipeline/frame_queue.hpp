@@ -23,7 +23,7 @@ enum class DropPolicy {
   every    ///< all, in the order of arrival. For bags
 };
 
-/// The reason why an image was dropped. A FrameQueue has the first five, its callers may have all.
+/// The reason why an image was dropped. A FrameQueue has the first five and the last.
 enum class DropReason {
   superseded,     ///< a newer one was returned instead (newest)
   late,           ///< it came after one of its stamp or later was returned (newest)
@@ -78,7 +78,7 @@ class FrameQueue {
              OnDrop on_drop = {}, Check check = {});
 
   /// Adds a frame, by its stamp; without one it is dropped. A stamp that is a clock jump before the
-  /// newest clears the history and drops all waiting frames.
+  /// newest clears the history and drops waiting frames, but with `every` not those with a pose.
   void push(std::shared_ptr<Frame> frame, std::int64_t now);
   void push(Frame frame, std::int64_t now) { push(std::make_shared<Frame>(std::move(frame)), now); }
 
@@ -94,6 +94,11 @@ class FrameQueue {
 
   /// Returns when next() has a frame even without new states; null if no frame waits.
   [[nodiscard]] std::optional<std::int64_t> wake_at() const;
+
+  /// Returns the first of the frames that wait; null if there is none.
+  [[nodiscard]] const Frame* first() const {
+    return waiting_.empty() ? nullptr : waiting_.front().frame.get();
+  }
 
   /// Returns how many frames wait.
   [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }

@@ -59,7 +59,7 @@ class Model {
     const bool every = options_.policy == DropPolicy::every;
     if (every && frames_.size() == options_.max_frames) return drop(key, DropReason::overflow);
     if (!every && last_ && stamp <= *last_) return drop(key, DropReason::late);
-    frames_[key] = {stamp, now};
+    frames_[key] = {stamp, now, {}};
     if (frames_.size() <= options_.max_frames) return;
     const auto oldest = in_order().front();
     frames_.erase(oldest);
@@ -70,20 +70,22 @@ class Model {
     restart_waits(now);
     auto keys = in_order();
     const bool every = options_.policy == DropPolicy::every;
+    for (const std::uint64_t key : keys) {
+      Waiting& frame = frames_.at(key);
+      const bool full = every && key == keys.front() && frames_.size() == options_.max_frames;
+      const bool over = finished || full || now - frame.arrived >= wait_;
+      const bool is_known = known(frame.stamp + offset_);
+      if (!frame.has_pose && (over || is_known)) frame.has_pose = is_known;
+    }
     if (!every) std::reverse(keys.begin(), keys.end());
     for (const std::uint64_t key : keys) {
-      const auto [stamp, arrived] = frames_.at(key);
-      const bool full = every && frames_.size() == options_.max_frames;
-      const bool over = finished || full || now - arrived >= wait_;
-      const bool is_known = known(stamp + offset_);
-      if (!over && !is_known) {
-        if (every) return std::nullopt;
-        continue;
-      }
+      const auto [stamp, arrived, has_pose] = frames_.at(key);
+      if (!has_pose && every) return std::nullopt;
+      if (!has_pose) continue;
       frames_.erase(key);
       if (!every) supersede(keys, key);
       last_ = std::max(last_.value_or(stamp), stamp);
-      return Given{key, is_known};
+      return Given{key, *has_pose};
     }
     return std::nullopt;
   }
@@ -93,13 +95,18 @@ class Model {
  private:
   struct Waiting {
     std::int64_t stamp, arrived;
+    std::optional<bool> has_pose;  // once that is decided
   };
 
   void drop(std::uint64_t key, DropReason reason) { dropped.emplace(key, reason); }
 
   void forget() {
-    for (const auto& [key, frame] : frames_) drop(key, DropReason::clock_jump);
-    frames_.clear();
+    std::erase_if(frames_, [this](const auto& of) {
+      const auto& [key, frame] = of;
+      if (options_.policy == DropPolicy::every && frame.has_pose) return false;
+      drop(key, DropReason::clock_jump);
+      return true;
+    });
     states_.clear();
     newest_.reset();
     last_.reset();
