@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iostream>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,8 +15,9 @@
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/calibration_report.hpp>
-#include <io/files/disk_file.hpp>
 #include <io/files/pose_file.hpp>
+#include <io/files/printable.hpp>
+#include <io/files/result_folder.hpp>
 #include <io/run/calibration_input.hpp>
 #include <io/web/calibration_page.hpp>
 
@@ -56,7 +58,7 @@ void print_fit(const Calibration& found, const Robot& robot, const Intrinsics& c
               << fixed(camera.fy() * (1.0 + found.focal_y->value), 2)
               << " px with this pose (in P too, if the camera_info has it)\n";
   for (std::size_t j = 0; j < found.joint_offsets.size(); ++j)
-    std::cout << "  " << robot.variables()[j] << ": "
+    std::cout << "  " << io::without_controls(robot.variables()[j]) << ": "
               << plus_minus(found.joint_offsets[j], degrees, 2) << " degrees\n";
   if (found.time_offset)
     std::cout << "time offset: " << plus_minus(*found.time_offset, 1e3, 1)
@@ -74,15 +76,16 @@ void print_pose(const Calibration& found, const std::string& parent, const std::
   const Eigen::Isometry3d& T = found.T_parent_camera;
   const Eigen::Quaterniond q(T.linear());
   const std::string xyz = joined(T.translation(), 5, " ");
-  std::cout << "\n4x4, optical frame in " << parent << ", metres:\n";
+  std::cout << "\n4x4, optical frame in " << io::without_controls(parent) << ", metres:\n";
   for (int row = 0; row < 4; ++row)
     std::cout << "  " << joined(T.matrix().row(row), 6, ", ") << '\n';
   std::cout << "xyz: " << xyz << "\nquaternion xyzw: " << joined(q.coeffs(), 6, " ")
             << "\nROS 2: ros2 run tf2_ros static_transform_publisher --x " << fixed(T(0, 3), 5)
             << " --y " << fixed(T(1, 3), 5) << " --z " << fixed(T(2, 3), 5) << " --qx "
             << fixed(q.x(), 6) << " --qy " << fixed(q.y(), 6) << " --qz " << fixed(q.z(), 6)
-            << " --qw " << fixed(q.w(), 6) << " --frame-id " << parent << " --child-frame-id "
-            << (frame.empty() ? "camera_optical_frame" : frame) << '\n';
+            << " --qw " << fixed(q.w(), 6) << " --frame-id " << for_shell(parent)
+            << " --child-frame-id " << (frame.empty() ? "camera_optical_frame" : for_shell(frame))
+            << '\n';
 }
 
 /// Returns what is wrong with the input other than the camera's pose; empty: nothing known.
@@ -102,11 +105,19 @@ std::string other_cause(const io::CalibrationInput& input, const CalibrationOpti
 }  // namespace
 
 int execute(const CalibrateArguments& arguments) {
-  if (!arguments.output.empty()) make_output_folder(arguments.output);
+  std::optional<io::ResultFolder> folder;
+  if (!arguments.output.empty())
+    folder.emplace(
+        io::ResultFolderOptions{.path = arguments.output,
+                                .report = {"calibration.json", io::json_begin},
+                                .others = {{"camera_pose.csv"}, {"report.html", io::page_begin}}});
   const io::CalibrationInput input = [&] {
     Progress progress(0);
     return io::read_calibration_input(arguments.input, print_line, [&] { progress.step(); });
   }();
+  std::vector<std::filesystem::path> used = input.input.made_files;
+  if (arguments.initial) used.push_back(*arguments.initial);
+  if (folder) folder->remove_former(used);
   print_notes(input.notes);
   const Robot& robot = input.input.robot;
   CalibrationOptions options{.camera_parent = input.input.config.camera_parent,
@@ -120,16 +131,20 @@ int execute(const CalibrateArguments& arguments) {
             << " frames have different poses of the robot\n";
   const Calibration found = calibrate(input.frames, input.camera, robot, options);
   print_notes(found.notes);
-  if (!arguments.output.empty()) {
-    const std::string json = io::calibration_json(found, robot, options.camera_parent) + "\n";
-    io::write_file(arguments.output / "calibration.json", json.data(), json.size());
-    const std::string page = io::calibration_page({.input = arguments.input.input.path.string(),
-                                                   .frames = input.frames,
-                                                   .camera = input.camera,
-                                                   .robot = robot,
-                                                   .options = options},
-                                                  found);
-    io::write_file(arguments.output / "report.html", page.data(), page.size());
+  if (folder) {
+    if (found.is_good())
+      folder->add("camera_pose.csv", [&](const std::filesystem::path& part) {
+        io::write_pose_csv(part, found.T_parent_camera);
+      });
+    folder->add_text("report.html", io::calibration_page({.input = arguments.input.input.path,
+                                                          .frames = input.frames,
+                                                          .camera = input.camera,
+                                                          .robot = robot,
+                                                          .options = options},
+                                                         found));
+    folder->add_text("calibration.json",
+                     io::calibration_json(found, robot, options.camera_parent) + "\n");
+    folder->finish();
   }
   if (!found.is_good()) {
     std::string why;
@@ -141,9 +156,8 @@ int execute(const CalibrateArguments& arguments) {
   const std::string parent =
       options.camera_parent.empty() ? robot.links().front() : options.camera_parent;
   print_pose(found, parent, input.input.camera.frame_id);
-  if (arguments.output.empty()) return 0;
-  io::write_pose_csv(arguments.output / "camera_pose.csv", found.T_parent_camera);
-  std::cout << "recording.yaml:\ncamera:\n  parent: " << parent
+  if (!folder) return 0;
+  std::cout << "recording.yaml:\ncamera:\n  parent: " << io::without_controls(parent)
             << "\n  pose: " << (arguments.output / "camera_pose.csv").string() << '\n';
   return 0;
 }

@@ -11,6 +11,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/commands.hpp>
+#include <io/files/printable.hpp>
 
 namespace {
 
@@ -19,7 +20,7 @@ constexpr int users_fault = 2;
 
 int fail(int status, std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
-  std::cerr << "penumbra: " << message << '\n';
+  std::cerr << "penumbra: " << penumbra::io::without_controls(message) << '\n';
   return status;
 }
 
@@ -27,7 +28,7 @@ int fail(int status, std::string message) {
 
 int main(int argc, char** argv) {
   // Memory of images is kept for the next frame's: to get it anew costs more than to fill it.
-  constexpr int largest_image = 32 << 20, kept = 512 << 20;  // bytes
+  constexpr int largest_image = 32 << 20, kept = 64 << 20;  // bytes
   mallopt(M_MMAP_THRESHOLD, largest_image);
   mallopt(M_TRIM_THRESHOLD, kept);
   // Errors are one line: Mesa adds none of its own, unless the user chooses a level.

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <csignal>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -55,15 +56,14 @@ void check_place(const RunArguments& arguments) {
 }  // namespace
 
 std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
+                                           const io::ResultFolder& folder,
                                            const io::InputSession& session) {
   const Pipeline& pipeline = session.pipeline();
   const std::string& root = pipeline.robot().links().front();
-  if (io::is_output_bag(options.path))
-    return std::make_unique<io::OutputBag>(options.path, session.camera(), root);
   if (!options.points_frame.empty() && !pipeline.robot().find_link(options.points_frame))
     throw InputError("--points-frame: no link '" + options.points_frame + "'; the root is '" +
                      root + "', and `penumbra inspect URDF` lists the others");
-  return std::make_unique<io::OutputFolder>(options, pipeline.rectification());
+  return std::make_unique<io::OutputFolder>(options, folder, pipeline.rectification());
 }
 
 void catch_interrupts() {
@@ -92,9 +92,13 @@ int execute(const RunArguments& arguments) {
     for (const std::string& name : io::cameras_of(arguments.session.input.path))
       cameras.push_back({name, {}});
   if (!cameras.empty()) return run_cameras(arguments, cameras);
-  if (!io::is_output_bag(path)) io::check_output_folder(arguments.output);
+  std::optional<io::ResultFolder> folder;
+  if (!io::is_output_bag(path)) folder.emplace(io::run_results(arguments.output));
   io::InputSession session(arguments.session, print_line);
-  const auto output = open_output(arguments.output, session);
+  const std::unique_ptr<io::RunOutput> output =
+      folder ? open_output(arguments.output, *folder, session)
+             : std::make_unique<io::OutputBag>(path, session.camera(),
+                                               session.pipeline().robot().links().front());
   catch_interrupts();
   output->begin(session.head());
   const io::RunResult result = judge_all(session, *output);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <iostream>
-#include <mutex>
+#include <memory>
 #include <optional>
-#include <system_error>
 #include <thread>
 
 #include <penumbra/base/error.hpp>
@@ -14,9 +14,8 @@
 #include <apps/penumbra/run_cameras.hpp>
 #include <apps/penumbra/run_summary.hpp>
 #include <io/files/camera_views.hpp>
-#include <io/files/disk_file.hpp>
-#include <io/files/pending_file.hpp>
 #include <io/run/output_bag.hpp>
+#include <io/run/output_folder.hpp>
 #include <io/web/camera_views_page.hpp>
 
 namespace penumbra::app {
@@ -26,6 +25,7 @@ namespace {
 struct CameraTask {
   std::string name;
   RunArguments arguments;
+  std::unique_ptr<io::ResultFolder> folder;
   std::optional<io::InputSession> session = {};
   std::optional<io::CameraRun> views = {};
   io::RunResult result = {};
@@ -43,27 +43,30 @@ RunArguments arguments_of(const RunArguments& all, const NamedCamera& camera, in
   }
   one.session.renderer.threads = 1;
   one.output.path = all.output.path / camera.name;
-  one.output.threads = threads;
+  one.output.threads = input.threads = threads;
   return one;
 }
 
-void judge(CameraTask& task, const std::function<bool()>& go_on) {
+void open(CameraTask& task) {
   task.session.emplace(task.arguments.session, [](const std::string&) {});
-  const auto output = open_output(task.arguments.output, *task.session);
+}
+
+void judge(CameraTask& task, const std::function<bool()>& go_on) {
+  const auto output = open_output(task.arguments.output, *task.folder, *task.session);
   io::ViewRecorder recorder(task.name, task.session->pipeline(), *output);
   recorder.begin(task.session->head());
   task.result = task.session->run(recorder, go_on);
   task.views = recorder.run();
 }
 
-/// Judges the cameras, `workers` at a time. Throws the first camera's fault.
-void judge_all(std::vector<CameraTask>& tasks, std::size_t workers,
-               const std::function<bool()>& go_on) {
+/// Works on the cameras, `workers` at a time, until one fails. Throws the first camera's fault.
+void for_all(std::vector<CameraTask>& tasks, std::size_t workers,
+             const std::function<void(CameraTask&, const std::atomic<bool>& has_fault)>& work_on) {
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> has_fault = false;
   const auto work = [&] {
-    for (std::size_t i = next++; i < tasks.size(); i = next++) try {
-        judge(tasks[i], [&] { return go_on() && !has_fault; });
+    for (std::size_t i = next++; i < tasks.size() && !has_fault; i = next++) try {
+        work_on(tasks[i], has_fault);
       } catch (const InputError& error) {
         tasks[i].fault =
             std::make_exception_ptr(InputError("camera '" + tasks[i].name + "': " + error.what()));
@@ -91,20 +94,13 @@ void print_counts(const std::vector<io::FusedCounts>& targets, std::size_t camer
               << " contradictions\n";
 }
 
-/// Removes what an earlier run says over all cameras, as this run may fail.
-void remove_former(const std::filesystem::path& out) {
-  std::error_code error;
-  const std::filesystem::path views = out / "views.json";
-  if (std::filesystem::remove(views, error)) std::filesystem::remove(out / "report.html", error);
-  if (error)
-    throw InputError(views.string() + ": of an earlier run, cannot be removed (" + error.message() +
-                     "); choose another folder with -o");
-}
-
-void write(const std::filesystem::path& file, const std::string& text) {
-  io::PendingFile pending(file);
-  io::write_file(pending.part(), text.data(), text.size());
-  pending.finish();
+/// What OUT holds besides the cameras' folders.
+io::ResultFolderOptions results_of(const io::OutputOptions& output,
+                                   const std::vector<NamedCamera>& cameras) {
+  io::ResultFolderOptions results = io::run_results(output);
+  results.report.name = "views.json";
+  for (const NamedCamera& camera : cameras) results.subfolders.push_back(camera.name);
+  return results;
 }
 
 }  // namespace
@@ -118,15 +114,21 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int threads = arguments.output.threads > 0 ? arguments.output.threads : cores;
   const int workers = std::min(threads, static_cast<int>(cameras.size()));
+  io::ResultFolder folder(results_of(arguments.output, cameras));
   std::vector<CameraTask> tasks;
   for (const NamedCamera& camera : cameras) {
-    tasks.push_back(
-        {.name = camera.name, .arguments = arguments_of(arguments, camera, threads / workers)});
-    io::check_output_folder(tasks.back().arguments.output);
+    const RunArguments own = arguments_of(arguments, camera, threads / workers);
+    tasks.push_back({.name = camera.name,
+                     .arguments = own,
+                     .folder = std::make_unique<io::ResultFolder>(io::run_results(own.output))});
   }
-  remove_former(out);
+  for_all(tasks, static_cast<std::size_t>(workers),
+          [](CameraTask& task, const auto& /*has_fault*/) { open(task); });
+  folder.remove_former();
   catch_interrupts();
-  judge_all(tasks, static_cast<std::size_t>(workers), [] { return !was_interrupted(); });
+  for_all(tasks, static_cast<std::size_t>(workers), [](CameraTask& task, const auto& has_fault) {
+    judge(task, [&] { return !was_interrupted() && !has_fault; });
+  });
 
   std::vector<io::CameraRun> runs;
   int status = 0;
@@ -139,8 +141,9 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
   }
   const io::CameraViews views = io::fuse_views(arguments.session.input.path.string(), runs);
   print_counts(io::counts_of(views), cameras.size());
-  write(out / "views.json", io::views_json(views));
-  if (arguments.output.report_page) write(out / "report.html", io::camera_views_page(views));
+  if (arguments.output.report_page) folder.add_text("report.html", io::camera_views_page(views));
+  folder.add_text("views.json", io::views_json(views));
+  folder.finish();
   std::cout << "all cameras: " << (out / "views.json").string() << '\n';
   return status;
 }

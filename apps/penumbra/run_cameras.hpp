@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <apps/penumbra/arguments.hpp>
+#include <io/files/result_folder.hpp>
 #include <io/run/input_session.hpp>
 
 namespace penumbra::app {
@@ -16,8 +17,9 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
 
 // Parts of every run, in run.cpp.
 
-/// Replaces earlier results: in a folder now, in a bag at the end.
+/// Removes earlier results.
 [[nodiscard]] std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
+                                                         const io::ResultFolder& folder,
                                                          const io::InputSession& session);
 
 /// From now on the first Ctrl-C or SIGTERM only makes was_interrupted() true; a second one ends the

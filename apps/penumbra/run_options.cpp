@@ -346,7 +346,8 @@ void check_run(const CLI::App& app, RunArguments& run) {
   if (is_bag) check_output_bag(run);
   if (!run.output.points_frame.empty() && !saves.points)
     throw InputError("--points-frame: no points are saved; add --save points, or leave it out");
-  if (app.get_option("--threads")->count() > 0) run.output.threads = run.session.renderer.threads;
+  if (app.get_option("--threads")->count() > 0)
+    run.output.threads = run.session.input.threads = run.session.renderer.threads;
   run.session.input.with_color = is_bag || saves.overlay || saves.points || run.output.report_page;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <iostream>
 #include <utility>
@@ -43,19 +44,22 @@ void print_table(std::vector<std::vector<std::string>> rows) {
   }
 }
 
-void print_line(const std::string& line) { std::cout << line << '\n'; }
+void print_line(const std::string& line) { std::cout << io::without_controls(line) << '\n'; }
 
 void print_notes(std::span<const std::string> notes) {
   for (const std::string& note : notes)
     std::cerr << "penumbra: note: " << io::without_controls(note) << '\n';
 }
 
-void make_output_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder, error))
-    throw InputError("--output: " + folder.string() + ": cannot be used as output folder (" +
-                     (error ? error.message() : "it is a file") + "); choose another");
+std::string for_shell(const std::string& text) {
+  constexpr std::string_view plain = "_-./:@%+=,";
+  const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || plain.find(c) != plain.npos;
+  });
+  if (is_plain) return text;
+  std::string quoted = "'";
+  for (const char c : io::without_controls(text)) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
 }
 
 }  // namespace penumbra::app

@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,8 +23,8 @@ namespace penumbra::app {
 /// Prints rows of equal length on stdout, columns aligned, without control characters.
 void print_table(std::vector<std::vector<std::string>> rows);
 
-/// Makes the folder of --output. Throws InputError if it cannot be used.
-void make_output_folder(const std::filesystem::path& folder);
+/// Returns a text as one word for a shell, without control characters.
+[[nodiscard]] std::string for_shell(const std::string& text);
 
 /// Prints a line on stdout.
 void print_line(const std::string& line);

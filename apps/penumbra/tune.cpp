@@ -15,8 +15,8 @@
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/files/disk_file.hpp>
 #include <io/files/image_size.hpp>
+#include <io/files/result_folder.hpp>
 #include <io/files/stl_file.hpp>
 #include <io/files/tuning_report.hpp>
 #include <io/run/input_session.hpp>
@@ -98,7 +98,7 @@ void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& e
   for (const io::WrittenExtra& extra : extras) {
     list += (list.empty() ? "" : ", ") + std::string("{link: ") + extra.link +
             ", mesh: " + fs::proximate(folder / extra.file, recording).string() + "}";
-    options += " --extra " + extra.link + "=" + (folder / extra.file).string();
+    options += " --extra " + for_shell(extra.link + "=" + (folder / extra.file).string());
   }
   if (!extras.empty()) std::cout << "robot:\n  extra: [" << list << "]\n";
   std::cout << "\nor the options: --tolerance " << a << ",0," << c << " --fringe-reach " << reach
@@ -108,7 +108,9 @@ void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& e
 }  // namespace
 
 int execute(const TuneArguments& arguments) {
-  const fs::path& folder = arguments.output;
+  io::ResultFolder folder({.path = arguments.output,
+                           .report = {"tune.json", io::json_begin},
+                           .others = {{"tune.png"}, {"extra_*.stl", io::stl_begin}}});
   io::InputSession session(arguments.session, print_line);
   const Pipeline& pipeline = session.pipeline();
   KeptFrames kept(pipeline.rule().range);
@@ -129,7 +131,7 @@ int execute(const TuneArguments& arguments) {
           "; tolerances and parts measured before that is mended would hide it (--force "
           "measures them)");
   }
-  make_output_folder(folder);
+  folder.remove_former(session.made_files());
   const Tuning tuning = tune(kept.frames, pipeline.intrinsics(), pipeline.robot(), pipeline.rule());
   std::vector<io::WrittenExtra> extras;
   for (const ExtraPart& part : tuning.extras) {
@@ -137,7 +139,7 @@ int execute(const TuneArguments& arguments) {
     std::string name = link;
     std::replace(name.begin(), name.end(), '/', '_');
     extras.push_back({link, "extra_" + name + ".stl"});
-    io::write_stl(folder / extras.back().file, part.mesh);
+    folder.add(extras.back().file, [&](const fs::path& file) { io::write_stl(file, part.mesh); });
   }
   const auto frames = kept.frames.frames();
   const TuningFrame& shown = frames[tuning.fringe.shown_frame];
@@ -145,9 +147,9 @@ int execute(const TuneArguments& arguments) {
   const auto seen = io::rectified(pipeline.rectification(),
                                   std::as_const(kept.colors[shown.index]).view(), color);
   const Image<Rgb8> picture = io::draw_tuning(tuning, shown, seen);
-  io::write_png(folder / "tune.png", picture.view());
-  const std::string json = io::tuning_json(tuning, frames, extras) + "\n";
-  io::write_file(folder / "tune.json", json.data(), json.size());
+  folder.add("tune.png", [&](const fs::path& file) { io::write_png(file, picture.view()); });
+  folder.add_text("tune.json", io::tuning_json(tuning, frames, extras) + "\n");
+  folder.finish();
   print_measured(tuning, frames.size(), pipeline.robot());
   print_settings(tuning, extras, arguments);
   return 0;

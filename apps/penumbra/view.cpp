@@ -116,10 +116,14 @@ ViewSource::ViewSource(const ViewArguments& arguments, std::vector<std::string> 
   ViewArguments own = arguments;
   io::InputOptions& input = own.session.input;
   if (!cameras_.empty()) {
-    if (has_views(input.path))
+    std::error_code error;
+    if (has_views(input.path)) {
       input.path /= camera;
-    else
+      if (fs::is_symlink(input.path, error))
+        throw InputError(input.path.string() + ": is a link, which is not followed");
+    } else {
       input.camera = camera;
+    }
     own.session.renderer.threads = 1;
   }
   check_is_something(input.path);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,7 +14,7 @@
 #include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/files/disk_file.hpp>
+#include <io/files/result_folder.hpp>
 #include <io/files/view_planning_report.hpp>
 #include <io/run/planning_input.hpp>
 #include <io/web/view_planning_page.hpp>
@@ -60,7 +61,11 @@ void print_unknown(const io::ViewPlan& plan) {
 }  // namespace
 
 int execute(const ViewPlanningArguments& arguments) {
-  if (!arguments.output.empty()) make_output_folder(arguments.output);
+  std::optional<io::ResultFolder> folder;
+  if (!arguments.output.empty())
+    folder.emplace(io::ResultFolderOptions{.path = arguments.output,
+                                           .report = {"view_planning.json", io::json_begin},
+                                           .others = {{"report.html", io::page_begin}}});
   const io::PlanningInput input = [&] {
     Progress progress(0);
     return io::read_planning_input(arguments.input, print_line, [&] { progress.step(); });
@@ -71,6 +76,7 @@ int execute(const ViewPlanningArguments& arguments) {
   } catch (const InputError& fault) {
     throw InputError("--cameras, " + arguments.input.candidates.string() + ": " + fault.what());
   }
+  if (folder) folder->remove_former();
   const int threads = arguments.threads.value_or(
       std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
   const std::size_t renders = input.candidates.size() * input.motion.size();
@@ -100,11 +106,10 @@ int execute(const ViewPlanningArguments& arguments) {
             << fixed(elapsed.count(), 1)
             << " s: " << fixed(static_cast<double>(renders) / elapsed.count(), 0)
             << " per second\n";
-  if (arguments.output.empty()) return 0;
-  const std::string json = io::view_planning_json(plan) + "\n";
-  io::write_file(arguments.output / "view_planning.json", json.data(), json.size());
-  const std::string page = io::view_planning_page(plan);
-  io::write_file(arguments.output / "report.html", page.data(), page.size());
+  if (!folder) return 0;
+  folder->add_text("report.html", io::view_planning_page(plan));
+  folder->add_text("view_planning.json", io::view_planning_json(plan) + "\n");
+  folder->finish();
   return 0;
 }
 

@@ -3,6 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include <penumbra/base/version.hpp>
+
 #include <io/files/calibration_report.hpp>
 #include <io/files/json-inl.hpp>
 
@@ -39,7 +41,8 @@ std::string calibration_json(const Calibration& found, const Robot& robot,
       links[robot.links()[link]] = found.link_residuals[link];
   for (std::size_t j = 0; j < found.joint_offsets.size(); ++j)
     joints[robot.variables()[j]] = estimate_json(found.joint_offsets[j]);
-  Json json = {{"good", found.is_good()},
+  Json json = {{"penumbra", PENUMBRA_VERSION},
+               {"good", found.is_good()},
                {"faults", found.faults},
                {"notes", found.notes},
                {"advice", found.advice},

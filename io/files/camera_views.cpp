@@ -9,6 +9,7 @@
 
 #include <io/files/camera_views.hpp>
 #include <io/files/json-inl.hpp>
+#include <io/files/names.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -130,8 +131,11 @@ std::vector<std::string> cameras_of_views(const std::filesystem::path& file) {
   try {
     const Json json = Json::parse(read_whole_file(file, FileLimit::data));
     auto cameras = json.at("cameras").get<std::vector<std::string>>();
+    for (const std::string& name : cameras) check_camera_name(name);
     if (!cameras.empty()) return cameras;
   } catch (const Json::exception&) {
+  } catch (const InputError& fault) {
+    throw InputError(file.string() + ": cameras: " + fault.what());
   }
   throw InputError(file.string() + ": is no views.json of penumbra run");
 }

@@ -41,10 +41,7 @@ void check_candidate_header(const Cells& cells) {
 CameraCandidate candidate_of(const Cells& row, const Robot& robot) {
   CameraCandidate candidate;
   candidate.name = row.front();
-  if (candidate.name.empty() ||
-      std::any_of(candidate.name.begin(), candidate.name.end(), is_control))
-    throw InputError("the name is '" + printable(candidate.name) +
-                     "'; expected letters and digits");
+  check_name(candidate.name);
   std::vector<double> numbers;
   for (std::size_t i = 0; i < number_columns.size(); ++i) {
     const auto value = parse_number<double>(row[1 + i]);

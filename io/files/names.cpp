@@ -5,7 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include <penumbra/base/error.hpp>
+
 #include <io/files/names.hpp>
+#include <io/files/printable.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -56,6 +59,22 @@ std::string near_names(std::string_view name, std::span<const std::string_view> 
   names.reserve(near.size());
   for (const auto& [d, other] : near) names.push_back(other);
   return names.empty() ? "" : "; did you mean " + joined(names) + "?";
+}
+
+void check_name(std::string_view name) {
+  if (name.empty()) throw InputError("the name is empty");
+  if (without_controls(name) != name)
+    throw InputError("the name '" + printable(name) +
+                     "' has a control character; expected letters, digits and signs");
+}
+
+void check_camera_name(std::string_view name) {
+  constexpr std::size_t longest = 255;  // of a folder's name, bytes
+  check_name(name);
+  if (name.front() == '.' || name.find('/') != std::string_view::npos || name.size() > longest ||
+      name == "views.json" || name == "report.html")
+    throw InputError("the name '" + printable(name) +
+                     "' cannot be that of a folder of results; expected letters and digits");
 }
 
 }  // namespace penumbra::io

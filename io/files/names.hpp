@@ -12,4 +12,11 @@ namespace penumbra::io {
 [[nodiscard]] std::string near_names(std::string_view name,
                                      std::span<const std::string_view> known);
 
+/// Throws InputError unless a camera, a robot, a body or a target may have this name: names are
+/// printed on terminals and in pages.
+void check_name(std::string_view name);
+
+/// The same for a camera, whose results are a folder of this name.
+void check_camera_name(std::string_view name);
+
 }  // namespace penumbra::io

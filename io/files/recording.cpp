@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iterator>
 #include <limits>
+#include <span>
+#include <string>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
@@ -9,11 +11,14 @@
 
 #include <io/files/camera_info.hpp>
 #include <io/files/frame_values.hpp>
+#include <io/files/names.hpp>
 #include <io/files/recording.hpp>
 #include <io/files/yaml.hpp>
 
 namespace penumbra::io {
 namespace {
+
+constexpr std::size_t most_robots = 100, most_extra = 1000;
 
 std::filesystem::path file_of(const YamlNode& node, const std::filesystem::path& folder) {
   std::filesystem::path file = folder / node.text();
@@ -56,11 +61,14 @@ RobotOptions robot_options_of(const YamlNode& robot, const std::filesystem::path
   if (const YamlNode* margins = robot.find("margins"))
     for (const YamlNode& link : margins->entries())
       options.margins.emplace(link.key(), link.number());
-  if (const YamlNode* extras = robot.find("extra"))
-    for (const YamlNode& extra : extras->items()) {
-      extra.allow_only({"link", "mesh"});
-      options.extra.push_back({extra.at("link").text(), file_of(extra.at("mesh"), folder)});
-    }
+  const YamlNode* const extras = robot.find("extra");
+  if (extras == nullptr) return options;
+  if (extras->items().size() > most_extra)
+    extras->fail("are more than " + std::to_string(most_extra));
+  for (const YamlNode& extra : extras->items()) {
+    extra.allow_only({"link", "mesh"});
+    options.extra.push_back({extra.at("link").text(), file_of(extra.at("mesh"), folder)});
+  }
   return options;
 }
 
@@ -82,7 +90,10 @@ std::vector<RecordedRobot> robots_of(const YamlNode& root, const std::filesystem
   }
   if (root.find("robot") != nullptr) several->fail("stands beside 'robot'; expected one of them");
   std::vector<RecordedRobot> robots;
+  if (several->entries().size() > most_robots)
+    several->fail("are more than " + std::to_string(most_robots));
   for (const YamlNode& entry : several->entries()) {
+    entry.with_context([&] { check_name(entry.key()); });
     RecordedRobot& robot = robots.emplace_back(robot_of(entry, folder));
     robot.name = entry.key();
     const YamlNode& pose = entry.at("pose");
@@ -146,7 +157,10 @@ RecordingCamera camera_of(const YamlNode& node, const std::vector<std::string_vi
                          .rule = std::move(rule)};
   const YamlNode* pose = node.find("pose");
   if (pose != nullptr || node.find("parent") != nullptr) camera.parent = node.at("parent").text();
-  if (pose != nullptr) camera.T_parent_camera = read_pose_csv(file_of(*pose, folder));
+  if (pose != nullptr) {
+    camera.pose = file_of(*pose, folder);
+    camera.T_parent_camera = read_pose_csv(camera.pose);
+  }
   if (const YamlNode* scale = node.find("depth_scale")) {
     camera.depth_scale = scale->number();
     if (!(*camera.depth_scale > 0.0))
@@ -174,8 +188,7 @@ std::vector<std::string> names_of(const YamlNode& cameras) {
   std::vector<std::string> names;
   for (const YamlNode& camera : cameras.entries()) {
     const std::string& name = names.emplace_back(camera.key());
-    if (name.empty() || name[0] == '.' || name.find('/') != std::string::npos)
-      camera.fail("the name cannot be a folder of results");
+    camera.with_context([&] { check_camera_name(name); });
   }
   if (names.empty()) cameras.fail("names no camera");
   return names;
@@ -241,7 +254,12 @@ std::vector<RecordedBody> bodies_of(const YamlNode& attached, const std::filesys
       if (frames->items().size() != 2) frames->fail("expected [FIRST, END]");
       body.first = frames->items()[0].integer();
       body.end = frames->items()[1].integer();
+      if (body.first >= body.end) frames->fail("hold no frame; expected FIRST below END");
     }
+    entry.with_context([&] { check_name(body.body.name); });
+    for (const RecordedBody& other : std::span(bodies).first(bodies.size() - 1))
+      if (other.body.name == body.body.name && other.first < body.end && body.first < other.end)
+        entry.fail("another body has this name in the same frames");
   }
   return bodies;
 }

@@ -44,6 +44,7 @@ struct RecordingCamera {
   std::string parent;  ///< the link that carries the camera; empty: the root, or not known
   /// Pose of the optical frame in the parent link; only `calibrate` does without.
   std::optional<Eigen::Isometry3d> T_parent_camera;
+  std::filesystem::path pose = {};       ///< its file
   std::optional<DepthRange> range = {};  ///< metres
   RuleOptions rule = {};
   std::optional<BeyondMeans> beyond = {};

@@ -10,7 +10,8 @@
 namespace penumbra::io {
 
 void write_stl(const std::filesystem::path& file, const TriangleMesh& mesh) {
-  std::string bytes(80, ' ');
+  std::string bytes = stl_begin;
+  bytes.resize(80, ' ');
   const auto append = [&bytes](const void* from, std::size_t count) {
     bytes.append(static_cast<const char*>(from), count);
   };

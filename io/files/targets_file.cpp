@@ -8,6 +8,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/files/frame_values.hpp>
+#include <io/files/names.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/target_shapes.hpp>
 #include <io/files/targets_file.hpp>
@@ -44,13 +45,6 @@ void check_image(const YamlNode& root, const TargetsContext& context) {
                     "rectified");
 }
 
-/// Names are printed in reports and on terminals.
-void check_name(const YamlNode& node) {
-  const std::string& name = node.text();
-  if (std::any_of(name.begin(), name.end(), is_control))
-    node.fail("has a control character; expected letters, digits and signs");
-}
-
 std::string frame_id_of(const YamlNode& node, const TargetsContext& context) {
   const YamlNode* frame_id = node.find("frame_id");
   if (frame_id == nullptr) return {};
@@ -67,7 +61,8 @@ TargetSource source_of(const YamlNode& node, const TargetsContext& context,
                        const std::filesystem::path& folder, ValueTables& tables) {
   TargetSource source;
   source.settings.name = node.at("name").text();
-  check_name(node.at("name"));
+  const YamlNode& name = node.at("name");
+  name.with_context([&] { check_name(name.text()); });
   const TargetReader reader{node, source.settings.name, context, folder, tables};
   source.shape = read_shape(reader);
   source.settings.frame_id = frame_id_of(node, context);

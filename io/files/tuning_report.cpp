@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <utility>
 
+#include <penumbra/base/version.hpp>
+
 #include <io/files/json-inl.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/files/picture.hpp>
@@ -55,7 +57,8 @@ std::string tuning_json(const Tuning& tuning, std::span<const TuningFrame> frame
   for (std::size_t i = 0; i < extras.size(); ++i)
     parts.push_back(extra_json(tuning.extras[i], extras[i]));
   const ToleranceFit& fit = tuning.tolerance;
-  const Json json = {{"frames", std::move(indices)},
+  const Json json = {{"penumbra", PENUMBRA_VERSION},
+                     {"frames", std::move(indices)},
                      {"tolerance",
                       {{"abc", {fit.tolerance.a, fit.tolerance.b, fit.tolerance.c}},
                        {"pixels", fit.pixels},

@@ -3,6 +3,8 @@
 #include <string_view>
 #include <utility>
 
+#include <penumbra/base/version.hpp>
+
 #include <io/files/json-inl.hpp>
 #include <io/files/view_planning_report.hpp>
 
@@ -62,11 +64,10 @@ std::string view_planning_json(const ViewPlan& plan) {
   for (std::size_t i = 0; i < plan.candidates.size(); ++i)
     candidates.push_back(candidate_json(plan, i));
   for (const CameraSet& set : plan.best) sets.push_back(set_json(plan, set));
-  const Json json = {{"input", plan.input},
-                     {"frames", std::move(frames)},
-                     {"frames_left_out", plan.seen - plan.motion.size()},
-                     {"candidates", std::move(candidates)},
-                     {"best", std::move(sets)}};
+  const Json json = {
+      {"penumbra", PENUMBRA_VERSION},        {"input", plan.input},
+      {"frames", std::move(frames)},         {"frames_left_out", plan.seen - plan.motion.size()},
+      {"candidates", std::move(candidates)}, {"best", std::move(sets)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -16,8 +16,9 @@ constexpr std::size_t most_faults = 1000;
 // also limits every other record in memory, except messages and chunks.
 constexpr std::uint64_t most_definition_bytes = std::uint64_t{64} << 20;
 
-constexpr std::size_t block_bytes = std::size_t{64} << 10;     // that are read at a time
-constexpr std::uint64_t range_bytes = std::uint64_t{4} << 20;  // of records outside of chunks
+constexpr std::size_t block_bytes = std::size_t{64} << 10;           // that are read at a time
+constexpr std::uint64_t range_bytes = std::uint64_t{4} << 20;        // of records outside of chunks
+constexpr std::uint64_t most_search_bytes = std::uint64_t{2} << 30;  // without a chunk
 constexpr std::uint64_t least_chunk_bytes = record_head_bytes + 40;
 constexpr std::uint64_t footer_bytes = 20;
 constexpr std::uint64_t end_bytes = record_head_bytes + footer_bytes + magic_bytes.size();
@@ -344,10 +345,11 @@ class IndexReader {
     channels->push_back(channel);
   }
 
-  // Returns the offset of the next chunk, or `end`.
+  // Returns the offset of the next chunk, or `end` if there is none within most_search_bytes.
   std::uint64_t find_chunk(std::uint64_t at, std::uint64_t end) {
+    const std::uint64_t limit = std::min(end, at + most_search_bytes);
     constexpr std::size_t enough = record_head_bytes + ChunkHead::most_bytes;
-    while (at < end) {
+    while (at < limit) {
       const auto bytes = window_.view(at, std::min<std::uint64_t>(block_bytes, end - at));
       const bool last = bytes.size() < block_bytes;
       const std::size_t starts = last ? bytes.size() : bytes.size() - enough;

@@ -91,10 +91,7 @@ Target& TargetInbox::add_target(std::string name, const MessageHeader& header) {
 
 TargetInbox::BaseName TargetInbox::base_name_of(const std::string& topic, const std::string& id,
                                                 std::span<const HypothesisMessage> results) {
-  BaseName base{topic + "/" + (id.empty() ? best_class(results) : id), !id.empty()};
-  std::replace_if(
-      base.text.begin(), base.text.end(), [](char c) { return is_control(c); }, '?');
-  return base;
+  return {without_controls(topic + "/" + (id.empty() ? best_class(results) : id)), !id.empty()};
 }
 
 std::vector<Target*> TargetInbox::add_targets(const std::vector<BaseName>& names,

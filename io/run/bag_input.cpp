@@ -141,6 +141,7 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
           .targets = {},
           .target_history = options.bag.target_topics.empty() ? 0.0 : topic_target_history,
           .bag = std::move(used),
+          .made_files = {},
           .frames = [source = std::move(source),
                      input = options.path](const Robot& loaded) -> std::unique_ptr<FrameSource> {
             return std::make_unique<BagSource>(input, loaded, source);

@@ -53,6 +53,10 @@ class InputSession {
   [[nodiscard]] const Camera& camera() const { return camera_; }  ///< of the report's images
   [[nodiscard]] std::optional<std::size_t> size() const { return source_->size(); }
   [[nodiscard]] ReportHead head() const;  ///< refers to this
+  /// See RunInput.
+  [[nodiscard]] std::span<const std::filesystem::path> made_files() const {
+    return input_.made_files;
+  }
 
   /// Judges the frames into `output`, which has begun, and finishes it. Calls `go_on` after each
   /// frame and stops if it returns false. Throws InputError if the first usable frame shows a fault

@@ -61,40 +61,11 @@ Image<std::uint16_t> millimetres_of(const DepthImage& image) {
   return converted;
 }
 
-/// Makes a folder unless it exists, and returns it.
-const fs::path& make_folder(const fs::path& folder) {
+void make_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error)) refuse(folder, "it is a file");
   fs::create_directories(folder, error);
   if (error) refuse(folder, error.message());
-  return folder;
-}
-
-bool starts_with(const fs::path& file, std::string_view start) {
-  std::error_code error;
-  InputFile input;
-  if (!fs::is_regular_file(file, error) || !input.open(file).ok()) return false;
-  std::string found(start.size(), '\0');
-  return input.read(found.data(), found.size()) == start.size() && found == start;
-}
-
-bool is_report(const fs::path& file) { return starts_with(file, report_json_start); }
-bool is_page(const fs::path& file) { return starts_with(file, report_page_start); }
-
-/// Returns whether an earlier run wrote here. A killed run leaves the report's part.
-bool is_of_a_run(const fs::path& folder) {
-  const fs::path report = folder / "report.json";
-  std::error_code error;
-  return is_report(report) || fs::exists(PendingFile::part_of(report), error);
-}
-
-/// Returns whether there is more than the empty folders of a failed run.
-bool holds_files(const fs::path& folder) {
-  std::error_code error, ignored;
-  fs::recursive_directory_iterator entry(folder, error);
-  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error))
-    if (!fs::is_directory(entry->symlink_status(ignored))) return true;
-  return static_cast<bool>(error);
 }
 
 /// Returns whether this is a file name of a run: a frame's number.
@@ -127,38 +98,25 @@ void remove_former(const fs::path& file) {
                      "); choose another folder with -o");
 }
 
-/// Removes the report last: it shows that the images belong to a run.
-void remove_former_run(const fs::path& folder) {
-  if (!is_of_a_run(folder)) return;
-  for (const ImageKind& kind : image_kinds)
-    for (const fs::path& image : images_in(folder / kind.folder, kind.ending)) remove_former(image);
-  if (is_page(folder / "report.html")) remove_former(folder / "report.html");
-  if (is_report(folder / "report.json")) remove_former(folder / "report.json");
-}
-
 }  // namespace
 
-void check_output_folder(const OutputOptions& options) {
-  const fs::path& folder = options.path;
-  std::error_code error;
-  if (!fs::exists(folder, error)) return;
-  if (!fs::is_directory(folder, error)) refuse(folder, "it is a file");
-  if (options.force) return;
-  if (!is_of_a_run(folder) && holds_files(folder))
-    throw InputError(folder.string() +
-                     ": holds files, and no report.json of penumbra; choose "
-                     "another folder with "
-                     "-o, or write into this one with --force");
-  const fs::path page = folder / "report.html";
-  if (options.report_page && fs::exists(page, error) && !is_page(page))
-    throw InputError(page.string() +
-                     ": is no page of a run; move it away, or replace it with --force");
+ResultFolderOptions run_results(const OutputOptions& options) {
+  return {.path = options.path,
+          .report = {"report.json", std::string(report_json_start)},
+          .others = {{"report.html", page_begin}},
+          .force = options.force,
+          .advice = "choose another folder with -o, or write into this one with --force"};
 }
 
-OutputFolder::OutputFolder(const OutputOptions& options, const Rectification* rectification)
-    : options_(options), lock_(make_folder(options_.path)), painter_(rectification) {
+OutputFolder::OutputFolder(const OutputOptions& options, const ResultFolder& folder,
+                           const Rectification* rectification)
+    : options_(options), painter_(rectification) {
   writers_.emplace(writers_of(options_));
-  remove_former_run(options_.path);
+  if (folder.has_former())
+    for (const ImageKind& kind : image_kinds)
+      for (const fs::path& image : images_in(folder.path() / kind.folder, kind.ending))
+        remove_former(image);
+  folder.remove_former();
   for (const ImageKind& kind : image_kinds)
     if (options_.saves.*kind.wanted) make_folder(options_.path / kind.folder);
 }

@@ -11,7 +11,7 @@
 #include <penumbra/pipeline/without_robot.hpp>
 
 #include <io/files/overlay_painter.hpp>
-#include <io/files/pending_file.hpp>
+#include <io/files/result_folder.hpp>
 #include <io/files/run_output.hpp>
 #include <io/run/background_jobs.hpp>
 #include <io/web/key_frames.hpp>
@@ -39,19 +39,18 @@ struct OutputOptions {
 /// Digits of a frame's index in file names, at least.
 inline constexpr std::size_t frame_digits = 6;
 
-/// Throws InputError unless the output folder is missing, empty, holds the report of an earlier
-/// run, or the user forces it.
-void check_output_folder(const OutputOptions& options);
+/// Returns what a run's folder holds besides images.
+[[nodiscard]] ResultFolderOptions run_results(const OutputOptions& options);
 
-/// The output folder of `run`. Files are named by the frame's index: vdi/000000.npy,
+/// The results of `run` in its folder. Images are named by the frame's index: vdi/000000.npy,
 /// labels/000000.png.
 class OutputFolder final : public RunOutput {
  public:
-  /// Makes the folder and the folders of the images, and removes an earlier run's report, page and
-  /// images. `rectification` converts recorded images to the geometry of the report's; null if they
-  /// have it already. It must outlive this. Throws InputError if the folder cannot be used or
-  /// another run writes to it.
-  OutputFolder(const OutputOptions& options, const Rectification* rectification);
+  /// Makes the folders of the images, and removes an earlier run's report, page and images.
+  /// `rectification` converts recorded images to the geometry of the report's; null if they have it
+  /// already. It must outlive this. Throws InputError if the folder cannot be used.
+  OutputFolder(const OutputOptions& options, const ResultFolder& folder,
+               const Rectification* rectification);
 
   /// Removes this run's images, unless it was finished.
   ~OutputFolder() override;
@@ -75,7 +74,6 @@ class OutputFolder final : public RunOutput {
                                            const char* ending) const;
 
   OutputOptions options_;
-  FileLock lock_;
   DepthImage filtered_;
   std::optional<CloudMaker> cloud_maker_;  // made with the first points
   OverlayPainter painter_;

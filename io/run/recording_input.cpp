@@ -81,7 +81,11 @@ class RecordingSource final : public FrameSource {
  public:
   RecordingSource(const FrameReader& reader, const std::vector<std::size_t>& selected,
                   const InputOptions& options)
-      : reader_(reader), selected_(selected), with_color_(options.with_color), fps_(options.fps) {}
+      : reader_(reader),
+        selected_(selected),
+        with_color_(options.with_color),
+        fps_(options.fps),
+        threads_(options.threads) {}
 
   /// Throws InputError if the recording has stamps of its own and --fps is given.
   bool read(std::size_t number, Frame& frame) override {
@@ -98,18 +102,20 @@ class RecordingSource final : public FrameSource {
   }
   /// Most of the time goes into decoding.
   [[nodiscard]] std::size_t at_once() const override {
-    return std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, most_at_once);
+    const auto cores = static_cast<int>(std::thread::hardware_concurrency());
+    return static_cast<std::size_t>(std::clamp(threads_ > 0 ? threads_ : cores, 1, most_at_once));
   }
   [[nodiscard]] std::optional<std::size_t> size() const override { return selected_.size(); }
   [[nodiscard]] std::vector<std::string> notes() const override { return {}; }
 
  private:
-  static constexpr std::size_t most_at_once = 8;  // each has images in memory
+  static constexpr int most_at_once = 8;  // each has images in memory
 
   FrameReader reader_;
   std::vector<std::size_t> selected_;
   bool with_color_;
   std::optional<double> fps_;
+  int threads_;
 };
 
 RunInput open_recording_input(const InputOptions& options) {
@@ -133,6 +139,7 @@ RunInput open_recording_input(const InputOptions& options) {
           .beyond = recording.camera.beyond,
           .targets = recording.targets,
           .bag = {},
+          .made_files = {recording.camera.pose},
           .frames = [reader = std::move(reader), selected = std::move(selected),
                      options](const Robot&) -> std::unique_ptr<FrameSource> {
             return std::make_unique<RecordingSource>(reader, selected, options);
@@ -168,6 +175,8 @@ std::vector<std::string> cameras_of(const std::filesystem::path& input) {
 
 RunInput open_input(const InputOptions& options, const LineSink& print) {
   RunInput input = open_folder_or_bag(options, print);
+  for (const ExtraMesh& part : input.robot_options.extra) input.made_files.push_back(part.mesh);
+  if (options.bag.pose) input.made_files.push_back(*options.bag.pose);
   input.frames = [open = std::move(input.frames)](const Robot& robot) {
     return std::make_unique<ReadAhead>(open(robot));
   };

@@ -37,6 +37,7 @@ struct InputOptions {
   bool needs_camera_pose = true;      ///< false: it may be unknown, and is then the identity
   FrameRange frames;
   std::optional<double> fps;  ///< of a recording without stamps, 1/s
+  int threads = 0;            ///< that decode images; 0: one per core
   BagOptions bag;
   std::string bag_option;  ///< name of a bag's option that was given; empty: none
 
@@ -55,6 +56,8 @@ struct RunInput {
   std::optional<std::filesystem::path> targets;  ///< the input's own
   double target_history = 0.0;  ///< PipelineConfig's, for targets that come with the frames
   std::optional<UsedBag> bag;
+  /// Those of its files that tune and calibrate make, too: the camera's pose, parts.
+  std::vector<std::filesystem::path> made_files;
 
   /// Opens the frames from the first one; the robot must outlive them.
   std::function<std::unique_ptr<FrameSource>(const Robot&)> frames;

@@ -56,8 +56,9 @@ std::string camera_views_page(const CameraViews& views) {
     html += "<h3>" + escaped(target.name) + "</h3>\n<table class=\"time\">\n" +
             row("<b>all cameras</b>", ranks.fused);
     for (std::size_t c = 0; c < views.cameras.size(); ++c) {
-      const std::string name = escaped(views.cameras[c]);
-      html += row("<a href=\"" + name + "/report.html\">" + name + "</a>", ranks.cameras[c]);
+      const std::string& name = views.cameras[c];
+      html += row("<a href=\"" + url_of(name) + "/report.html\">" + escaped(name) + "</a>",
+                  ranks.cameras[c]);
     }
     html += "</table>\n";
   }

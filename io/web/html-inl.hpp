@@ -3,9 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <string>
 #include <vector>
+
+#include <io/files/result_folder.hpp>
 
 namespace penumbra::io {
 
@@ -15,10 +18,23 @@ inline std::string number(double value, int digits) {
   return text.data();
 }
 
+/// Returns plain text for HTML and for an attribute in double quotes.
 inline std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  for (const char c : text)
+    out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
   return out;
+}
+
+/// Returns a folder's name for the path of a URL.
+inline std::string url_of(const std::string& name) {
+  std::string url;
+  for (const char c : name) {
+    std::array<char, 4> code{};
+    std::snprintf(code.data(), code.size(), "%%%02X", static_cast<unsigned char>(c));
+    url += std::isalnum(static_cast<unsigned char>(c)) != 0 ? std::string(1, c) : code.data();
+  }
+  return url;
 }
 
 /// Returns the start of a page with its style and heading. `title` is plain text.
@@ -34,8 +50,8 @@ img { width: 100%; }
 .bad { color: #b00020; }
 </style>
 )";
-  return "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\">\n<title>" + escaped(title) +
-         "</title>\n" + style + "<h1>" + escaped(title) + "</h1>\n";
+  return std::string(page_begin) + " -->\n<html lang=\"en\"><meta charset=\"utf-8\">\n<title>" +
+         escaped(title) + "</title>\n" + style + "<h1>" + escaped(title) + "</h1>\n";
 }
 
 using Rows = std::vector<std::vector<std::string>>;

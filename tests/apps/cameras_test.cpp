@@ -2,6 +2,8 @@
 // Recordings with several cameras: each alone, and all of them.
 #include "fixtures.hpp"
 
+#include <io/files/pending_file.hpp>
+
 namespace penumbra::test {
 namespace {
 
@@ -93,12 +95,66 @@ TEST_F(CamerasTest, TheReportHasAllCameras) {
   EXPECT_TRUE(fs::exists(out() / "right" / "report.html"));
 }
 
-TEST_F(CamerasTest, AFailedRunLeavesNoEarlierResultOverAllCameras) {
+TEST_F(CamerasTest, AFormerRunStaysUntilAllInputsAreOpen) {
   ASSERT_EQ(run({"--report"}).status, 0);
   write_yaml("    targets: none.yaml\n");
   EXPECT_NE(run().status, 0);
-  EXPECT_FALSE(fs::exists(out() / "views.json"));
-  EXPECT_FALSE(fs::exists(out() / "report.html"));
+  for (const char* const file : {"views.json", "report.html", "left/report.json"})
+    EXPECT_TRUE(fs::exists(out() / file)) << file;
+  write_yaml("");
+  fs::remove_all(out() / "right" / "labels");
+  fs::create_directories(out() / "right" / "labels");
+  fs::create_symlink("/dev/full", out() / "right" / "labels" / "000000.png");
+  EXPECT_NE(run({"--force", "--save", "labels"}).status, 0);
+  for (const char* const file : {"views.json", "report.html", "right/report.json"})
+    EXPECT_FALSE(fs::exists(out() / file)) << file;
+}
+
+TEST_F(CamerasTest, FilesOfTheUserStay) {
+  fs::create_directory(out());
+  for (const char* const file : {"views.json", "report.html"}) {
+    write_file(out() / file, "mine");
+    expect_refused(run({"--report"}), {"--force"});
+    expect_refused(run({"--frames", "5:4"}), {"out"});
+    EXPECT_EQ(read_file(out() / file), "mine");
+    fs::remove(out() / file);
+  }
+}
+
+TEST_F(CamerasTest, ASecondRunIntoTheFolderIsRefused) {
+  ASSERT_EQ(run({"--save", "labels"}).status, 0);
+  for (const fs::path& folder : {out(), out() / "left"}) {
+    const io::FileLock lock(folder);
+    expect_refused(run({"--save", "labels"}), {"another program is writing it"});
+    EXPECT_TRUE(fs::exists(out() / "left" / "labels" / "000000.png"));
+    EXPECT_TRUE(fs::exists(out() / "views.json"));
+  }
+}
+
+TEST_F(CamerasTest, NamesAreFoldersAndPlainText) {
+  const std::string yaml = read_file(path("recording.yaml"));
+  for (const char* const name : {"views.json", "..", "a/b", "\"a\\e[31mb\"", "\"\""}) {
+    write_file(path("recording.yaml"), yaml);
+    edit_file(path("recording.yaml"), "left:", std::string(name) + ":");
+    expect_refused(run(), {"recording.yaml", "name"});
+  }
+  write_file(path("recording.yaml"), yaml);
+  edit_file(path("recording.yaml"),
+            "left:", R"("x\" autofocus onfocus=\"document.title='run'\" y=\"":)");
+  ASSERT_EQ(run({"--report"}).status, 0);
+  const std::string page = read_file(out() / "report.html");
+  EXPECT_EQ(page.find("autofocus onfocus=\""), std::string::npos);
+}
+
+TEST_F(CamerasTest, ViewServesNoOtherFolder) {
+  ASSERT_EQ(run().status, 0);
+  fs::rename(out() / "right", path("elsewhere"));
+  fs::create_directory_symlink(path("elsewhere"), out() / "right");
+  expect_refused(penumbra({"view", out(), "--port", "0"}), {"right", "link"});
+  for (const fs::path& name : {fs::path("../elsewhere"), path("elsewhere")}) {
+    write_file(out() / "views.json", "{\"cameras\": [\"left\", \"" + name.string() + "\"]}");
+    expect_refused(penumbra({"view", out(), "--port", "0"}), {"name"});
+  }
 }
 
 TEST_F(CamerasTest, ViewRefusesWhatIsNotWhole) {

@@ -5,6 +5,8 @@
 #include "../support/run_length.hpp"
 #include "mcap_files.hpp"
 
+#include <chrono>
+
 #include <gtest/gtest.h>
 
 #include <io/mcap/file_index.hpp>
@@ -167,6 +169,21 @@ TEST(McapClaims, LongSchemasArePassedOver) {
   const McapContents all = test::read_mcap(path);
   ASSERT_EQ(all.faults.size(), 2U);
   EXPECT_HAS(all.faults[0], "100000000 bytes");
+}
+
+// A recorder's disk was full: 100 GB without a record are not searched through.
+TEST(McapClaims, AHoleIsLeftAfterSomeGigabytes) {
+  using namespace test::mcap_file;
+  test::TemporaryFolder folder;
+  const auto path = folder.write("a.mcap", magic + header());
+  std::filesystem::resize_file(path, 100'000'000'000);  // takes no room on the disk
+  const auto start = std::chrono::steady_clock::now();
+  const McapContents all = test::read_mcap(path);
+  EXPECT_TRUE(all.messages.empty());
+  ASSERT_GE(all.faults.size(), 1U);
+  EXPECT_HAS(all.faults.back(), "are left out");
+  constexpr std::chrono::seconds longest(20);  // 96 s before
+  EXPECT_LT(std::chrono::steady_clock::now() - start, longest);
 }
 
 // What a file claims costs nothing.

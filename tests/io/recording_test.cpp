@@ -75,6 +75,12 @@ class RecordingFolder : public testing::Test {
   static std::string attached(const std::string& keys) {
     return std::string(minimal) + "attached: [{name: part, link: hand, " + keys + "}]\n";
   }
+  /// More than any list may have.
+  static std::string many(const std::string& item) {
+    std::string text;
+    for (int i = 0; i < 2000; ++i) text += item;
+    return text;
+  }
   static std::string replaced(const std::string& from, const std::string& to) {
     std::string text = minimal;
     return text.replace(text.find(from), from.size(), to);
@@ -181,6 +187,11 @@ TEST_F(RecordingFolder, NamesKeyAndLineOfEveryFault) {
        {attached("pose: [0, 0, 0, 0, 0, 0, 1]"), "needs a mesh"},
        {attached("box: [1, 1, 1], pose: [0, 0, 0, 0, 0, 0, 2]"), ":11: attached[0].pose: "},
        {attached("box: [1, 1, 1], frames: 3"), ":11: attached[0].frames: "},
+       {attached("box: [1, 1, 1], frames: [9, 3]"), ":11: attached[0].frames: "},
+       {attached("box: [1, 1, 1]}, {name: part, link: base, box: [1, 1, 1], frames: [6, 7]"),
+        ":11: attached[1]: "},
+       {with("  urdf", "  extra: [" + many("{link: hand, mesh: arm.urdf}, ") + "]"),
+        ":3: robot.extra: "},
        {with("  parent", "  parent: tool"), ":6: key 'parent'"},
        {"", ":1: "},
        {"text", ":1: "}},
@@ -230,6 +241,12 @@ TEST_F(RecordingFolder, ReadsSeveralRobots) {
       "robots:\n"
       "  a: {urdf: arm.urdf, pose: [0, 1, 0, 0, 0, 0, 1]}\n"
       "  b: {urdf: arm.urdf, pose: [0, 0, 2, 0, 0, 1, 0], margins: {tool: 0.01}}\n";
+  const auto numbered = [](int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i)
+      text += "  r" + std::to_string(i) + ": {urdf: arm.urdf, pose: [0, 0, 0, 0, 0, 0, 1]}\n";
+    return text;
+  };
   const auto with_robots = [&](const std::string& robots) {
     return replaced("robot:\n  urdf: arm.urdf\n", robots);
   };
@@ -260,6 +277,9 @@ TEST_F(RecordingFolder, ReadsSeveralRobots) {
   test::expect_refused(
       {{with_robots(two + "robot:\n  urdf: arm.urdf\n"), ":1: robots: stands beside 'robot'"},
        {with_robots("robots:\n  a: {urdf: arm.urdf}\n"), ":2: "},
+       {with_robots("robots:\n  \"a\\e[31m\": {urdf: arm.urdf, pose: [0, 0, 0, 0, 0, 0, 1]}\n"),
+        "control character"},
+       {with_robots("robots:\n" + numbered(1000)), ":1: robots: "},
        {with_robots("robots:\n  a: {urdf: arm.urdf, pose: [0, 0, 0, 0, 0, 0, 2]}\n"),
         ":2: robots.a.pose: "},
        {with("  urdf", "  pose: [0, 0, 0, 0, 0, 0, 1]"), ":3: robot.pose: is for several robots"}},
