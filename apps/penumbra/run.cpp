@@ -56,7 +56,7 @@ void check_place(const RunArguments& arguments) {
 }  // namespace
 
 std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
-                                           const io::ResultFolder& folder,
+                                           io::ResultFolder& folder,
                                            const io::InputSession& session) {
   const Pipeline& pipeline = session.pipeline();
   const std::string& root = pipeline.robot().links().front();

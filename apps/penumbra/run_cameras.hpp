@@ -19,7 +19,7 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
 
 /// Removes earlier results.
 [[nodiscard]] std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
-                                                         const io::ResultFolder& folder,
+                                                         io::ResultFolder& folder,
                                                          const io::InputSession& session);
 
 /// From now on the first Ctrl-C or SIGTERM only makes was_interrupted() true; a second one ends the

@@ -8,7 +8,6 @@
 
 #include <io/files/disk_file.hpp>
 #include <io/files/json-inl.hpp>
-#include <io/files/pending_file.hpp>
 #include <io/files/report_json.hpp>
 
 namespace penumbra::io {
@@ -312,7 +311,7 @@ std::string report_end(const Statistics& statistics, std::span<const std::string
 std::string unfinished_report_end() { return "\n],\n\"summary\": null}\n"; }
 
 struct ReportWriter::State {
-  explicit State(const std::filesystem::path& file) : pending(file), output(pending.part()) {}
+  explicit State(const std::filesystem::path& file) : output(file) {}
 
   void write(std::string_view text, bool now = false) {
     waiting += text;
@@ -321,7 +320,6 @@ struct ReportWriter::State {
     waiting.clear();
   }
 
-  PendingFile pending;
   OutputFile output;
   std::string waiting;
   std::vector<std::string> missing_links;
@@ -348,7 +346,6 @@ void ReportWriter::finish(const Statistics& statistics, std::span<const std::str
   s.notes.insert(s.notes.end(), notes.begin(), notes.end());
   s.write(report_end(statistics, s.missing_links, s.notes), true);
   s.output.close();
-  s.pending.finish();
 }
 
 std::string robot_json(const Robot& robot) {

@@ -60,8 +60,8 @@ struct ReportHead {
 /// The first bytes of every report.
 inline constexpr std::string_view report_json_start = "{\"penumbra\": ";
 
-/// Writes report.json (docs/recording.md) frame by frame as a PendingFile. Values that do not apply
-/// are null. Members throw InputError if the file cannot be written.
+/// Writes report.json (docs/recording.md) frame by frame. Values that do not apply are null.
+/// Members throw InputError if the file cannot be written.
 class ReportWriter {
  public:
   ReportWriter(const std::filesystem::path& file, const ReportHead& head);

@@ -56,11 +56,12 @@ class ResultFolder {
   /// Calls `write` with the path of a new file, which finish() renames.
   template <typename Write>
   void add(const std::string& name, const Write& write) {
-    write(parts_.emplace_back(std::make_unique<PendingFile>(path() / name))->part());
+    const auto place = name == options_.report.name ? parts_.end() : parts_.begin();
+    write((*parts_.insert(place, std::make_unique<PendingFile>(path() / name)))->part());
   }
   void add_text(const std::string& name, std::string_view text);
 
-  /// Gives the files their names, in the order of add(): the report comes last.
+  /// Gives the files their names, the report last.
   void finish();
 
  private:
@@ -71,7 +72,7 @@ class ResultFolder {
   ResultFolderOptions options_;
   bool is_made_;  // by this
   FileLock lock_;
-  std::vector<std::unique_ptr<PendingFile>> parts_;
+  std::vector<std::unique_ptr<PendingFile>> parts_;  // the report's last
 };
 
 }  // namespace penumbra::io

@@ -14,7 +14,6 @@
 #include <io/files/disk_file.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/overlay_painter.hpp>
-#include <io/files/pending_file.hpp>
 #include <io/files/png.hpp>
 #include <io/run/output_folder.hpp>
 #include <io/web/report_page.hpp>
@@ -108,9 +107,9 @@ ResultFolderOptions run_results(const OutputOptions& options) {
           .advice = "choose another folder with -o, or write into this one with --force"};
 }
 
-OutputFolder::OutputFolder(const OutputOptions& options, const ResultFolder& folder,
+OutputFolder::OutputFolder(const OutputOptions& options, ResultFolder& folder,
                            const Rectification* rectification)
-    : options_(options), painter_(rectification) {
+    : options_(options), folder_(folder), painter_(rectification) {
   writers_.emplace(writers_of(options_));
   if (folder.has_former())
     for (const ImageKind& kind : image_kinds)
@@ -130,28 +129,33 @@ OutputFolder::~OutputFolder() {
       if (options_.saves.*kind.wanted) fs::remove(file(kind.folder, index, kind.ending), ignored);
 }
 
-void OutputFolder::begin(const ReportHead& head) { report_.emplace(report_file(), head); }
+void OutputFolder::begin(const ReportHead& head) {
+  folder_.add("report.json", [&](const fs::path& part) {
+    report_file_ = part;
+    report_.emplace(part, head);
+  });
+}
 
 void OutputFolder::finish(const Statistics& statistics, std::span<const std::string> notes) {
   writers_->finish();
   report_->finish(statistics, notes);
+  const std::string fault = options_.report_page ? add_page() : std::string();
+  folder_.finish();
   finished_ = true;
-  if (options_.report_page) write_page();
+  if (!fault.empty()) throw InputError(fault);
 }
 
-void OutputFolder::write_page() const {
-  const fs::path page = options_.path / "report.html";
+/// Returns why there is no page, or an empty text.
+std::string OutputFolder::add_page() {
   std::error_code error;
-  const auto size = fs::file_size(report_file(), error);
+  const auto size = fs::file_size(report_file_, error);
   if (error || size > most_report_page_bytes)
-    throw InputError(page.string() + ": not written, as " + report_file().string() +
-                     " is larger than " + std::to_string(most_report_page_bytes >> 20U) +
-                     " MB; choose fewer frames with --frames");
-  const std::string text =
-      report_page(read_whole_file(report_file(), most_report_page_bytes), key_frames_.json());
-  PendingFile pending(page);
-  write_file(pending.part(), text.data(), text.size());
-  pending.finish();
+    return (options_.path / "report.html").string() +
+           ": not written, as report.json is larger than " +
+           std::to_string(most_report_page_bytes >> 20U) + " MB; choose fewer frames with --frames";
+  folder_.add_text("report.html", report_page(read_whole_file(report_file_, most_report_page_bytes),
+                                              key_frames_.json()));
+  return {};
 }
 
 void OutputFolder::save(const FrameReport& report, const Frame& frame,

@@ -49,7 +49,7 @@ class OutputFolder final : public RunOutput {
   /// Makes the folders of the images, and removes an earlier run's report, page and images.
   /// `rectification` converts recorded images to the geometry of the report's; null if they have it
   /// already. It must outlive this. Throws InputError if the folder cannot be used.
-  OutputFolder(const OutputOptions& options, const ResultFolder& folder,
+  OutputFolder(const OutputOptions& options, ResultFolder& folder,
                const Rectification* rectification);
 
   /// Removes this run's images, unless it was finished.
@@ -65,21 +65,22 @@ class OutputFolder final : public RunOutput {
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
 
  private:
-  void write_page() const;
+  [[nodiscard]] std::string add_page();
   template <typename T, typename Write>
   void write_later(std::filesystem::path file, ImageView<const T> image, Write write);
   void save_without_robot(const FrameReport& report, const Frame& frame, const Camera& camera);
-  [[nodiscard]] std::filesystem::path report_file() const { return options_.path / "report.json"; }
   [[nodiscard]] std::filesystem::path file(const char* kind, std::size_t index,
                                            const char* ending) const;
 
   OutputOptions options_;
+  ResultFolder& folder_;
   DepthImage filtered_;
   std::optional<CloudMaker> cloud_maker_;  // made with the first points
   OverlayPainter painter_;
   KeyFrames key_frames_;
   std::vector<std::size_t> saved_;  // frames whose images may be written
   bool finished_ = false;
+  std::filesystem::path report_file_;  // unfinished
   std::optional<ReportWriter> report_;
   std::optional<BackgroundJobs> writers_;
 };
