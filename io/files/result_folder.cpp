@@ -47,7 +47,7 @@ ResultFolder::ResultFolder(ResultFolderOptions options)
     throw InputError(path().string() + ": holds files, and no " + options_.report.name +
                      " of penumbra; " + options_.advice);
   for (const ResultFile& result : options_.others)
-    if (result.name.find('*') == std::string::npos) check_is_ours(result);
+    if (result.is_wanted && result.name.find('*') == std::string::npos) check_is_ours(result);
 }
 
 ResultFolder::~ResultFolder() {

@@ -16,6 +16,7 @@ namespace penumbra::io {
 struct ResultFile {
   std::string name;        ///< may be a pattern of fnmatch(3): "extra_*.stl"
   std::string start = {};  ///< what all files of the command begin with; empty: anything
+  bool is_wanted = true;   ///< false: only removed, if an earlier command wrote it
 };
 
 struct ResultFolderOptions {

@@ -102,7 +102,7 @@ void remove_former(const fs::path& file) {
 ResultFolderOptions run_results(const OutputOptions& options) {
   return {.path = options.path,
           .report = {"report.json", std::string(report_json_start)},
-          .others = {{"report.html", page_begin}},
+          .others = {{"report.html", page_begin, options.report_page}},
           .force = options.force,
           .advice = "choose another folder with -o, or write into this one with --force"};
 }
