@@ -15,6 +15,7 @@
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/calibration_report.hpp>
+#include <io/files/names.hpp>
 #include <io/files/pose_file.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/result_folder.hpp>
@@ -83,9 +84,9 @@ void print_pose(const Calibration& found, const std::string& parent, const std::
             << "\nROS 2: ros2 run tf2_ros static_transform_publisher --x " << fixed(T(0, 3), 5)
             << " --y " << fixed(T(1, 3), 5) << " --z " << fixed(T(2, 3), 5) << " --qx "
             << fixed(q.x(), 6) << " --qy " << fixed(q.y(), 6) << " --qz " << fixed(q.z(), 6)
-            << " --qw " << fixed(q.w(), 6) << " --frame-id " << for_shell(parent)
-            << " --child-frame-id " << (frame.empty() ? "camera_optical_frame" : for_shell(frame))
-            << '\n';
+            << " --qw " << fixed(q.w(), 6) << " --frame-id " << io::for_shell(parent)
+            << " --child-frame-id "
+            << (frame.empty() ? "camera_optical_frame" : io::for_shell(frame)) << '\n';
 }
 
 /// Returns what is wrong with the input other than the camera's pose; empty: nothing known.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <iostream>
 #include <utility>
@@ -49,17 +48,6 @@ void print_line(const std::string& line) { std::cout << io::without_controls(lin
 void print_notes(std::span<const std::string> notes) {
   for (const std::string& note : notes)
     std::cerr << "penumbra: note: " << io::without_controls(note) << '\n';
-}
-
-std::string for_shell(const std::string& text) {
-  constexpr std::string_view plain = "_-./:@%+=,";
-  const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || plain.find(c) != plain.npos;
-  });
-  if (is_plain) return text;
-  std::string quoted = "'";
-  for (const char c : io::without_controls(text)) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
 }
 
 }  // namespace penumbra::app

@@ -23,9 +23,6 @@ namespace penumbra::app {
 /// Prints rows of equal length on stdout, columns aligned, without control characters.
 void print_table(std::vector<std::vector<std::string>> rows);
 
-/// Returns a text as one word for a shell, without control characters.
-[[nodiscard]] std::string for_shell(const std::string& text);
-
 /// Prints a line on stdout.
 void print_line(const std::string& line);
 

@@ -16,6 +16,7 @@
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/image_size.hpp>
+#include <io/files/names.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/files/stl_file.hpp>
 #include <io/files/tuning_report.hpp>
@@ -98,7 +99,7 @@ void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& e
   for (const io::WrittenExtra& extra : extras) {
     list += (list.empty() ? "" : ", ") + std::string("{link: ") + extra.link +
             ", mesh: " + fs::proximate(folder / extra.file, recording).string() + "}";
-    options += " --extra " + for_shell(extra.link + "=" + (folder / extra.file).string());
+    options += " --extra " + io::for_shell(extra.link + "=" + (folder / extra.file).string());
   }
   if (!extras.empty()) std::cout << "robot:\n  extra: [" << list << "]\n";
   std::cout << "\nor the options: --tolerance " << a << ",0," << c << " --fringe-reach " << reach

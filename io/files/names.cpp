@@ -77,4 +77,15 @@ void check_camera_name(std::string_view name) {
                      "' cannot be that of a folder of results; expected letters and digits");
 }
 
+std::string for_shell(const std::string& text) {
+  constexpr std::string_view plain = "_-./:@%+=,";
+  const bool is_plain = !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || plain.find(c) != plain.npos;
+  });
+  if (is_plain) return text;
+  std::string quoted = "'";
+  for (const char c : without_controls(text)) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
 }  // namespace penumbra::io

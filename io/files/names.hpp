@@ -19,4 +19,7 @@ void check_name(std::string_view name);
 /// The same for a camera, whose results are a folder of this name.
 void check_camera_name(std::string_view name);
 
+/// Returns a text as one word for a shell, without control characters.
+[[nodiscard]] std::string for_shell(const std::string& text);
+
 }  // namespace penumbra::io

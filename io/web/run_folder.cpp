@@ -8,6 +8,7 @@
 #include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/files/json-inl.hpp>
+#include <io/files/names.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/png.hpp>
 #include <io/web/run_folder.hpp>
@@ -120,11 +121,11 @@ std::vector<std::string> RunFolder::missing() const {
   }
   std::vector<std::string> lines;
   if (!unsaved.empty())
-    lines.push_back("not saved by the run: " + unsaved + "; `penumbra run " + report_.input +
-                    " -o " + folder_.string() + " --save " + all +
-                    "`, with the run's other options, saves all");
+    lines.push_back("not saved by the run: " + unsaved + "; `penumbra run " +
+                    for_shell(report_.input) + " -o " + for_shell(folder_.string()) + " --save " +
+                    all + "`, with the run's other options, saves all");
   lines.push_back("not part of a run's results: robot, points, color, depth; `penumbra view " +
-                  report_.input + "`, with the run's other options, shows them");
+                  for_shell(report_.input) + "`, with the run's other options, shows them");
   return lines;
 }
 
