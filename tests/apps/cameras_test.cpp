@@ -132,13 +132,13 @@ TEST_F(CamerasTest, ASecondRunIntoTheFolderIsRefused) {
 }
 
 TEST_F(CamerasTest, NamesAreFoldersAndPlainText) {
-  const std::string yaml = read_file(path("recording.yaml"));
+  const std::string whole = read_file(path("recording.yaml"));
   for (const char* const name : {"views.json", "..", "a/b", "\"a\\e[31mb\"", "\"\""}) {
-    write_file(path("recording.yaml"), yaml);
+    write_file(path("recording.yaml"), whole);
     edit_file(path("recording.yaml"), "left:", std::string(name) + ":");
     expect_refused(run(), {"recording.yaml", "name"});
   }
-  write_file(path("recording.yaml"), yaml);
+  write_file(path("recording.yaml"), whole);
   edit_file(path("recording.yaml"),
             "left:", R"("x\" autofocus onfocus=\"document.title='run'\" y=\"":)");
   ASSERT_EQ(run({"--report"}).status, 0);
