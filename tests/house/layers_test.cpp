@@ -74,6 +74,8 @@ const std::vector<Library>& libraries() {
                                         {"epoxy/egl.h", "penumbra/render/gl", 1},
                                         {"dlfcn.h", "penumbra/render/gl", 1},
                                         {"fnmatch.h", "penumbra/robot", 1},
+                                        {"fnmatch.h", "io/files", 1},
+                                        {"malloc.h", "apps", 1},
                                         {"epoxy/gl.h", "penumbra/render/gl", 7},
                                         {"yaml-cpp/", "io/files", 2},
                                         {"png.h", "io/files", 1},
