@@ -17,7 +17,6 @@
 #include <io/files/calibration_report.hpp>
 #include <io/files/names.hpp>
 #include <io/files/pose_file.hpp>
-#include <io/files/printable.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/run/calibration_input.hpp>
 #include <io/web/calibration_page.hpp>
@@ -59,7 +58,7 @@ void print_fit(const Calibration& found, const Robot& robot, const Intrinsics& c
               << fixed(camera.fy() * (1.0 + found.focal_y->value), 2)
               << " px with this pose (in P too, if the camera_info has it)\n";
   for (std::size_t j = 0; j < found.joint_offsets.size(); ++j)
-    std::cout << "  " << io::without_controls(robot.variables()[j]) << ": "
+    std::cout << "  " << robot.variables()[j] << ": "
               << plus_minus(found.joint_offsets[j], degrees, 2) << " degrees\n";
   if (found.time_offset)
     std::cout << "time offset: " << plus_minus(*found.time_offset, 1e3, 1)
@@ -77,7 +76,7 @@ void print_pose(const Calibration& found, const std::string& parent, const std::
   const Eigen::Isometry3d& T = found.T_parent_camera;
   const Eigen::Quaterniond q(T.linear());
   const std::string xyz = joined(T.translation(), 5, " ");
-  std::cout << "\n4x4, optical frame in " << io::without_controls(parent) << ", metres:\n";
+  std::cout << "\n4x4, optical frame in " << parent << ", metres:\n";
   for (int row = 0; row < 4; ++row)
     std::cout << "  " << joined(T.matrix().row(row), 6, ", ") << '\n';
   std::cout << "xyz: " << xyz << "\nquaternion xyzw: " << joined(q.coeffs(), 6, " ")
@@ -158,7 +157,7 @@ int execute(const CalibrateArguments& arguments) {
       options.camera_parent.empty() ? robot.links().front() : options.camera_parent;
   print_pose(found, parent, input.input.camera.frame_id);
   if (!folder) return 0;
-  std::cout << "recording.yaml:\ncamera:\n  parent: " << io::without_controls(parent)
+  std::cout << "recording.yaml:\ncamera:\n  parent: " << parent
             << "\n  pose: " << (arguments.output / "camera_pose.csv").string() << '\n';
   return 0;
 }

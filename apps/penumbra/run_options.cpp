@@ -298,8 +298,9 @@ void add_run(CLI::App& app, RunArguments& run) {
   add_session(app, run.session);
   app.get_option("--threads")
       ->description(
-          "threads of the cpu renderer, default 1, and of those that write images, default one per "
-          "core; results do not depend on it");
+          "threads of the cpu renderer, default 1, and of those that read and write images, "
+          "default "
+          "one per core; results do not depend on it");
   add_sequence(app, run.session);
   add_number(app, "--fps",
              "frames per second of a recording without stamps: frame i gets the stamp i / N s", "N",

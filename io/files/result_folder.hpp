@@ -32,8 +32,8 @@ struct ResultFolderOptions {
 inline constexpr const char* json_begin = "{\n  \"penumbra\": ";
 inline constexpr const char* page_begin = "<!doctype html>\n<!-- penumbra";
 
-/// The output folder of a command, which no other program uses as long as this exists. Results
-/// appear together at the end, whole, and nothing is written through a link.
+/// The output folder of a command, which no other program uses as long as this exists. The files of
+/// add() appear together at the end, whole, and are not written through links.
 class ResultFolder {
  public:
   /// Makes the folder. Throws InputError if it cannot be made or another program writes into it,

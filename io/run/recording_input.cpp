@@ -177,9 +177,10 @@ RunInput open_input(const InputOptions& options, const LineSink& print) {
   RunInput input = open_folder_or_bag(options, print);
   for (const ExtraMesh& part : input.robot_options.extra) input.made_files.push_back(part.mesh);
   if (options.bag.pose) input.made_files.push_back(*options.bag.pose);
-  input.frames = [open = std::move(input.frames)](const Robot& robot) {
-    return std::make_unique<ReadAhead>(open(robot));
-  };
+  if (options.threads != 1)
+    input.frames = [open = std::move(input.frames)](const Robot& robot) {
+      return std::make_unique<ReadAhead>(open(robot));
+    };
   return input;
 }
 

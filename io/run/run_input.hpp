@@ -37,7 +37,7 @@ struct InputOptions {
   bool needs_camera_pose = true;      ///< false: it may be unknown, and is then the identity
   FrameRange frames;
   std::optional<double> fps;  ///< of a recording without stamps, 1/s
-  int threads = 0;            ///< that decode images; 0: one per core
+  int threads = 0;            ///< that decode images; 0: one per core; 1: none of their own
   BagOptions bag;
   std::string bag_option;  ///< name of a bag's option that was given; empty: none
 

@@ -80,6 +80,54 @@ TEST_F(QueueTest, TwoCamerasShareAHistory) {
   EXPECT_EQ(next(5023), 1000);
 }
 
+TEST_F(QueueTest, AJumpKeepsFramesThatAwaitOnlyTheirCompanions) {
+  bool are_there = false;
+  std::vector<DropReason> dropped;
+  queue_.emplace(
+      robot_, history_, FrameQueueOptions{.policy = DropPolicy::every, .companion_wait = 1.0},
+      [&](const auto&, DropReason reason) { dropped.push_back(reason); },
+      [&](const Frame&, bool over) {
+        return are_there || over ? Companions::complete : Companions::awaited;
+      });
+  for (const std::int64_t stamp : {5000, 5050, 5100}) {
+    joint(stamp);
+    image(stamp, stamp);
+    EXPECT_EQ(next(stamp), -1);
+  }
+  image(5150, 5150);  // its joint state has not come
+  EXPECT_EQ(next(5150), -1);
+  EXPECT_EQ(queue_->wake_at(), 5350 * ms);
+  joint(1000);  // the clock is set back
+  EXPECT_EQ(next(5160), -1);
+  EXPECT_EQ(dropped, std::vector{DropReason::clock_jump});
+  are_there = true;
+  for (const std::int64_t stamp : {5000, 5050, 5100}) {
+    ASSERT_EQ(next(5170), stamp);
+    EXPECT_EQ(frame_->pose.status, FrameStatus::ok) << frame_->pose.message;
+  }
+}
+
+TEST_F(QueueTest, AFrameWithoutItsCompanionsIsDroppedOrGivenInTime) {
+  std::vector<DropReason> dropped;
+  queue_.emplace(
+      robot_, history_, FrameQueueOptions{.policy = DropPolicy::newest, .companion_wait = 0.1},
+      [&](const auto&, DropReason reason) { dropped.push_back(reason); },
+      [&](const Frame& frame, bool over) {
+        return !over                       ? Companions::awaited
+               : *frame.stamp == 5000 * ms ? Companions::missing
+                                           : Companions::complete;
+      });
+  for (const std::int64_t stamp : {5000, 5050}) {
+    joint(stamp);
+    image(stamp, stamp);
+  }
+  EXPECT_EQ(next(5050), -1);
+  EXPECT_EQ(next(5100), -1);
+  EXPECT_EQ(dropped, std::vector{DropReason::no_camera_info});
+  EXPECT_EQ(next(5149), -1);
+  EXPECT_EQ(next(5150), 5050);
+}
+
 TEST_F(QueueTest, RefusesFaultyOptions) {
   const auto refused = [&](const FrameQueueOptions& options, std::string_view part) {
     expect_refused([&] { make(options); }, {part});
@@ -87,6 +135,7 @@ TEST_F(QueueTest, RefusesFaultyOptions) {
   refused({.time_offset = std::nan("")}, "time_offset");
   refused({.time_offset = -2e9}, "time_offset");
   refused({.max_wait = -0.1}, "max_wait");
+  refused({.companion_wait = -0.1}, "companion_wait");
   refused({.max_frames = 0}, "max_frames");
   refused({.poses = {.camera_parent = "nowhere"}}, "nowhere");
 }
