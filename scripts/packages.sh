@@ -13,7 +13,7 @@ set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libmeshoptimizer-dev
        libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev libepoxy-dev pkgconf
-       libjpeg-dev liblz4-dev libzstd-dev libsqlite3-dev libboost-dev zlib1g-dev)
+       libjpeg-dev libtiff-dev libopenexr-dev liblz4-dev libzstd-dev libsqlite3-dev libboost-dev zlib1g-dev)
 ros=(cyclonedds-dev nettle-dev)
 python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-venv python3-pip
         python3-matplotlib patchelf)
@@ -21,7 +21,7 @@ sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri)
 research=(libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev)
 test=(libgtest-dev libassimp-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev
       libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri libfastcdr-dev libfastrtps-dev nodejs npm
-      clang libclang-rt-14-dev colcon python3-colcon-package-information python3-colcon-package-selection
+      ffmpeg clang libclang-rt-14-dev colcon python3-colcon-package-information python3-colcon-package-selection
       python3-colcon-ros
       python3-catkin-pkg python3-distributed python3-pytest python3-mypy python3-yaml python3-pil)
 web=(chromium fonts-dejavu-core nodejs npm)

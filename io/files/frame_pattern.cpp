@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cctype>
 
 #include <penumbra/base/error.hpp>
 
 #include <io/files/frame_pattern.hpp>
 #include <io/files/numbers.hpp>
+#include <io/files/video_file.hpp>
 
 namespace penumbra::io {
 
@@ -13,7 +13,7 @@ FramePattern::FramePattern(std::string_view pattern, const std::filesystem::path
     : folder_(folder) {
   const std::string fault = "'" + std::string(pattern) +
                             "': one %d or %0Nd (N from 1 to 9) is needed for the frame's "
-                            "number; a percent sign is written %%";
+                            "number; a percent sign is written %%. Or name a video, as color.mp4";
   bool found = false;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
     std::string& part = found ? after_ : before_;
@@ -35,7 +35,8 @@ FramePattern::FramePattern(std::string_view pattern, const std::filesystem::path
       throw InputError(fault);
     }
   }
-  if (!found) throw InputError(fault);
+  is_video_ = !found && is_video_name(before_);
+  if (!found && !is_video_) throw InputError(fault);
 }
 
 std::string FramePattern::written(std::int64_t index) const {
@@ -45,7 +46,7 @@ std::string FramePattern::written(std::int64_t index) const {
 }
 
 std::filesystem::path FramePattern::file(std::int64_t index) const {
-  return folder_ / (before_ + written(index) + after_);
+  return folder_ / (is_video_ ? before_ : before_ + written(index) + after_);
 }
 
 std::optional<std::int64_t> FramePattern::index(std::string_view name, std::string_view before,
@@ -80,14 +81,6 @@ std::vector<std::int64_t> FramePattern::existing() const {
                      "); the frames in it must be known");
   std::sort(indices.begin(), indices.end());
   return indices;
-}
-
-bool FramePattern::has_extension(std::string_view extension) const {
-  return after_.size() >= extension.size() &&
-         std::equal(extension.rbegin(), extension.rend(), after_.rbegin(), [](char a, char b) {
-           return std::tolower(static_cast<unsigned char>(a)) ==
-                  std::tolower(static_cast<unsigned char>(b));
-         });
 }
 
 }  // namespace penumbra::io

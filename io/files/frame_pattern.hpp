@@ -11,22 +11,22 @@
 namespace penumbra::io {
 
 /// A file name with one frame number in it: "depth_%d.png", "depth/%06d.npy" (%% is a percent
-/// sign).
+/// sign), or a video's name.
 class FramePattern {
  public:
   /// Relative patterns start at `folder`. Throws InputError unless there is exactly one %d or %0Nd
-  /// (N from 1 to 9) and no other %.
+  /// (N from 1 to 9) and no other %, or none and the ending of a video.
   FramePattern(std::string_view pattern, const std::filesystem::path& folder);
 
-  /// Returns the file of frame `index` >= 0.
+  /// Returns whether one file holds all frames.
+  [[nodiscard]] bool is_video() const { return is_video_; }
+
+  /// Returns the file of frame `index` >= 0, or the video.
   [[nodiscard]] std::filesystem::path file(std::int64_t index) const;
 
   /// Returns the numbers of frames whose file exists, ascending. Throws InputError if the folder
   /// exists and cannot be listed.
   [[nodiscard]] std::vector<std::int64_t> existing() const;
-
-  /// Returns whether the name ends in `extension` (".npy") in any case.
-  [[nodiscard]] bool has_extension(std::string_view extension) const;
 
  private:
   [[nodiscard]] std::string written(std::int64_t index) const;
@@ -37,6 +37,7 @@ class FramePattern {
 
   std::filesystem::path folder_;
   std::string before_, after_;
+  bool is_video_ = false;
   std::size_t digits_ = 0;  // 0: as many as the number has
 };
 

@@ -1,44 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
+#include <mutex>
+#include <numeric>
+#include <type_traits>
 #include <unordered_set>
 #include <utility>
+#include <variant>
 
+#include <penumbra/base/error.hpp>
+#include <penumbra/camera/registration.hpp>
+
+#include <io/files/depth_pixels-inl.hpp>
 #include <io/files/frame_reader.hpp>
-#include <io/files/npy.hpp>
-#include <io/files/png.hpp>
+#include <io/files/image_file.hpp>
 
 namespace penumbra::io {
 namespace {
 
-/// Returns depth in metres from one in units of `scale` metres.
-template <typename T>
-std::shared_ptr<const Image<float>> scaled(const Image<T>& depth, double scale) {
-  auto metres = std::make_shared<Image<float>>(depth.width(), depth.height());
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    const T value = depth.data()[i];
-    if (metres_of(value) > 0.0F) metres->data()[i] = static_cast<float>(scale * value);
-  }
-  return metres;
-}
-
-/// Reads a depth image of a format. `scale`: metres per unit; null: the format's.
-template <typename T, typename Read>
-FileResult read_depth(const Read& read, std::optional<double> scale, SharedDepth& depth) {
-  auto image = std::make_shared<Image<T>>();
-  FileResult result = read(*image);
-  if (!result.ok()) return result;
-  if (scale)
-    depth = SharedDepth(scaled(*image, *scale));
-  else
-    depth = SharedDepth(std::shared_ptr<const Image<T>>(std::move(image)));
-  return result;
-}
-
 /// Adds a faulty row for every depth image without a row, before the first row of a later frame.
-std::vector<JointRow> with_gaps(std::vector<JointRow> rows, const RecordingFrames& files) {
+/// `lacking`: the images' numbers, ascending.
+std::vector<JointRow> with_gaps(std::vector<JointRow> rows, std::vector<std::int64_t> lacking,
+                                const std::filesystem::path& joint_file) {
   std::unordered_set<std::int64_t> known;
   for (const JointRow& row : rows) known.insert(row.index);
-  std::vector<std::int64_t> lacking = files.depth.existing();
   std::erase_if(lacking, [&](std::int64_t index) { return known.contains(index); });
   if (lacking.empty()) return rows;
 
@@ -47,7 +31,7 @@ std::vector<JointRow> with_gaps(std::vector<JointRow> rows, const RecordingFrame
   const auto add_lacking = [&] {
     JointRow& row = all.emplace_back();
     row.index = *next;
-    row.fault = files.joints.string() + " has no row for frame " + std::to_string(*next);
+    row.fault = joint_file.string() + " has no row for frame " + std::to_string(*next);
     ++next;
   };
   for (JointRow& row : rows) {
@@ -58,14 +42,76 @@ std::vector<JointRow> with_gaps(std::vector<JointRow> rows, const RecordingFrame
   return all;
 }
 
+template <typename T>
+std::shared_ptr<VideoFile<T>> video_of(const FramePattern* pattern, ImageSize size) {
+  if (pattern == nullptr || !pattern->is_video()) return nullptr;
+  auto video = std::make_shared<VideoFile<T>>(pattern->file(0));
+  if (video->size() != size)
+    throw InputError(pattern->file(0).string() + ": " + wrong_size(video->size(), size));
+  return video;
+}
+
+std::vector<std::int64_t> numbers_of(const FramePattern& depth,
+                                     const VideoFile<std::uint16_t>* video) {
+  if (video == nullptr) return depth.existing();
+  std::vector<std::int64_t> numbers(video->frames());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+ImageSize size_of(const Camera& camera) {
+  return {camera.intrinsics.width(), camera.intrinsics.height()};
+}
+
 }  // namespace
 
+/// Brings images of a depth camera into the camera's image, in several threads.
+class FrameReader::DepthCamera {
+ public:
+  explicit DepthCamera(const RecordingCamera& camera)
+      : camera_(camera.camera), depth_(*camera.depth), T_camera_depth_(camera.T_camera_depth) {}
+
+  [[nodiscard]] ImageSize size() const { return size_of(depth_); }
+
+  SharedDepth warp(const SharedDepth& depth) {
+    std::unique_ptr<DepthRegistration> registration;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        registration = std::move(idle_.back());
+        idle_.pop_back();
+      }
+    }
+    if (!registration) registration = std::make_unique<DepthRegistration>(depth_, camera_);
+    const SharedDepth warped = std::visit(
+        [](const auto& view) {
+          using Pixel = std::remove_const_t<std::remove_pointer_t<decltype(view.data)>>;
+          return SharedDepth(std::make_shared<const Image<Pixel>>(copy_of(view)));
+        },
+        registration->warp(depth.view, T_camera_depth_));
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(registration));
+    return warped;
+  }
+
+ private:
+  Camera camera_, depth_;
+  Eigen::Isometry3d T_camera_depth_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<DepthRegistration>> idle_;
+};
+
 FrameReader::FrameReader(const Recording& recording, const Robot& robot)
-    : size_{recording.camera.camera.intrinsics.width(),
-            recording.camera.camera.intrinsics.height()},
+    : size_(size_of(recording.camera.camera)),
       files_(recording.frames),
+      depth_video_(video_of<std::uint16_t>(
+          &files_.depth, recording.camera.depth ? size_of(*recording.camera.depth) : size_)),
+      color_video_(video_of<Rgb8>(files_.color ? &*files_.color : nullptr, size_)),
+      depth_camera_(recording.camera.depth ? std::make_shared<DepthCamera>(recording.camera)
+                                           : nullptr),
       depth_scale_(recording.camera.depth_scale),
-      rows_(with_gaps(read_joint_file(recording.frames.joints, robot), recording.frames)),
+      rows_(with_gaps(read_joint_file(files_.joints, robot),
+                      numbers_of(files_.depth, depth_video_.get()), files_.joints)),
       bodies_(recording.attached),
       parts_(robot.parts().begin(), robot.parts().end()) {}
 
@@ -86,24 +132,42 @@ Frame FrameReader::read(std::size_t i, bool with_color) const {
   for (const RecordedBody& each : bodies_)
     if (each.first <= row.index && row.index < each.end) frame.pose.attached.push_back(each.body);
 
-  const std::filesystem::path file = files_.depth.file(row.index);
-  const FileResult depth =
-      files_.depth.has_extension(".npy")
-          ? read_depth<float>([&](auto& image) { return read_npy(file, image, size_); },
-                              depth_scale_, frame.depth)
-          : read_depth<std::uint16_t>([&](auto& image) { return read_png(file, image, size_); },
-                                      depth_scale_, frame.depth);
-  if (!depth.ok()) {
+  if (const FileResult depth = read_depth_image(row.index, frame.depth); !depth.ok()) {
     frame.source_status =
         depth.status == FileStatus::missing ? FrameStatus::missing_depth : FrameStatus::bad_depth;
     frame.source_message = depth.message;
   }
-  if (!with_color || !files_.color) return frame;
-  auto color = std::make_shared<Image<Rgb8>>();
-  frame.color_message = read_png(files_.color->file(row.index), *color, size_).message;
-  if (frame.color_message.empty())
-    frame.color = SharedColor(std::shared_ptr<const Image<Rgb8>>(std::move(color)));
+  if (with_color && files_.color)
+    frame.color_message = read_color_image(row.index, frame.color).message;
   return frame;
+}
+
+FileResult FrameReader::read_depth_image(std::int64_t index, SharedDepth& depth) const {
+  FileResult result;
+  if (depth_video_) {
+    std::shared_ptr<const Image<std::uint16_t>> image;
+    result = depth_video_->read(static_cast<std::size_t>(index), image);
+    if (result.ok()) depth = depth_scale_ ? depth_of(*image, depth_scale_) : SharedDepth(image);
+  } else {
+    result = read_depth(files_.depth.file(index), depth_camera_ ? depth_camera_->size() : size_,
+                        depth_scale_, depth);
+  }
+  if (result.ok() && depth_camera_) depth = depth_camera_->warp(depth);
+  return result;
+}
+
+FileResult FrameReader::read_color_image(std::int64_t index, SharedColor& color) const {
+  std::shared_ptr<const Image<Rgb8>> image;
+  FileResult result;
+  if (color_video_) {
+    result = color_video_->read(static_cast<std::size_t>(index), image);
+  } else {
+    auto read = std::make_shared<Image<Rgb8>>();
+    result = read_color(files_.color->file(index), size_, *read);
+    image = std::move(read);
+  }
+  if (result.ok()) color = SharedColor(image);
+  return result;
 }
 
 }  // namespace penumbra::io

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,17 +11,19 @@
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/robot/robot.hpp>
 
+#include <io/files/disk_file.hpp>
 #include <io/files/image_size.hpp>
 #include <io/files/joint_file.hpp>
 #include <io/files/recording.hpp>
+#include <io/files/video_file.hpp>
 
 namespace penumbra::io {
 
 /// Reads a recording's frames. Faults of a frame's data become its status and are never thrown.
 class FrameReader {
  public:
-  /// Reads the joint file and lists the depth images. Keeps neither argument. Throws InputError as
-  /// read_joint_file and FramePattern::existing.
+  /// Reads the joint file, lists the depth images and opens videos. Keeps neither argument. Throws
+  /// InputError as read_joint_file, FramePattern::existing and VideoFile.
   FrameReader(const Recording& recording, const Robot& robot);
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
@@ -32,9 +35,16 @@ class FrameReader {
   [[nodiscard]] Frame read(std::size_t i, bool with_color) const;
 
  private:
+  class DepthCamera;
+  [[nodiscard]] FileResult read_depth_image(std::int64_t index, SharedDepth& depth) const;
+  [[nodiscard]] FileResult read_color_image(std::int64_t index, SharedColor& color) const;
+
   ImageSize size_;
   RecordingFrames files_;
-  std::optional<double> depth_scale_;  // metres per unit; null: the format's
+  std::shared_ptr<VideoFile<std::uint16_t>> depth_video_;  // in place of depth images
+  std::shared_ptr<VideoFile<Rgb8>> color_video_;
+  std::shared_ptr<DepthCamera> depth_camera_;  // null: depth images are the camera's
+  std::optional<double> depth_scale_;          // metres per unit; null: the format's
   std::vector<JointRow> rows_;
   std::vector<RecordedBody> bodies_;
   std::vector<RobotPart> parts_;

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/camera/rectification.hpp>
 
 namespace penumbra::io {
@@ -21,6 +24,17 @@ struct ImageSize {
   return "has " + std::to_string(got.width) + " x " + std::to_string(got.height) +
          " pixels; the camera has " + std::to_string(wanted.width) + " x " +
          std::to_string(wanted.height);
+}
+
+/// Returns what is wrong with the size that a file or message states, or nothing.
+[[nodiscard]] inline std::optional<std::string> check_image_size(std::uint64_t width,
+                                                                 std::uint64_t height) {
+  constexpr auto most = static_cast<std::uint64_t>(Intrinsics::max_size);
+  constexpr auto most_pixels = static_cast<std::uint64_t>(Intrinsics::max_pixels);
+  if (width >= 1 && height >= 1 && width <= most && height <= most && width * height <= most_pixels)
+    return std::nullopt;
+  return "has " + std::to_string(width) + " x " + std::to_string(height) + " pixels; 1 to " +
+         std::to_string(most) + " each and " + std::to_string(most_pixels) + " in all are possible";
 }
 
 /// Returns a copy without gaps between its rows.

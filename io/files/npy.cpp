@@ -8,10 +8,12 @@
 #include <regex>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <penumbra/camera/intrinsics.hpp>
 
+#include <io/files/depth_pixels-inl.hpp>
 #include <io/files/disk_file.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/numbers.hpp>
@@ -69,9 +71,7 @@ std::string read_header_text(InputFile& input, std::string& text) {
   return input.read(text.data(), length) == length ? "" : "ends in its header";
 }
 
-std::string check(const Header& header) {
-  if (header.type != "<f4")
-    return "holds '" + header.type + "'; depths must be '<f4' (little-endian float32, metres)";
+std::string check_shape(const Header& header) {
   if (header.order == "True") return "is in Fortran order; expected C order (row by row)";
   if (header.shape.size() != 2)
     return "has " + std::to_string(header.shape.size()) + " dimensions; expected 2 (height, width)";
@@ -82,30 +82,76 @@ std::string check(const Header& header) {
   return {};
 }
 
-}  // namespace
-
-FileResult read_npy(const std::filesystem::path& file, Image<float>& image,
-                    std::optional<ImageSize> wanted) {
-  InputFile input;
+/// Reads and checks what stands before the pixels.
+FileResult read_header(const std::filesystem::path& file, InputFile& input, Header& header) {
   if (FileResult opened = input.open(file); !opened.ok()) return opened;
   std::string text;
   if (const std::string fault = read_header_text(input, text); !fault.empty())
     return FileResult::bad(file, fault);
-  const std::optional<Header> header = parse(text);
-  if (!header) return FileResult::bad(file, "has a damaged header");
-  if (const std::string fault = check(*header); !fault.empty()) return FileResult::bad(file, fault);
+  const std::optional<Header> parsed = parse(text);
+  if (!parsed) return FileResult::bad(file, "has a damaged header");
+  header = *parsed;
+  if (header.shape.size() == 3 && header.shape.back() == 1) header.shape.pop_back();
+  const std::string fault = check_shape(header);
+  return fault.empty() ? FileResult{} : FileResult::bad(file, fault);
+}
 
-  const ImageSize size{static_cast<int>(header->shape[1]), static_cast<int>(header->shape[0])};
+template <typename T>
+FileResult read_pixels(const std::filesystem::path& file, InputFile& input, const Header& header,
+                       std::optional<ImageSize> wanted, Image<T>& image) {
+  const ImageSize size{static_cast<int>(header.shape[1]), static_cast<int>(header.shape[0])};
   if (wanted && size != *wanted) return FileResult::bad(file, wrong_size(size, *wanted));
-  const std::uint64_t bytes = header->shape[0] * header->shape[1] * sizeof(float);
+  const std::uint64_t bytes = header.shape[0] * header.shape[1] * sizeof(T);
   if (bytes > input.size()) return FileResult::bad(file, "ends before its last row");
-  if (image.width() != size.width || image.height() != size.height)
-    image = Image<float>(size.width, size.height);
+  image.fit(size.width, size.height);
   if (input.read(image.data(), bytes) != bytes)
     return FileResult::bad(file, "ends before its last row");
   char more = 0;
   if (input.read(&more, 1) != 0) return FileResult::bad(file, "has bytes after its last row");
   return {};
+}
+
+template <typename T>
+FileResult read_depth_of(const std::filesystem::path& file, InputFile& input, const Header& header,
+                         std::optional<ImageSize> wanted, std::optional<double> scale,
+                         SharedDepth& depth) {
+  Image<T> pixels;
+  FileResult result = read_pixels(file, input, header, wanted, pixels);
+  if (result.ok()) depth = depth_of(std::move(pixels), scale);
+  return result;
+}
+
+}  // namespace
+
+FileResult read_npy(const std::filesystem::path& file, Image<float>& image,
+                    std::optional<ImageSize> wanted) {
+  InputFile input;
+  Header header;
+  if (FileResult read = read_header(file, input, header); !read.ok()) return read;
+  if (header.type != "<f4")
+    return FileResult::bad(file, "holds '" + header.type + "'; expected '<f4'");
+  return read_pixels(file, input, header, wanted, image);
+}
+
+FileResult read_npy_depth(const std::filesystem::path& file, std::optional<ImageSize> wanted,
+                          std::optional<double> scale, SharedDepth& depth) {
+  InputFile input;
+  Header header;
+  if (FileResult read = read_header(file, input, header); !read.ok()) return read;
+  const auto read_as = [&]<typename T>(T) {
+    return read_depth_of<T>(file, input, header, wanted, scale, depth);
+  };
+  if (header.type == "<f4") return read_as(float{});
+  if (header.type == "<f8") return read_as(double{});
+  if (header.type == "<u2") return read_as(std::uint16_t{});
+  if (header.type == "<i2") return read_as(std::int16_t{});
+  if (header.type == "<u4") return read_as(std::uint32_t{});
+  if (header.type == "<i4") return read_as(std::int32_t{});
+  if (header.type == "<u8") return read_as(std::uint64_t{});
+  if (header.type == "<i8") return read_as(std::int64_t{});
+  return FileResult::bad(file, "holds '" + header.type +
+                                   "'; expected float32 or float64 (metres), or integers of 16 to "
+                                   "64 bits (millimetres), little-endian");
 }
 
 void write_npy(const std::filesystem::path& file, ImageView<const float> image) {

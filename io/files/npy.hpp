@@ -18,6 +18,12 @@ namespace penumbra::io {
 [[nodiscard]] FileResult read_npy(const std::filesystem::path& file, Image<float>& image,
                                   std::optional<ImageSize> wanted = {});
 
+/// Reads a NumPy file of H x W or H x W x 1 float32, float64 or integers of 16 to 64 bits.
+/// `scale`: metres per unit; default: millimetres for integers, metres for floating-point numbers.
+[[nodiscard]] FileResult read_npy_depth(const std::filesystem::path& file,
+                                        std::optional<ImageSize> wanted,
+                                        std::optional<double> scale, SharedDepth& depth);
+
 /// Writes H x W float32. The image must not be empty. Throws InputError that names a file that
 /// cannot be written.
 void write_npy(const std::filesystem::path& file, ImageView<const float> image);

@@ -232,8 +232,7 @@ std::optional<std::string> decode_png(std::span<const std::byte> bytes, Image<T>
   if (!fault.empty()) return fault;
 
   const ImageSize size = decoder.size();
-  if (image.width() != size.width || image.height() != size.height)
-    image = Image<T>(size.width, size.height);
+  image.fit(size.width, size.height);
   fault = decoder.read_rows(reinterpret_cast<png_bytep>(image.data()),
                             static_cast<std::size_t>(size.width) * sizeof(T), as_rgb);
   return fault.empty() ? std::nullopt : std::optional(fault);

@@ -103,12 +103,14 @@ std::vector<RecordedRobot> robots_of(const YamlNode& root, const std::filesystem
   return robots;
 }
 
-void refuse_depth_camera(const YamlNode& camera) {
-  for (const char* key : {"depth_info", "depth_pose"})
-    if (const YamlNode* given = camera.find(key))
-      given->fail(
-          "a depth camera of its own is not supported yet; give depth images that are aligned to "
-          "the colour image, and remove depth_info and depth_pose");
+/// Reads the depth camera, if it is another one than the camera.
+void read_depth_camera(const YamlNode& node, const std::filesystem::path& folder,
+                       RecordingCamera& camera) {
+  const YamlNode* const info = node.find("depth_info");
+  if (info == nullptr && node.find("depth_pose") == nullptr) return;
+  camera.depth = read_camera_info(file_of(node.at("depth_info"), folder), false);
+  camera.depth->range = camera.camera.range;
+  camera.T_camera_depth = read_pose_csv(file_of(node.at("depth_pose"), folder));
 }
 
 /// Refuses unknown keys. `more`: keys of one of several cameras.
@@ -144,7 +146,6 @@ void read_depth_meaning(const YamlNode& node, RecordingCamera& camera) {
 
 RecordingCamera camera_of(const YamlNode& node, const std::vector<std::string_view>& more,
                           const std::filesystem::path& folder) {
-  refuse_depth_camera(node);
   RuleOptions rule = rule_of(node, more);
   const YamlNode* rectified = node.find("rectified");
   const bool is_rectified = rectified != nullptr && rectified->boolean();
@@ -167,6 +168,7 @@ RecordingCamera camera_of(const YamlNode& node, const std::vector<std::string_vi
       scale->fail("is not above 0; expected metres per unit of the depth images, as in 0.0001");
   }
   read_depth_meaning(node, camera);
+  read_depth_camera(node, folder, camera);
   return camera;
 }
 

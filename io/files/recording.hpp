@@ -49,6 +49,8 @@ struct RecordingCamera {
   RuleOptions rule = {};
   std::optional<BeyondMeans> beyond = {};
   std::optional<double> depth_scale = {};  ///< metres per unit of the depth images
+  std::optional<Camera> depth = {};        ///< a depth camera of its own, which has these images
+  Eigen::Isometry3d T_camera_depth = Eigen::Isometry3d::Identity();
 };
 
 /// The files of the frames.

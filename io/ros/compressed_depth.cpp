@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#include <io/files/image_size.hpp>
 #include <io/files/numbers.hpp>
 #include <io/files/printable.hpp>
 #include <io/ros/compressed_depth-inl.hpp>
-#include <io/ros/image_limits-inl.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -102,7 +102,7 @@ std::optional<std::string> unpack_rvl(std::span<const std::byte> bytes,
   if (std::uint64_t{width} * height > most_rvl_pixels)
     return "has " + std::to_string(width) + " x " + std::to_string(height) +
            " pixels in RVL; at most " + std::to_string(most_rvl_pixels) + " are possible";
-  resize_image(image, static_cast<int>(width), static_cast<int>(height));
+  image.fit(static_cast<int>(width), static_cast<int>(height));
   auto fault = decode_rvl(bytes.subspan(rvl_size_bytes), std::span(image.data(), image.size()));
   if (fault) fault->insert(0, "is damaged: ");
   return fault;
@@ -123,7 +123,7 @@ DepthFormat parse_format(std::string_view format) {
 }
 
 void dequantise(const Image<std::uint16_t>& quantised, float a, float b, Image<float>& metres) {
-  resize_image(metres, quantised.width(), quantised.height());
+  metres.fit(quantised.width(), quantised.height());
   for (std::size_t i = 0; i < metres.size(); ++i) {
     const std::uint16_t q = quantised.data()[i];
     metres.data()[i] =

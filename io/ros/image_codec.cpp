@@ -6,11 +6,11 @@
 #include <cstring>
 #include <stdexcept>
 
+#include <io/files/image_size.hpp>
+#include <io/files/jpeg.hpp>
 #include <io/files/printable.hpp>
 #include <io/ros/compressed_depth-inl.hpp>
 #include <io/ros/image_codec.hpp>
-#include <io/ros/image_limits-inl.hpp>
-#include <io/ros/jpeg.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -113,7 +113,7 @@ T byte_swapped(T value) {
 
 template <typename T>
 void copy_rows(const ImageMessage& message, Image<T>& image) {
-  resize_image(image, static_cast<int>(message.width), static_cast<int>(message.height));
+  image.fit(static_cast<int>(message.width), static_cast<int>(message.height));
   for (int v = 0; v < image.height(); ++v) {
     T* row = image.view().row(v);
     std::memcpy(row, message.data.data() + std::size_t{message.step} * static_cast<std::size_t>(v),
@@ -188,7 +188,7 @@ std::optional<std::string> decode_color(const ImageMessage& message, Image<Rgb8>
   if (format->in_pairs && message.width % 2 != 0)
     return "colour image of " + message.encoding + " has an odd width of " +
            std::to_string(message.width);
-  resize_image(image, static_cast<int>(message.width), static_cast<int>(message.height));
+  image.fit(static_cast<int>(message.width), static_cast<int>(message.height));
   for (int v = 0; v < image.height(); ++v)
     format->convert(message.data.data() + std::size_t{message.step} * static_cast<std::size_t>(v),
                     image.view().row(v), message.width);

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include <io/files/image_size.hpp>
+#include <io/files/jpeg.hpp>
 #include <io/files/json-inl.hpp>
-#include <io/ros/jpeg.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/scene.hpp>
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include <io/ros/jpeg.hpp>
+#include <io/files/jpeg.hpp>
 #include <io/web/key_frames.hpp>
 
 namespace penumbra::io {

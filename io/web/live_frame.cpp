@@ -5,8 +5,8 @@
 #include <utility>
 
 #include <io/files/image_size.hpp>
+#include <io/files/jpeg.hpp>
 #include <io/files/report_json.hpp>
-#include <io/ros/jpeg.hpp>
 #include <io/web/live_frame.hpp>
 
 namespace penumbra::io {

@@ -8,9 +8,9 @@
 #include <limits>
 #include <span>
 
+#include <io/files/jpeg.hpp>
 #include <io/files/numbers.hpp>
 #include <io/files/png.hpp>
-#include <io/ros/jpeg.hpp>
 #include <io/web/packet.hpp>
 #include <io/web/web_types.hpp>
 

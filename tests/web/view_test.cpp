@@ -10,9 +10,9 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <io/files/jpeg.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/png.hpp>
-#include <io/ros/jpeg.hpp>
 
 namespace penumbra::test {
 namespace {

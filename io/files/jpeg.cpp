@@ -9,8 +9,8 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
-#include <io/ros/image_limits-inl.hpp>
-#include <io/ros/jpeg.hpp>
+#include <io/files/image_size.hpp>
+#include <io/files/jpeg.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -163,7 +163,7 @@ std::optional<std::string> decode_jpeg(std::span<const std::byte> bytes, Image<R
   const std::uint64_t pixels = std::uint64_t{codec.image_width} * codec.image_height;
   if (3 * pixels > max_jpeg_expansion * bytes.size())
     return "is a JPEG of more pixels than " + std::to_string(bytes.size()) + " bytes can hold";
-  resize_image(image, static_cast<int>(codec.image_width), static_cast<int>(codec.image_height));
+  image.fit(static_cast<int>(codec.image_width), static_cast<int>(codec.image_height));
   if (!decoder.read_rows(image.view())) return decoder.damaged();
   return std::nullopt;
 }

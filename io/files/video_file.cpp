@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <optional>
+#include <sstream>
+#include <string_view>
+#include <type_traits>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <penumbra/base/error.hpp>
+
+#include <io/files/numbers.hpp>
+#include <io/files/video_file.hpp>
+
+namespace penumbra::io {
+namespace {
+
+/// A running program whose output is read.
+class Program {
+ public:
+  /// Throws InputError if the program is not installed.
+  explicit Program(std::vector<std::string> words) {
+    std::array<int, 2> ends{};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::bad_alloc();
+    output_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    const int fault =
+        ::posix_spawnp(&process_, pointers[0], &actions, nullptr, pointers.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[1]);
+    if (fault == 0) return;
+    ::close(output_);
+    throw InputError("videos need the program " + words.front() +
+                     ", which cannot be run; install FFmpeg (Debian: apt install ffmpeg)");
+  }
+  ~Program() {
+    ::close(output_);
+    ::kill(process_, SIGKILL);
+    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  /// Returns the number of bytes; fewer than wanted at the end.
+  std::size_t read(char* to, std::size_t count) const {
+    std::size_t done = 0;
+    while (done < count) {
+      const ssize_t got = ::read(output_, to + done, count - done);
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) break;
+      done += static_cast<std::size_t>(got);
+    }
+    return done;
+  }
+
+ private:
+  int output_;
+  pid_t process_ = 0;
+};
+
+/// Returns what a program prints, at most 256 MB.
+std::string output_of(std::vector<std::string> words) {
+  constexpr std::size_t most = 256U << 20U;
+  const Program program(std::move(words));
+  std::string text;
+  for (std::size_t got = 1; got > 0 && text.size() < most;) {
+    const std::size_t before = text.size();
+    text.resize(before + (1U << 16U));
+    got = program.read(text.data() + before, text.size() - before);
+    text.resize(before + got);
+  }
+  return text;
+}
+
+/// Nothing but this file is opened, whatever it says.
+std::vector<std::string> input_words(const std::filesystem::path& file) {
+  return {"-protocol_whitelist", "file", "-i", "file:" + std::filesystem::absolute(file).string()};
+}
+
+std::vector<std::string> joined(std::vector<std::string> words,
+                                const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+/// What ffprobe says of the first video stream.
+struct Probe {
+  std::string pixels;  // ffmpeg's name of the format
+  std::uint64_t width = 0, height = 0;
+  std::vector<double> times;
+};
+
+Probe probe(const std::filesystem::path& file) {
+  std::istringstream lines(
+      output_of(joined({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
+                        "stream=width,height,pix_fmt:packet=pts_time,flags", "-of", "compact=nk=0"},
+                       input_words(file))));
+  Probe found;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    std::string kind, field, flags;
+    std::optional<double> time;
+    std::getline(fields, kind, '|');
+    while (std::getline(fields, field, '|')) {
+      const std::size_t equals = field.find('=');
+      const std::string key = field.substr(0, equals);
+      const std::string value = equals == std::string::npos ? "" : field.substr(equals + 1);
+      if (key == "width") found.width = parse_number<std::uint64_t>(value).value_or(0);
+      if (key == "height") found.height = parse_number<std::uint64_t>(value).value_or(0);
+      if (key == "pix_fmt") found.pixels = value;
+      if (key == "flags") flags = value;
+      if (key == "pts_time") time = parse_number<double>(value);
+    }
+    const bool is_shown = flags.find('D') == std::string::npos;  // else it is to be discarded
+    // Without times, frames are shown as they are stored.
+    if (kind == "packet" && is_shown)
+      found.times.push_back(time.value_or(static_cast<double>(found.times.size())));
+  }
+  std::sort(found.times.begin(), found.times.end());
+  return found;
+}
+
+}  // namespace
+
+bool is_video_name(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  constexpr std::array<std::string_view, 6> known{".mp4", ".mkv", ".mov", ".avi", ".webm", ".m4v"};
+  return std::find(known.begin(), known.end(), ending) != known.end();
+}
+
+template <typename T>
+class VideoFile<T>::Decoder : public Program {
+ public:
+  using Program::Program;
+};
+
+template <typename T>
+VideoFile<T>::VideoFile(const std::filesystem::path& file) : file_(file) {
+  InputFile().open(file).require();
+  const Probe found = probe(file);
+  if (found.times.empty() || found.width == 0)
+    throw InputError(file.string() + ": holds no video that ffprobe can read");
+  if (auto fault = check_image_size(found.width, found.height))
+    throw InputError(file.string() + ": " + *fault);
+  if (std::is_same_v<T, std::uint16_t> && !found.pixels.starts_with("gray16"))
+    throw InputError(file.string() + ": holds " + found.pixels +
+                     " pixels; depth needs 16-bit grey, as 'ffmpeg ... -c:v ffv1 -pix_fmt "
+                     "gray16le' writes it");
+  size_ = {static_cast<int>(found.width), static_cast<int>(found.height)};
+  times_ = found.times;
+}
+
+template <typename T>
+VideoFile<T>::~VideoFile() = default;
+
+template <typename T>
+void VideoFile<T>::start(std::size_t index) {
+  decoder_.reset();
+  std::vector<std::string> words{"ffmpeg",        "-nostdin", "-v", "quiet",
+                                 "-noautorotate", "-threads", "1"};
+  if (index > 0) {
+    // Between two frames' times, so that rounding does not matter.
+    std::ostringstream time;
+    time << std::fixed << 0.5 * (times_[index - 1] + times_[index]);
+    words = joined(std::move(words), {"-seek_timestamp", "1", "-ss", time.str()});
+  }
+  words = joined(std::move(words), input_words(file_));
+  const char* const pixels = std::is_same_v<T, Rgb8> ? "rgb24" : "gray16le";
+  decoder_ = std::make_unique<Decoder>(joined(
+      std::move(words),
+      {"-map", "0:v:0", "-vsync", "passthrough", "-f", "rawvideo", "-pix_fmt", pixels, "pipe:1"}));
+  next_ = index;
+}
+
+template <typename T>
+FileResult VideoFile<T>::read(std::size_t index, std::shared_ptr<const Image<T>>& image) {
+  constexpr std::size_t most_skipped = 64, most_recent = 16;
+  const std::string name = "frame " + std::to_string(index);
+  if (index >= frames())
+    return {FileStatus::missing,
+            file_.string() + ": has " + std::to_string(frames()) + " frames, and no " + name};
+  const std::lock_guard lock(mutex_);
+  for (const auto& [number, known] : recent_)
+    if (number == index) {
+      image = known;
+      return {};
+    }
+  try {
+    if (!decoder_ || index < next_ || index - next_ > most_skipped) start(index);
+  } catch (const InputError& error) {
+    return FileResult::bad(file_, error.what());
+  }
+  for (; next_ <= index; ++next_) {
+    auto decoded = std::make_shared<Image<T>>(size_.width, size_.height);
+    const std::size_t bytes = decoded->size() * sizeof(T);
+    if (decoder_->read(reinterpret_cast<char*>(decoded->data()), bytes) != bytes) {
+      decoder_.reset();
+      return FileResult::bad(file_, name + " cannot be decoded");
+    }
+    recent_.emplace_back(next_, std::move(decoded));
+    if (recent_.size() > most_recent) recent_.pop_front();
+  }
+  image = recent_.back().second;
+  return {};
+}
+
+template class VideoFile<Rgb8>;
+template class VideoFile<std::uint16_t>;
+
+}  // namespace penumbra::io
