@@ -24,7 +24,10 @@ void bind_image_shapes(py::module_& m) {
   bind_fields<1>(region, Field{"region", &R::region, "Its pixels."},
                  Field{"extent", &R::extent, "What the region covers of the target."},
                  Field{"expected_depth", &R::expected_depth,
-                       "Metres; hidden then needs no measured depth. None: not known."});
+                       "Metres; hidden then needs no measured depth. None: not known."},
+                 Field{"height", &R::height,
+                       "Metres, of an object that stands upright: the expected depth follows from "
+                       "the region's height. None: not known."});
   py::class_<KeypointTarget> keypoint(m, "KeypointTarget",
                                       "A key point of a network; an ellipse around it is judged.");
   using K = KeypointTarget;

@@ -29,13 +29,6 @@ void check(const TargetShape& shape, const Intrinsics& images) {
     check_region(target->region, images.width(), images.height());
 }
 
-/// Returns a number above 0.
-double positive(const YamlNode& node) {
-  const double value = node.number();
-  if (value > 0.0) return value;
-  node.fail("is " + node.text() + "; expected a positive number");
-}
-
 /// Returns shapes made from a frame's numbers. The numbers in the YAML file are checked at once.
 ShapeSource source_of(const TargetReader& reader, const YamlNode& node, const ValueFormat& format,
                       const MakeShape& make) {
@@ -48,17 +41,9 @@ ShapeSource source_of(const TargetReader& reader, const YamlNode& node, const Va
           values->has_stamps()};
 }
 
-Extent extent_of(const YamlNode& node) {
-  const YamlNode* extent = node.find("extent");
-  if (extent == nullptr) return Extent::amodal;
-  if (extent->text() == "amodal") return Extent::amodal;
-  if (extent->text() == "modal") return Extent::modal;
-  extent->fail("is '" + extent->text() + "'; expected amodal or modal");
-}
-
 std::optional<double> depth_of(const YamlNode& node) {
   const YamlNode* depth = node.find("expected_depth");
-  return depth == nullptr ? std::nullopt : std::optional(positive(*depth));
+  return depth == nullptr ? std::nullopt : std::optional(positive_number(*depth));
 }
 
 /// Returns a region with the common settings, and the value's own depth if it has one.
@@ -69,13 +54,10 @@ RegionTarget region_target(const RegionTarget& common, Region region, const Fram
   return target;
 }
 
-RegionTarget common_of(const TargetReader& reader) {
-  return {.region = {}, .extent = extent_of(reader.node), .expected_depth = depth_of(reader.node)};
-}
-
 ShapeSource read_box(const TargetReader& reader, const YamlNode& node) {
   return source_of(reader, node, fixed_format({"u", "v", "width", "height"}),
-                   [common = common_of(reader)](const FrameValue& value) -> TargetShape {
+                   [common = region_settings(reader.node, Extent::amodal)](
+                       const FrameValue& value) -> TargetShape {
                      const auto& n = value.numbers;
                      if (!(n[2] > 0.0 && n[3] > 0.0))
                        throw InputError("has no area; expected width and height above 0");
@@ -93,7 +75,8 @@ std::vector<double> corners_of(const YamlNode& node) {
 
 ShapeSource read_polygon(const TargetReader& reader, const YamlNode& node) {
   return source_of(reader, node, {corners_of, {}, {}},
-                   [common = common_of(reader)](const FrameValue& value) -> TargetShape {
+                   [common = region_settings(reader.node, Extent::amodal)](
+                       const FrameValue& value) -> TargetShape {
                      PixelPolygon polygon;
                      for (std::size_t i = 0; i + 1 < value.numbers.size(); i += 2)
                        polygon.corners.emplace_back(value.numbers[i], value.numbers[i + 1]);
@@ -117,7 +100,8 @@ std::vector<double> run_lengths_of(const YamlNode& node) {
 ShapeSource read_run_lengths(const TargetReader& reader, const YamlNode& node) {
   const Intrinsics images = reader.context.images;
   return source_of(reader, node, {run_lengths_of, {}, {}},
-                   [=, common = common_of(reader)](const FrameValue& value) -> TargetShape {
+                   [=, common = region_settings(reader.node, Extent::amodal)](
+                       const FrameValue& value) -> TargetShape {
                      const auto& n = value.numbers;
                      if (n[0] != images.height() || n[1] != images.width())
                        throw InputError("is of another size; expected [" +
@@ -138,7 +122,8 @@ ShapeSource read_run_lengths(const TargetReader& reader, const YamlNode& node) {
 
 ShapeSource read_mask(const TargetReader& reader, const YamlNode& node) {
   const ImageSize size{reader.context.images.width(), reader.context.images.height()};
-  const auto read = [size, common = common_of(reader)](const std::filesystem::path& file) {
+  const auto read = [size, common = region_settings(reader.node, Extent::amodal)](
+                        const std::filesystem::path& file) {
     auto mask = std::make_shared<Image<std::uint8_t>>();
     read_png(file, *mask, size).require();
     return ShapeSource::Given{
@@ -177,7 +162,7 @@ void read_ellipse(const YamlNode& node, KeypointTarget& target) {
   if (given == nullptr) return;
   target.in_metres = given->key().ends_with("_m");
   if (given->key().starts_with("radius")) {
-    target.semi_axes.setConstant(positive(*given));
+    target.semi_axes.setConstant(positive_number(*given));
     return;
   }
   const std::vector<double> ellipse = given->numbers(3);
@@ -208,7 +193,7 @@ ShapeSource read_keypoint(const TargetReader& reader, const YamlNode& node) {
 ShapeSource read_point(const TargetReader& reader, const YamlNode& node) {
   PointTarget common;
   common.frame = link_of(reader.node, reader.context.robot);
-  if (const YamlNode* radius = reader.node.find("radius")) common.radius = positive(*radius);
+  if (const YamlNode* radius = reader.node.find("radius")) common.radius = positive_number(*radius);
   return source_of(reader, node, fixed_format({"x", "y", "z"}),
                    [common](const FrameValue& value) -> TargetShape {
                      PointTarget target = common;
@@ -258,7 +243,7 @@ std::shared_ptr<const PreparedMesh> mesh_of(const TargetReader& reader) {
   file.with_context([&] { mesh = load_mesh(reader.folder / file.text()); });
   const YamlNode* scale = reader.node.find("scale");
   if (scale != nullptr) {
-    const double factor = positive(*scale);
+    const double factor = positive_number(*scale);
     for (Eigen::Vector3f& vertex : mesh.vertices)
       vertex = (factor * vertex.cast<double>()).cast<float>();
   }
@@ -288,10 +273,10 @@ struct ShapeKind {
 
 const std::vector<ShapeKind>& kinds() {
   static const std::vector<ShapeKind> all{
-      {"box", read_box, true, false, {"extent", "expected_depth"}},
-      {"polygon", read_polygon, true, false, {"extent", "expected_depth"}},
-      {"mask", read_mask, true, false, {"extent", "expected_depth"}},
-      {"rle", read_run_lengths, true, false, {"extent", "expected_depth"}},
+      {"box", read_box, true, false, {"extent", "expected_depth", "height"}},
+      {"polygon", read_polygon, true, false, {"extent", "expected_depth", "height"}},
+      {"mask", read_mask, true, false, {"extent", "expected_depth", "height"}},
+      {"rle", read_run_lengths, true, false, {"extent", "expected_depth", "height"}},
       {"keypoint",
        read_keypoint,
        true,
@@ -315,6 +300,25 @@ ReferenceFrame link_of(const YamlNode& node, const Robot& robot) {
     return ReferenceFrame::of_link(robot.links()[*index]);
   const std::vector<std::string_view> known(robot.links().begin(), robot.links().end());
   link->fail("'" + link->text() + "' is no link of the robot" + near_names(link->text(), known));
+}
+
+double positive_number(const YamlNode& node) {
+  const double value = node.number();
+  if (value > 0.0) return value;
+  node.fail("is " + node.text() + "; expected a positive number");
+}
+
+RegionTarget region_settings(const YamlNode& node, Extent extent) {
+  if (const YamlNode* given = node.find("extent")) {
+    if (given->text() != "amodal" && given->text() != "modal")
+      given->fail("is '" + given->text() + "'; expected amodal or modal");
+    extent = given->text() == "modal" ? Extent::modal : Extent::amodal;
+  }
+  const YamlNode* const height = node.find("height");
+  return {.region = {},
+          .extent = extent,
+          .expected_depth = depth_of(node),
+          .height = height == nullptr ? std::nullopt : std::optional(positive_number(*height))};
 }
 
 bool names_pixels(const YamlNode& target) {

@@ -51,6 +51,12 @@ struct ShapeSource {
 /// Returns whether the target is given by pixels of an image.
 [[nodiscard]] bool names_pixels(const YamlNode& target);
 
+/// Reads the keys extent, expected_depth and height.
+[[nodiscard]] RegionTarget region_settings(const YamlNode& node, Extent extent);
+
+/// Returns a number above 0. Throws InputError for another.
+[[nodiscard]] double positive_number(const YamlNode& node);
+
 /// Reads the one key that says what the target is (box, polygon, ...), and those that belong to it.
 [[nodiscard]] ShapeSource read_shape(const TargetReader& reader);
 

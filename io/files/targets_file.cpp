@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <map>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -7,8 +8,10 @@
 
 #include <penumbra/base/error.hpp>
 
+#include <io/files/detections_file.hpp>
 #include <io/files/frame_values.hpp>
 #include <io/files/names.hpp>
+#include <io/files/numbers.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/target_shapes.hpp>
 #include <io/files/targets_file.hpp>
@@ -35,9 +38,12 @@ void check_image(const YamlNode& root, const TargetsContext& context) {
     if (key->text() == "rectified") image = ImageSpace::rectified;
   }
   if (!context.has_distortion || image == context.image) return;
-  const std::span<const YamlNode> targets = root.at("targets").items();
-  if (std::none_of(targets.begin(), targets.end(), names_pixels)) return;
-  const YamlNode& blamed = key != nullptr ? *key : root.at("targets");
+  const YamlNode* const list = root.find("targets");
+  const auto targets = list != nullptr ? list->items() : std::span<const YamlNode>();
+  if (root.find("detections") == nullptr &&
+      std::none_of(targets.begin(), targets.end(), names_pixels))
+    return;
+  const YamlNode& blamed = key != nullptr ? *key : root;
   blamed.fail(image == ImageSpace::raw
                   ? "pixels are of the raw image, results of the rectified one; write image: "
                     "rectified if they are of that, or leave --image out"
@@ -109,6 +115,62 @@ void read_settings(const YamlNode& node, const TargetsContext& context, TargetSo
             "known");
 }
 
+/// How the detections of a class are judged.
+struct DetectedClass {
+  RegionTarget region = {.region = {}, .extent = Extent::modal};
+  Target settings = {};
+  double min_score = 0.0;
+};
+
+std::map<std::int64_t, std::string> class_names_of(const YamlNode& node) {
+  std::map<std::int64_t, std::string> names;
+  if (node.is_list())
+    for (const YamlNode& name : node.items())
+      names.emplace(static_cast<std::int64_t>(names.size()), name.text());
+  else
+    for (const YamlNode& name : node.entries()) {
+      const auto number = parse_number<std::int64_t>(name.key());
+      if (!number) name.fail("is the name of no number; expected {0: person, ...}");
+      names.emplace(*number, name.text());
+    }
+  return names;
+}
+
+DetectedClass class_of(const YamlNode& node, const TargetsContext& context) {
+  DetectedClass found;
+  found.settings.thresholds.beyond_hides = context.beyond_hides;
+  if (node.is_null()) return found;
+  node.allow_only(
+      {"extent", "expected_depth", "height", "thickness", "min_score", "thresholds", "handling"});
+  found.region = region_settings(node, Extent::modal);
+  if (const YamlNode* thickness = node.find("thickness"))
+    found.settings.depth_margin = 0.5 * positive_number(*thickness);
+  if (const YamlNode* score = node.find("min_score")) found.min_score = score->number();
+  if (const YamlNode* thresholds = node.find("thresholds"))
+    found.settings.thresholds = read_thresholds(*thresholds, found.settings.thresholds);
+  if (const YamlNode* handling = node.find("handling")) {
+    found.settings.handling = read_handling(*handling);
+    if (std::holds_alternative<PoseTrackerConfig>(found.settings.handling))
+      handling->fail("is pose, but detections have no orientation; expected point");
+  }
+  return found;
+}
+
+Target target_of(const DetectedClass& settings, const Detection& detection, std::size_t number) {
+  Target target = settings.settings;
+  RegionTarget region = settings.region;
+  region.region = detection.region;
+  target.shape = std::move(region);
+  target.has_identity = !detection.track.empty();
+  const bool is_named = detection.category == detection.track;
+  target.name = target.has_identity && is_named
+                    ? detection.track
+                    : detection.category + (target.has_identity ? "_" + detection.track
+                                                                : " " + std::to_string(number));
+  if (!target.has_identity) target.handling = {};
+  return target;
+}
+
 Target target_of(const TargetSource& source, std::int64_t index) {
   Target target = source.settings;
   try {
@@ -127,6 +189,8 @@ Target target_of(const TargetSource& source, std::int64_t index) {
 struct TargetsFile::State {
   std::filesystem::path file;
   std::vector<TargetSource> sources;
+  Detections detections;
+  std::map<std::string, DetectedClass> classes;  // "*": all others
   double history = 0.0;
 };
 
@@ -138,12 +202,35 @@ TargetsFile& TargetsFile::operator=(TargetsFile&&) noexcept = default;
 TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsContext& context) {
   auto state = std::make_unique<State>();
   state->file = file;
+  if (is_detections_name(file)) {
+    state->detections = read_detections(file, {}, context.images, {});
+    state->classes.emplace("*", class_of({}, context));
+    return TargetsFile(std::move(state));
+  }
   const YamlNode root = YamlNode::read(file);
-  root.allow_only({"image", "history", "targets"});
+  root.allow_only({"image", "history", "targets", "detections", "names", "classes"});
   check_image(root, context);
+  if (const YamlNode* detections = root.find("detections")) {
+    std::map<std::int64_t, std::string> names;
+    if (const YamlNode* given = root.find("names")) names = class_names_of(*given);
+    state->detections = detections->with_context([&] {
+      return read_detections(detections->text(), file.parent_path(), context.images, names);
+    });
+    const YamlNode* const classes = root.find("classes");
+    if (classes == nullptr)
+      state->classes.emplace("*", class_of({}, context));
+    else
+      for (const YamlNode& node : classes->entries())
+        state->classes.emplace(node.key(), class_of(node, context));
+  } else {
+    for (const char* const key : {"names", "classes"})
+      if (const YamlNode* found = root.find(key)) found->fail("is for detections; name their file");
+  }
   ValueTables tables;
   std::unordered_map<std::string, std::size_t> numbers;
-  for (const YamlNode& node : root.at("targets").items()) {
+  const YamlNode* const targets =
+      state->detections.empty() ? &root.at("targets") : root.find("targets");
+  for (const YamlNode& node : targets != nullptr ? targets->items() : std::span<const YamlNode>()) {
     TargetSource& source =
         state->sources.emplace_back(source_of(node, context, file.parent_path(), tables));
     const auto [known, is_new] = numbers.emplace(source.settings.name, numbers.size());
@@ -164,7 +251,29 @@ TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsCo
 std::vector<Target> TargetsFile::of_frame(std::int64_t index) const {
   std::vector<Target> targets;
   for (const TargetSource& source : state_->sources) targets.push_back(target_of(source, index));
+  const auto found = state_->detections.find(index);
+  if (found == state_->detections.end()) return targets;
+  std::map<std::string, std::size_t> numbers;  // by class
+  for (const Detection& detection : found->second) {
+    auto settings = state_->classes.find(detection.category);
+    if (settings == state_->classes.end()) settings = state_->classes.find("*");
+    if (settings == state_->classes.end() || !(detection.score >= settings->second.min_score))
+      continue;
+    targets.push_back(target_of(settings->second, detection, ++numbers[detection.category]));
+  }
   return targets;
+}
+
+void TargetsFile::check_frames(std::span<const std::int64_t> frames) const {
+  const auto has_detections = [&](std::int64_t frame) {
+    return state_->detections.contains(frame);
+  };
+  if (state_->detections.empty() || std::ranges::any_of(frames, has_detections)) return;
+  const auto by_number = [](const auto& a, const auto& b) { return a.first < b.first; };
+  const auto [first, last] = std::ranges::minmax_element(state_->detections, by_number);
+  throw InputError(state_->file.string() + ": has detections in the frames " +
+                   std::to_string(first->first) + " to " + std::to_string(last->first) +
+                   ", and none in a frame of this recording; are they of other images?");
 }
 
 const std::filesystem::path& TargetsFile::file() const { return state_->file; }

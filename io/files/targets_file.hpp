@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +29,7 @@ struct TargetsContext {
   std::string_view camera_frame = {};  ///< of the report's images; empty: it has no name
 };
 
-/// A targets.yaml (docs/targets.md): which targets each frame has.
+/// A targets.yaml or a detector's file (docs/targets.md): which targets each frame has.
 class TargetsFile {
  public:
   /// Reads the file and the CSV files, masks and meshes that it names; masks of single frames are
@@ -40,12 +41,15 @@ class TargetsFile {
   TargetsFile(TargetsFile&&) noexcept;
   TargetsFile& operator=(TargetsFile&&) noexcept;
 
-  /// Returns all targets in the file's order. A target without a valid value in this frame has a
-  /// fault and no shape.
+  /// Throws InputError if the file has detections, but none in these frames.
+  void check_frames(std::span<const std::int64_t> frames) const;
+
+  /// Returns all targets in the file's order, then those of the frame's detections. A target
+  /// without a valid value in this frame has a fault and no shape.
   [[nodiscard]] std::vector<Target> of_frame(std::int64_t index) const;
 
   [[nodiscard]] const std::filesystem::path& file() const;
-  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] std::size_t size() const;  ///< without detections
 
   /// Returns the PipelineConfig::target_history that they need, seconds.
   [[nodiscard]] double history() const;

@@ -21,12 +21,15 @@ std::optional<TargetsFile> open_targets(const SessionOptions& options, const Run
                                         const Camera& camera) {
   const auto& file = options.targets ? options.targets : input.targets;
   if (!file || options.no_targets) return std::nullopt;
-  return TargetsFile::open(*file, {.robot = input.robot,
-                                   .image = options.image,
-                                   .images = camera.intrinsics,
-                                   .has_distortion = !input.camera.distortion.is_none(),
-                                   .beyond_hides = input.beyond != BeyondMeans::visible,
-                                   .camera_frame = camera.frame_id});
+  TargetsFile targets =
+      TargetsFile::open(*file, {.robot = input.robot,
+                                .image = options.image,
+                                .images = camera.intrinsics,
+                                .has_distortion = !input.camera.distortion.is_none(),
+                                .beyond_hides = input.beyond != BeyondMeans::visible,
+                                .camera_frame = camera.frame_id});
+  if (!input.frame_numbers.empty()) targets.check_frames(input.frame_numbers);
+  return targets;
 }
 
 /// Takes the input's robot.

@@ -131,6 +131,8 @@ RunInput open_recording_input(const InputOptions& options) {
   FrameReader reader(recording, robot);
   std::vector<std::size_t> selected = select_frames(options.frames, reader);
   check_links(recording, robot, options.extra);
+  std::vector<std::int64_t> numbers;
+  for (const std::size_t i : selected) numbers.push_back(reader.index(i));
   return {.robot_options = recording.robot_options(),
           .robot = std::move(robot),
           .camera = recording.camera.camera,
@@ -138,6 +140,7 @@ RunInput open_recording_input(const InputOptions& options) {
           .config = recording.pipeline_config(),
           .beyond = recording.camera.beyond,
           .targets = recording.targets,
+          .frame_numbers = std::move(numbers),
           .bag = {},
           .made_files = {recording.camera.pose},
           .frames = [reader = std::move(reader), selected = std::move(selected),

@@ -54,6 +54,7 @@ struct RunInput {
   PipelineConfig config;              ///< with what the input gives: camera's pose, tolerance
   std::optional<BeyondMeans> beyond;
   std::optional<std::filesystem::path> targets;  ///< the input's own
+  std::vector<std::int64_t> frame_numbers = {};  ///< of a recording; empty: not known
   double target_history = 0.0;  ///< PipelineConfig's, for targets that come with the frames
   std::optional<UsedBag> bag;
   /// Those of its files that tune and calibrate make, too: the camera's pose, parts.

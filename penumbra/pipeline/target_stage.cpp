@@ -46,7 +46,7 @@ bool is_modal(const Target& target) {
 /// Returns whether its depth is known without a measurement.
 bool is_expected(const Target& target) {
   if (const auto* region = std::get_if<RegionTarget>(&target.shape))
-    return region->expected_depth.has_value();
+    return region->expected_depth.has_value() || region->height.has_value();
   if (const auto* keypoint = std::get_if<KeypointTarget>(&target.shape))
     return keypoint->expected_depth.has_value();
   return !std::holds_alternative<std::monostate>(target.shape);

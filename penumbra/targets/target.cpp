@@ -37,6 +37,7 @@ struct ShapeCheck {
 
   void operator()(const RegionTarget& target) const {
     if (target.expected_depth) check_metres(*target.expected_depth, "expected depth");
+    if (target.height) check_metres(*target.height, "height");
   }
 
   void operator()(const KeypointTarget& target) const {

@@ -40,6 +40,9 @@ struct RegionTarget {
   Region region;
   Extent extent = Extent::amodal;
   std::optional<double> expected_depth = {};  ///< metres, > 0
+  /// Metres, > 0: of an object that stands upright. Its expected depth then follows from the
+  /// region's height; while the robot may hide a part of a modal region, it is the last one.
+  std::optional<double> height = {};
 };
 
 /// A network's key point; judged as an ellipse around it.

@@ -69,17 +69,21 @@ std::string_view reason_for_unknown(const Visibility& visibility,
                                     const TargetThresholds& thresholds, bool is_uncovered) {
   if (!visibility.has_pose) return "the robot's pose is not known in this frame";
   if (!visibility.has_whole)
-    return "it was not seen whole away from the robot: how much of it the robot hides is not known";
+    return "it was not seen whole away from the robot: how much of it the robot hides is not "
+           "known; "
+           "give expected_depth, or its height and a track";
   if (visibility.is_missing)
     return "its mask is smaller than the whole target, and the robot is next to it";
   if (visibility.is_expected && visibility.is_passed(thresholds.past_limit))
-    return "the sensor looks past where most of it is expected";
+    return "the sensor looks past where most of it is expected: it is absent or transparent, or "
+           "its "
+           "expected depth is wrong";
   if (visibility.is_expected && visibility.is_unmeasured(thresholds.min_measured))
-    return "hardly anything is measured where it is expected";
+    return "hardly anything is measured where it is expected; min_measured: 0 allows that";
   if (is_uncovered) return "too much of it lies where the lens model does not reach";
   if (visibility.is_expected)
     return "too much of it is robot without measurement, or at the robot's own depth";
-  return "too much of it is robot without measurement";
+  return "too much of it is robot without measurement; give expected_depth, or its height";
 }
 
 }  // namespace
@@ -101,6 +105,7 @@ struct TargetJudge::State {
         ImageView<const std::uint8_t> unseen);
 
   Judgement judge(const TargetView& target, TargetMemory& memory);
+  Judgement judge_at_depth(const TargetView& target, TargetMemory& memory);
   void add_point(const TargetView& target, Judgement& judgement);
 
   Camera camera;
@@ -156,6 +161,15 @@ Judgement TargetJudge::judge(const TargetView& target) {
 
 Judgement TargetJudge::State::judge(const TargetView& target, TargetMemory& memory) {
   check_target(target);
+  if (!target.height || target.expected_depth) return judge_at_depth(target, memory);
+  observer.fill(target.region);
+  TargetView placed = target;
+  placed.expected_depth =
+      observer.depth_by_height({frame, target, {}, robot, false}, memory, camera.intrinsics.fy());
+  return judge_at_depth(placed, memory);
+}
+
+Judgement TargetJudge::State::judge_at_depth(const TargetView& target, TargetMemory& memory) {
   const ExpectedDepth expected = expected_of(target);
   observer.fill(target.region);
   const bool wants_depths = target.wants_point && frame.is_measured();

@@ -85,6 +85,7 @@ struct TargetView {
   /// behind the target hide nothing, other objects can hide it, and what the robot hides is known
   /// without a measurement.
   std::optional<double> expected_depth;
+  std::optional<double> height = {};  ///< RegionTarget's, which gives the expected depth
   /// Metres between the target's surface and its expected depth at most: half its thickness plus
   /// its pose's uncertainty.
   double depth_margin = 0;

@@ -92,6 +92,7 @@ struct TargetViews::Builder {
     view.region = target.region;
     view.extent = target.extent;
     view.expected_depth = target.expected_depth;
+    view.height = target.height;
     return true;
   }
 

@@ -80,6 +80,12 @@ class ExtentObserver {
   }
   [[nodiscard]] const RegionSpans& seen() const { return seen_; }
 
+  /// Returns the expected depth of an object of known height, metres, by the region of fill(), or
+  /// the remembered one where a modal region may be cut. `focal`: pixels, vertical.
+  [[nodiscard]] std::optional<double> depth_by_height(const TargetInFrame& at,
+                                                      const TargetMemory& memory,
+                                                      double focal) const;
+
   /// Observes the region of fill(). The result is valid until the next call.
   /// Forgets the remembered extent if the
   /// region is of another object.

@@ -118,6 +118,22 @@ Visibility ExtentObserver::observe_extent(const TargetInFrame& at, const RegionS
   return visibility;
 }
 
+std::optional<double> ExtentObserver::depth_by_height(const TargetInFrame& at,
+                                                      const TargetMemory& memory,
+                                                      double focal) const {
+  if (seen_.spans().empty() || !at.frame.has_pose()) return memory.depth;
+  const SpanBox box = box_of_spans(seen_.spans());
+  if (at.target.extent == Extent::modal) {
+    Eigen::Array2d around(2.0 * at.reach(), 2.0 * at.reach());
+    if (!memory.whole.empty())
+      around += (size_of(box_of_spans(memory.whole)) - size_of(box)).max(0);
+    const SpanBox near = grown(box, static_cast<int>(around.x()), static_cast<int>(around.y()));
+    if (reaches_border() || holds_robot(at, near)) return memory.depth;
+  }
+  const auto* const exact = std::get_if<PixelBox>(&at.target.region);
+  return focal * *at.target.height / (exact != nullptr ? exact->height : size_of(box).y());
+}
+
 Visibility ExtentObserver::observe(const TargetInFrame& at, TargetMemory& memory) {
   if (!at.frame.has_pose()) {
     seen_tally_.clear();

@@ -73,6 +73,30 @@ TEST_F(ModalTargets, AreNotSmallerBecauseSomethingCoveredThem) {
   }
 }
 
+TEST_F(ModalTargets, OfKnownHeightKeepTheirDepthWhileTheyAreCut) {
+  constexpr int rows = 20;
+  const double height = rows * behind / TargetFrame::camera().intrinsics.fy();
+  const auto judge_rows = [&](int seen, int robot) {  // the robot covers the rows from `robot` on
+    TargetFrame frame;
+    frame.add_robot(0, robot, TargetFrame::width, TargetFrame::height, 1.0f, 1);
+    TargetView target = box_target({20, 40, width, static_cast<double>(seen)}, Extent::modal);
+    target.height = height;
+    target.thresholds.unknown_limit = 0.0;
+    judge.begin(frame.images());
+    return judge.judge(target, memory);
+  };
+  EXPECT_EQ(judge_rows(rows / 2, 50).verdict, Verdict::unknown) << "not seen whole";
+  memory = {};
+  EXPECT_EQ(judge_rows(rows, 110).verdict, Verdict::visible);
+  ASSERT_TRUE(memory.depth);
+  EXPECT_NEAR(*memory.depth, behind, share_rounding);
+  const Judgement half = judge_rows(rows / 2, 50);  // its height alone says 4 m
+  EXPECT_EQ(half.verdict, Verdict::partial);
+  EXPECT_NEAR(half.occluded, 0.5, share_rounding);
+  EXPECT_EQ(half.hidden_by_other, 0.0) << "the wall would hide it at 4 m";
+  EXPECT_NEAR(*memory.depth, behind, share_rounding);
+}
+
 TEST_F(ModalTargets, ThatMoveAreBlamedRightlyWhereMotionIsKnown) {
   constexpr int robot = 100;
   EXPECT_EQ(see(20, robot).verdict, Verdict::visible);

@@ -55,7 +55,7 @@ TEST(Verdicts, HoldOnlyForWhatIsSeenWhereItIsExpected) {
   TargetView target = box_target(middle_box);
   target.expected_depth = 1.5;
   frame.see(40, 40, 60, 50, 1.526f);
-  EXPECT_EQ(judge_once(frame, target).reason, "the sensor looks past where most of it is expected");
+  EXPECT_TRUE(judge_once(frame, target).reason.starts_with("the sensor looks past"));
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::unknown) << "half against half";
   frame.see(40, 50, 41, 51, 1.526f);
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible) << "less than the limit";

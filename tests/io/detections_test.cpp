@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// A detector's files.
+#include "../support/errors.hpp"
+#include "files.hpp"
+
+#include <numeric>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include <io/files/detections_file.hpp>
+#include <io/files/targets_file.hpp>
+
+namespace penumbra::io {
+namespace {
+
+using test::expect_refused;
+
+constexpr int width = 70, height = 50;
+
+class DetectionsTest : public testing::Test {
+ protected:
+  [[nodiscard]] Detections read(const std::string& name, const std::string& text) const {
+    folder_.write(name, text);
+    return read_detections(name, folder_.path(), images(), {{39, "bottle"}});
+  }
+  static Intrinsics images() { return {width, height, 100, 100, 35, 25}; }
+  [[nodiscard]] TargetsFile open(const std::string& name) const {
+    return TargetsFile::open(folder_.path() / name, {.robot = robot_,
+                                                     .image = ImageSpace::raw,
+                                                     .images = images(),
+                                                     .has_distortion = false,
+                                                     .beyond_hides = true});
+  }
+  /// A box in frame 4 whose left upper corner is that of the pixel (10, 20).
+  static void expect_the_bottle(const Detections& found, const std::string& track) {
+    ASSERT_EQ(found.size(), 1U);
+    ASSERT_EQ(found.at(4).size(), 1U);
+    const Detection& bottle = found.at(4).front();
+    EXPECT_EQ(bottle.category, "bottle");
+    EXPECT_EQ(bottle.track, track);
+    EXPECT_EQ(bottle.score, 0.75);
+    const auto& box = std::get<PixelBox>(bottle.region);
+    EXPECT_NEAR(box.u, 9.5, 1e-9);
+    EXPECT_NEAR(box.v, 19.5, 1e-9);
+    EXPECT_NEAR(box.width, 14, 1e-9);
+    EXPECT_NEAR(box.height, 15, 1e-9);
+  }
+
+  test::TemporaryFolder folder_;
+  Robot robot_ = Robot::parse(R"(<robot name="r"><link name="base"/></robot>)", ".");
+};
+
+TEST_F(DetectionsTest, EveryFormatGivesTheSameBox) {
+  expect_the_bottle(
+      read("a.json",
+           R"([{"image_id": 4, "category_id": 39, "bbox": [10, 20, 14, 15], "score": 0.75}])"),
+      "");
+  expect_the_bottle(read("b.json", R"({"images": [{"id": 900, "file_name": "rgb/frame_000004.png"}],
+                         "categories": [{"id": 1, "name": "bottle"}],
+                         "annotations": [{"image_id": 900, "category_id": 1, "track_id": 7,
+                                          "bbox": [10, 20, 14, 15], "score": 0.75}]})"),
+                    "7");
+  expect_the_bottle(read("c.csv", "frame,class,track,score,x0,y0,x1,y1\n4,39,7,0.75,10,20,24,35\n"),
+                    "7");
+  expect_the_bottle(read("d.txt", "5,7,10,20,14,15,0.75,39,1\n"), "7");  // MOT counts from 1
+  folder_.write("yolo/000004.txt", "39 0.2428571428571428 0.55 0.2 0.3 0.75 7\n");
+  expect_the_bottle(read_detections("yolo/%06d.txt", folder_.path(), images(), {{39, "bottle"}}),
+                    "7");
+}
+
+/// Made by pycocotools of a mask of 50 x 70 pixels.
+TEST_F(DetectionsTest, ReadsCompressedRunLengths) {
+  const std::string counts =
+      R"(0g05b08J4M2N2NA^O1`0OCO=0E090H080IO68DH;>@C>a0_O_O`0j0OWOF<:CM72I24NL43JM92FN;1E)"
+      R"(NKO72L0LO91J0MO92INO0NO122OO0M031O000NO31OO11MO40N011MO41MO21L06OL021L06OL021L06)"
+      R"(OL021L060J040L060J040L060J040L060J040L060J040L060J040L060KO31L060KO31L06OL021L06)"
+      R"(OL021L06OL021MO41MO21MO40N100NO310O00M0310O00NO1220NO92IONO91KOMO72M0<1EO:2GN63K)"
+      R"(M34OLM73JF<;=1G_O_Ob0=AC`07EH=1IO71H090F0:1DO>1_O1b0>2N2N3L6H]O)";
+  const Detections found =
+      read("a.json", R"([{"image_id": 4, "category_id": 1, "segmentation": {"size": [50, 70],
+                          "counts": ")" +
+                         counts + R"("}}])");
+  const auto& mask = std::get<RunLengthMask>(found.at(4).front().region);
+  EXPECT_EQ(std::accumulate(mask.counts.begin(), mask.counts.end(), 0U), 3500U);
+  EXPECT_EQ(found.at(4).front().category, "1");
+}
+
+TEST_F(DetectionsTest, FaultsNameFileAndLine) {
+  const auto refused = [&](const std::string& name, const std::string& text,
+                           const std::string& says) {
+    expect_refused([&] { static_cast<void>(read(name, text)); }, {name, says});
+  };
+  refused("a.json", "", "no JSON");
+  refused("a.json", "[1]", "detection 0");
+  refused("a.json", R"([{"image_id": 4, "category_id": 39}])", "bbox");
+  refused("a.json", R"([{"image_id": "left", "category_id": 1, "bbox": [1, 2, 3, 4]}])", "left");
+  refused("a.json",
+          R"([{"image_id": 4, "category_id": 1, "segmentation": {"size": [9, 9], "counts": "4"}}])",
+          "[50, 70]");
+  refused(
+      "a.json",
+      R"([{"image_id": 4, "category_id": 1, "segmentation": {"size": [50, 70], "counts": "o"}}])",
+      "run lengths");
+  refused("a.csv", "frame,x0,y0,x1\n", ":1: ");
+  refused("a.csv", "frame,x0,y0,x1,y1\n1,2,3,4\n", ":2: ");
+  refused("a.txt", "1,2,3\n", ":1: ");
+  refused("a.txt", "1,2,3,4,5,6\n1.5,2,3,4,5,6\n", ":2: ");
+  refused("a.txt", "1,2,3,4,5,x\n", ":1: 'x'");
+  refused("a.xml", "", "no detector's file");
+  folder_.write("labels/3.txt", "0 100 200 14 15\n");
+  expect_refused(
+      [&] { static_cast<void>(read_detections("labels/%d.txt", folder_.path(), images(), {})); },
+      {"labels/3.txt:1: ", "0 to 1"});
+  expect_refused(
+      [&] { static_cast<void>(read_detections("none/%d.txt", folder_.path(), images(), {})); },
+      {"none/%d.txt"});
+}
+
+TEST_F(DetectionsTest, ClassesSayHowTheyAreJudged) {
+  folder_.write("d.csv",
+                "frame,class,track,score,x0,y0,x1,y1\n"
+                "0,39,7,0.9,10,20,24,35\n0,39,,0.9,30,20,44,35\n0,39,8,0.2,10,20,24,35\n"
+                "0,person,1,0.9,1,2,3,4\n2,cup,3,0.9,1,2,3,4\n");
+  folder_.write("t.yaml",
+                "detections: d.csv\nnames: {39: bottle}\nclasses:\n"
+                "  bottle: {height: 0.25, thickness: 0.07, min_score: 0.5, handling: {point: {}}}\n"
+                "  cup:\n");
+  const TargetsFile file = open("t.yaml");
+  const std::vector<Target> targets = file.of_frame(0);
+  ASSERT_EQ(targets.size(), 2U) << "no person, and no score of 0.2";
+  EXPECT_EQ(targets[0].name, "bottle_7");
+  EXPECT_EQ(targets[0].depth_margin, 0.035);
+  EXPECT_TRUE(std::holds_alternative<PointTrackerConfig>(targets[0].handling));
+  EXPECT_TRUE(targets[0].has_identity);
+  EXPECT_FALSE(targets[1].has_identity) << "without a track it may be another one";
+  const auto& region = std::get<RegionTarget>(targets[0].shape);
+  EXPECT_EQ(region.height, 0.25);
+  EXPECT_EQ(region.extent, Extent::modal);
+  EXPECT_TRUE(file.of_frame(1).empty());
+  EXPECT_EQ(file.of_frame(2).size(), 1U);
+  EXPECT_EQ(open("d.csv").of_frame(0).size(), 4U) << "a detector's file alone";
+
+  const std::int64_t known[] = {1, 2}, others[] = {7};
+  file.check_frames(known);
+  expect_refused([&] { file.check_frames(others); }, {"t.yaml", "0 to 2"});
+}
+
+TEST_F(DetectionsTest, WrongClassesNameTheirLine) {
+  folder_.write("d.csv", "frame,x0,y0,x1,y1\n0,1,2,3,4\n");
+  const auto refused = [&](const std::string& text, const std::string& says) {
+    folder_.write("t.yaml", text);
+    expect_refused([&] { static_cast<void>(open("t.yaml")); }, {"t.yaml:" + says});
+  };
+  refused("detections: none.csv\n", "1: detections: ");
+  refused("detections: d.csv\nclasses: {a: {heigth: 1}}\n", "2: classes.a.heigth");
+  refused("detections: d.csv\nclasses: {a: {height: 0}}\n", "2: classes.a.height");
+  refused("detections: d.csv\nclasses: {a: {handling: pose}}\n", "2: classes.a.handling");
+  refused("detections: d.csv\nnames: {a: b}\n", "2: names.a");
+  refused("targets: []\nclasses: {}\n", "2: classes");
+}
+
+}  // namespace
+}  // namespace penumbra::io
