@@ -63,6 +63,7 @@ void bind_distortion(py::module_& m) {
            "The undistorted point, or None if the lens maps no point there.");
   using D = Distortion;
   show_fields(distortion, Field{"model", &D::model, "The lens model."},
+              Field{"coefficients", &D::coefficients, "In the order of its name's; none: empty."},
               Field{"is_none", &D::is_none, "Whether rays stay straight."},
               Field{"max_radius", &D::max_radius,
                     "Largest undistorted radius up to which the model is one-to-one."});

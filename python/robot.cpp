@@ -213,6 +213,10 @@ void bind_robot_class(py::module_& m) {
       });
   show_properties(
       robot, Field{"name", &R::name, "The URDF's name."},
+      Field{"urdf",
+            [](const R& r) { return r.urdf().empty() ? std::nullopt : std::optional(r.urdf()); },
+            "The file that load() read; None: it comes from none (parse(), join(), a bag)."},
+      Field{"options", &R::options, "As given to load() or parse()."},
       Field{"links", &R::links, "Names, parents before children; index 0 is the root."},
       Field{"joints", &R::joints, "joints[i].child == i + 1."},
       Field{"variables", &R::variables, "Names of the position values, in their order."},

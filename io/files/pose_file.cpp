@@ -16,6 +16,7 @@ namespace penumbra::io {
 namespace {
 
 constexpr double max_rotation_error = 1e-4;  // per element; files with few digits are off by less
+constexpr double rounding = 1e-14;           // of doubles
 constexpr double max_distance = 1e6;         // metres: float32 depths beyond would mean nothing
 constexpr std::string_view expected_rows = "expected four rows of four comma-separated numbers";
 
@@ -68,7 +69,7 @@ Eigen::Isometry3d read_pose_csv(const std::filesystem::path& file) {
     throw InputError(file.string() + ": is more than 1000 km away; expected metres");
 
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = nearest;
+  pose.linear() = error <= rounding ? given : nearest;  // as it was written
   pose.translation() = position;
   return pose;
 }

@@ -112,6 +112,22 @@ Distortion::Distortion(std::string_view name, std::span<const double> k)
     max_radius_ = std::tan(max_parameter_);
 }
 
+std::vector<double> Distortion::coefficients() const {
+  const auto& n = numerator_;
+  const auto& d = denominator_;
+  switch (model_) {
+    case DistortionModel::none:
+      return {};
+    case DistortionModel::plumb_bob:
+      return {n[1], n[2], tangential_.y(), tangential_.x(), n[3]};
+    case DistortionModel::rational_polynomial:
+      return {n[1], n[2], tangential_.y(), tangential_.x(), n[3], d[1], d[2], d[3]};
+    case DistortionModel::equidistant:
+      break;
+  }
+  return {n[1], n[2], n[3], n[4]};
+}
+
 /// Searches the first parameter where the conditions above fail, in small steps and by bisection.
 double Distortion::find_max_parameter() const {
   constexpr double step = 1e-3;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -43,6 +44,9 @@ class Distortion {
 
   [[nodiscard]] DistortionModel model() const { return model_; }
   [[nodiscard]] bool is_none() const { return model_ == DistortionModel::none; }
+
+  /// Returns the model's 5, 8 or 4 coefficients, which make the same distortion; empty for none.
+  [[nodiscard]] std::vector<double> coefficients() const;
 
   /// Returns the image of an undistorted point. Beyond max_radius() it may be infinite.
   [[nodiscard]] Eigen::Vector2d distort(const Eigen::Vector2d& undistorted) const;

@@ -78,6 +78,8 @@ void check_positions(const Robot& robot, std::span<const double> positions, std:
 
 struct Robot::Model {
   std::string name;
+  fs::path urdf = {};
+  RobotOptions options = {};
   std::vector<std::string> links;
   std::vector<Joint> joints;
   std::vector<std::string> variables;
@@ -151,6 +153,7 @@ std::unique_ptr<Robot::Model> Robot::make_model(std::string_view xml, const std:
 
   auto model = std::make_unique<Model>();
   model->name = urdf.name;
+  model->options = options;
   model->joints = std::move(tree.joints);
   model->variables = std::move(tree.variables);
   for (const std::size_t i : tree.links) {
@@ -187,8 +190,10 @@ Robot Robot::join(std::span<const PlacedRobot> robots) {
 }
 
 Robot Robot::load(const fs::path& urdf, const RobotOptions& options) {
-  return Robot(make_model(read_whole_file(urdf, FileLimit::text), urdf.string(), urdf.parent_path(),
-                          options));
+  auto model = make_model(read_whole_file(urdf, FileLimit::text), urdf.string(), urdf.parent_path(),
+                          options);
+  model->urdf = urdf;
+  return Robot(std::move(model));
 }
 
 Robot Robot::parse(std::string_view xml, const fs::path& folder, const RobotOptions& options) {
@@ -204,6 +209,8 @@ Robot::Robot(std::unique_ptr<Model> model) {
 }
 
 const std::string& Robot::name() const { return model_->name; }
+const fs::path& Robot::urdf() const { return model_->urdf; }
+const RobotOptions& Robot::options() const { return model_->options; }
 std::span<const std::string> Robot::links() const { return model_->links; }
 std::span<const Joint> Robot::joints() const { return model_->joints; }
 std::span<const std::string> Robot::variables() const { return model_->variables; }

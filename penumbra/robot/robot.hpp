@@ -121,6 +121,11 @@ class Robot {
 
   [[nodiscard]] const std::string& name() const;
 
+  /// The file that load() read; empty for the robots of parse() and join().
+  [[nodiscard]] const std::filesystem::path& urdf() const;
+  /// As they were given to load() or parse(); the defaults for the robot of join().
+  [[nodiscard]] const RobotOptions& options() const;
+
   /// Link names, parents before children; index 0 is the root.
   [[nodiscard]] std::span<const std::string> links() const;
   [[nodiscard]] std::optional<std::size_t> find_link(std::string_view name) const;

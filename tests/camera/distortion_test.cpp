@@ -54,6 +54,16 @@ TEST(Distortion, KnowsRosNames) {
   EXPECT_EQ(to_string(DistortionModel::rational_polynomial), "rational_polynomial");
 }
 
+TEST(Distortion, ItsCoefficientsMakeItAgain) {
+  auto random = test::seeded_random(5);
+  for (int i = 0; i < 100; ++i) {
+    const Lens sample = test::random_lens(random);
+    const Distortion lens = sample.distortion();
+    EXPECT_EQ(Distortion(to_string(lens.model()), lens.coefficients()), lens) << sample.name;
+  }
+  EXPECT_TRUE(Distortion().coefficients().empty());
+}
+
 TEST(Distortion, DerivativeAgreesWithDifferences) {
   constexpr double h = 1e-5;
   constexpr double close = 1e-6;  // third derivatives of up to some 1e3, times h^2

@@ -46,6 +46,14 @@ class PoseFile : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
+TEST_F(PoseFile, ReadsWhatWasReadAndWrittenBitForBit) {
+  const Eigen::Isometry3d pose =
+      read("0,-1,0,1\n0.7071,0,-0.7071,2\n0.7071,0,0.7071,0.1\n0,0,0,1\n");
+  const auto file = folder_.write("written.csv", "");
+  write_pose_csv(file, pose);
+  EXPECT_EQ(read_pose_csv(file).matrix(), pose.matrix());
+}
+
 /// A rotation that is written with four digits is off by up to 5e-5 an element.
 TEST_F(PoseFile, ProjectsRoundedRotations) {
   const Eigen::Isometry3d pose = read("0,-1,0,1\n0.7071,0,-0.7071,2\n0.7071,0,0.7071,3\n0,0,0,1\n");

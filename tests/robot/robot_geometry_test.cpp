@@ -225,6 +225,8 @@ TEST_F(MeshFiles, MissingMeshMayBeAllowedAndIsReported) {
                           link_xml("b", collision_xml("<mesh filename=\"package://q/u.stl\"/>")) +
                           joint_xml("j", "fixed", "a", "b")));
   const Robot robot = Robot::load(file, {.allow_missing_meshes = true});
+  EXPECT_EQ(robot.urdf(), file);
+  EXPECT_TRUE(robot.options().allow_missing_meshes);
   const LinkReport& a = report_of(robot, "a");
   EXPECT_TRUE(a.drawn);
   EXPECT_TRUE(a.missing);
