@@ -62,6 +62,12 @@ std::optional<ImageResult<std::uint16_t>> Report::link_image() const {
   return read(link_image_, report_.virtual_depth.links);
 }
 
+BoolImage Report::robot_mask() const {
+  if (const auto depth = virtual_depth(); depth && !robot_mask_)
+    robot_mask_ = read_only(depth->array.attr("__gt__")(0));
+  return robot_mask_ ? robot_mask_ : BoolImage(py::none());
+}
+
 DepthImage Report::filtered_depth() const {
   check_is_last();
   DepthImage image;
@@ -204,7 +210,12 @@ void bind_report_properties(py::class_<Report>& report) {
             "Metres along the optical axis, 0 where no robot is; None: the robot's pose is not "
             "known. As labels."},
       Field{"link_image", &R::link_image,
-            "Index into links + 1 of the nearest surface, 0: none. As virtual_depth."});
+            "Index into links + 1 of the nearest surface, 0: none. As virtual_depth."},
+      Field{"robot_mask", &R::robot_mask,
+            "Where the robot is in the label image, whether it is measured or not: virtual_depth > "
+            "0; None: the robot's pose is not known. False does not say that the depth is to be "
+            "trusted (fringe, missing_links, pixels outside of the lens model): filtered_depth() "
+            "leaves such pixels out. As virtual_depth."});
   bind_repr(report, {"index", "status", "message", "pixels", "targets"});
 }
 

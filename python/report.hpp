@@ -14,6 +14,9 @@
 
 namespace penumbra::python {
 
+/// None, or a mask.
+using BoolImage = Shown<"Optional[Annotated[NDArray[bool_], '(H, W)']]">;
+
 /// A session, and what Python needs next to it.
 struct PipelineState {
   PipelineState(const Robot& robot, const Camera& given, const PipelineConfig& settings);
@@ -49,6 +52,7 @@ class Report {
   [[nodiscard]] ImageResult<std::uint8_t> labels() const;
   [[nodiscard]] std::optional<ImageResult<float>> virtual_depth() const;
   [[nodiscard]] std::optional<ImageResult<std::uint16_t>> link_image() const;
+  [[nodiscard]] BoolImage robot_mask() const;
   [[nodiscard]] DepthImage filtered_depth() const;
   [[nodiscard]] PointCloud points(const std::optional<std::string>& frame) const;
 
@@ -74,6 +78,7 @@ class Report {
   ReadImage<std::uint8_t> labels_;
   ReadImage<float> virtual_depth_;
   ReadImage<std::uint16_t> link_image_;
+  mutable BoolImage robot_mask_;
 };
 
 }  // namespace penumbra::python

@@ -78,12 +78,30 @@ def test_the_stages_alone_make_what_the_pipeline_makes(opened):
     assert np.count_nonzero(labels != report.labels) <= 4
 
 
+@pytest.mark.parametrize("image", list(penumbra.ImageSpace))
+def test_the_mask_of_the_robot_is_where_virtual_depth_is(opened, image):
+    lens = penumbra.Distortion("plumb_bob", [0.1, -0.05, 0.001, 0.002, 0.0])
+    camera = penumbra.Camera(opened.camera.intrinsics, distortion=lens)
+    pipeline = penumbra.Pipeline(opened.robot, camera, opened.config.replace(image=image))
+    report = pipeline.process(opened.frames[5].frame)
+    mask = report.robot_mask
+    assert mask.dtype == bool and mask.shape == report.labels.shape and not mask.flags.writeable
+    assert np.array_equal(mask, report.virtual_depth > 0) and np.array_equal(mask, report.link_image > 0)
+    assert np.count_nonzero(mask) == report.pixels.robot > 10_000
+    unread = pipeline.process(opened.frames[6].frame)
+    pipeline.process(opened.frames[7].frame)
+    assert report.robot_mask is mask
+    with pytest.raises(ValueError, match="before"):
+        unread.robot_mask
+
+
 def test_the_camera_maps_points_and_lenses(tmp_path):
     k = penumbra.Intrinsics(640, 480, 600, 610, 320, 240)
     assert np.allclose(k.project(k.ray(12, 34) * 1.5), [12, 34])
     assert k.binned(2, 2) == penumbra.Intrinsics(320, 240, 300, 305, 159.75, 119.75)
     lens = penumbra.Distortion("plumb_bob", [0.1, -0.05, 0.001, 0.002, 0.0])
     assert lens.model is penumbra.DistortionModel.plumb_bob
+    assert lens.coefficients == (0.1, -0.05, 0.001, 0.002, 0.0)
     assert np.allclose(lens.undistort(lens.distort([0.2, -0.1])), [0.2, -0.1], atol=1e-9)
     camera = penumbra.Camera(k, distortion=lens, range=penumbra.DepthRange(near=0.3))
     both = penumbra.Rectification(camera)
@@ -117,7 +135,8 @@ def test_a_joint_buffer_never_extrapolates(shipped):
     assert stale.gaps[0].last_seen == 1_040_000_000
     report = shipped.pipeline.process(penumbra.Frame(shipped.frames[0].depth, stale))
     assert report.status is penumbra.FrameStatus.stale_joints
-    assert report.virtual_depth is None and set(np.unique(report.labels)) == {penumbra.Label.unknown}
+    assert report.virtual_depth is None and report.robot_mask is None
+    assert set(np.unique(report.labels)) == {penumbra.Label.unknown}
 
 
 def test_robots_tell_of_their_parts(shipped):
