@@ -105,6 +105,15 @@ void bind_frame(py::module_& m) {
       Field{"uncertain_reason", &F::uncertain_reason, "The reason, one line."},
       Field{"attached", &F::attached, "What the robot's links carry."});
   bind_repr(frame, {"index", "stamp", "source_status"});
+  frame.def(
+      "positions",
+      [](const F& self, const Robot& robot) {
+        Frame view = self.view(robot);
+        const bool known = view.pose.status == FrameStatus::ok && !view.pose.positions.empty();
+        return known ? std::optional(Numbers{std::move(view.pose.positions)}) : std::nullopt;
+      },
+      py::arg("robot"),
+      "Its joints in the order of Robot.variables; None: not known. Raises as Pipeline.process.");
 }
 
 }  // namespace penumbra::python

@@ -197,12 +197,32 @@ void bind_targets_file(py::module_& m) {
                              "PipelineConfig.target_history that they need, seconds.");
 }
 
+using PngSource = Shown<"Annotated[Union[NDArray[uint8], NDArray[uint16]], '(H, W) or (H, W, 3)']">;
+
+void write_png(const std::filesystem::path& file, const PngSource& image) {
+  static constexpr PixelType types[] = {pixel_type<std::uint8_t>, pixel_type<std::uint16_t>};
+  const auto given = py::reinterpret_borrow<py::array>(image);
+  const bool is_color = py::isinstance<py::array>(image) && given.ndim() == 3 &&
+                        given.shape(2) == 3 && given.size() > 0;
+  const py::array rows = is_color ? py::array(image.attr("reshape")(given.shape(0), -1)) : given;
+  const std::size_t type = check_image(rows, "image", std::span(types).first(is_color ? 1 : 2));
+  const py::gil_scoped_release others;
+  if (type == 1) return io::write_png(file, view_of<std::uint16_t>(rows));
+  const ImageView<const std::uint8_t> view = view_of<std::uint8_t>(rows);
+  if (!is_color) return io::write_png(file, view);
+  const auto* const pixels = reinterpret_cast<const Rgb8*>(view.data);
+  io::write_png(file, ImageView<const Rgb8>{pixels, view.width / 3, view.height, view.stride / 3});
+}
+
 }  // namespace
 
 void bind_recording(py::module_& m) {
   bind_description(m);
   bind_recorded_frames(m);
   bind_targets_file(m);
+  m.def("write_png", &write_png, py::arg("file"), py::arg("image"),
+        "Writes uint8 or uint16 as grey, uint8 (H, W, 3) as red, green, blue. Raises InputError if "
+        "the file cannot be written.");
 }
 
 }  // namespace penumbra::python

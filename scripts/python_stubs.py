@@ -36,6 +36,8 @@ import numpy
 from numpy import bool_, float32, float64, int32, uint8, uint16, uint32
 from numpy.typing import ArrayLike, NDArray
 
+from .recorder import Recorder as Recorder, from_arrays as from_arrays
+
 __version__: str
 version: str
 '''

@@ -59,7 +59,7 @@ GROUPS = {
     "Joint states": "JointBufferOptions", "Renderers": "RendererOptions", "Labels": "Tolerance",
     "Trackers": "PoseTrackerConfig", "Regions": "PixelBox", "Targets": "TargetThresholds",
     "What is said of targets": "Blame", "Frames and reports": "Frame", "The pipeline": "PipelineConfig",
-    "Several cameras": "ViewCamera", "Files": "RecordingCamera",
+    "Several cameras": "ViewCamera", "Files": "RecordingCamera", "Recording": "Recorder",
 }
 IDENTITY = r"array\(\[\[1\., 0\., 0\., 0\.\],[^)]*1\.\]\]\)"
 SHOWN = ("__len__", "__getitem__", "__iter__", "__next__")
@@ -67,15 +67,15 @@ SHOWN = ("__len__", "__getitem__", "__iter__", "__next__")
 
 def public(module):
     return {name: value for name, value in vars(module).items()
-            if not name.startswith("_") and name != "version"}
+            if not name.startswith("_") and name != "version" and not inspect.ismodule(value)}
 
 
 def python_names():
     """All that the reference must hold."""
-    import penumbra._core
+    import penumbra
 
     names = set()
-    for name, value in public(penumbra._core).items():
+    for name, value in public(penumbra).items():
         names.add(f"penumbra.{name}")
         if inspect.isclass(value) and not issubclass(value, (enum.Enum, Exception)):
             names |= {f"penumbra.{name}.{member}" for member in vars(value)
@@ -154,7 +154,19 @@ class Writer:
                 yield self.function(name, getattr(of, name).__doc__, "method", not static,
                                     [":staticmethod:"] if static else [])
 
+    def in_python(self, name, value, kind="function"):
+        """What Python itself tells the signature of."""
+        told = re.sub(r"\(self(, )?", "(", str(inspect.signature(value)).replace("'", ""))
+        told = told.removesuffix(" -> None") if kind == "class" else told
+        members = [self.in_python(key, member, "method") for key, member in vars(value).items()
+                   if inspect.isclass(value) and not key.startswith("_")]
+        texts = [value.__doc__, *([value.__init__.__doc__] if inspect.isclass(value) else [])]
+        return block(f".. py:{kind}:: {name}{told}", [],
+                     "\n\n".join(as_rst(inspect.cleandoc(text)) for text in texts), *members)
+
     def described(self, name, value):
+        if value.__module__ == "penumbra.recorder":
+            return self.in_python(name, value, "class" if inspect.isclass(value) else "function")
         if not inspect.isclass(value):
             return self.function(name, value.__doc__)
         if issubclass(value, enum.Enum):
@@ -189,10 +201,10 @@ def groups(module):
 
 
 def python_pages():
-    import penumbra._core
+    import penumbra
 
     writer, text = Writer(), ""
-    for title, members in groups(penumbra._core).items():
+    for title, members in groups(penumbra).items():
         parts = "\n".join(writer.described(name, value) for name, value in members)
         text += f"\n### {title}\n\n```{{eval-rst}}\n.. py:currentmodule:: penumbra\n\n{parts}\n```\n"
     return text

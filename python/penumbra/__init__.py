@@ -3,3 +3,4 @@
 
 from ._core import *
 from ._core import version as __version__
+from .recorder import Recorder, from_arrays

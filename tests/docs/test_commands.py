@@ -7,6 +7,7 @@ import re
 import select
 import signal
 import subprocess
+import sys
 import time
 import urllib.request
 
@@ -31,6 +32,10 @@ NOT_RUN = {
     r"sudo ": "the machine's settings and packages",
     r"echo net\.core": "the machine's settings",
 }
+
+# Documents whose commands read what their programs write.
+PROGRAMS_FIRST = ("python.md",)
+
 
 def run(words, work, environment):
     done = subprocess.run(words, cwd=work, env=environment, capture_output=True, text=True,
@@ -104,6 +109,9 @@ def shell_blocks(document):
 @pytest.mark.parametrize("document", [d for d in DOCUMENTS if shell_blocks(d)],
                          ids=lambda d: str(d.relative_to(ROOT)))
 def test_commands_run(document, work, environment):
+    if document.name in PROGRAMS_FIRST:
+        programs = [block.text for block in blocks_of(document) if block.language == "python"]
+        run([sys.executable, "-c", "\n".join(programs)], work, environment)
     for block in shell_blocks(document):
         for command in commands_of(block):
             words = [in_folder(word, work) for word in command.words]

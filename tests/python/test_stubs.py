@@ -17,9 +17,11 @@ PACKAGE = pathlib.Path(penumbra.__file__).parent
 def test_the_stubs_next_to_the_module_name_its_public_classes():
     stubs = ast.parse((PACKAGE / "__init__.pyi").read_text())
     named = {node.name for node in stubs.body if isinstance(node, ast.ClassDef)}
+    named |= {name.asname for node in stubs.body if isinstance(node, ast.ImportFrom)
+              for name in node.names if node.level}
     public = {name for name, value in vars(penumbra).items()
               if isinstance(value, type) and not name.startswith("_")}
-    assert "Pipeline" in named and named == public
+    assert "Pipeline" in named and named == public | {"from_arrays"}
     assert (PACKAGE / "py.typed").exists()
 
 
@@ -42,6 +44,14 @@ def test_examples_are_typed():
     done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-incremental", *scripts],
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
+
+
+def test_the_packages_own_python_is_typed():
+    pytest.importorskip("mypy")
+    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-incremental", "-p", "penumbra"],
+                          capture_output=True, text=True, cwd=PACKAGE.parent)
+    assert "checked 5 source files" in done.stdout, done.stdout
+    assert not [line for line in done.stdout.splitlines() if ".py:" in line], done.stdout
 
 
 @only_in_full
