@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <functional>
 #include <iostream>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +15,8 @@
 #include <apps/penumbra/arguments.hpp>
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
+#include <io/dds/participant.hpp>
+#include <io/files/names.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -55,6 +60,14 @@ void add_render(CLI::App& app, RenderArguments& render) {
   app.add_flag("--json", render.json, "print counts, times and joint positions as JSON");
 }
 
+void add_init(CLI::App& app, io::InitOptions& init) {
+  app.footer(init_examples);
+  add_text(app, "FOLDER", "images, joint file, URDF, camera_info", "", init.folder)->required();
+  add_text(app, "--robot", "the robot; default: the URDF in the folder", "URDF", init.robot);
+  add_packages(app, init.packages);
+  app.add_flag("--force", init.force, "replace a recording.yaml");
+}
+
 void add_inspect(CLI::App& app, InspectArguments& inspect) {
   app.footer(inspect_examples);
   add_text(app, "URDF", "the robot", "", inspect.robot)->required();
@@ -95,6 +108,23 @@ void add_simulate(CLI::App& app, SimulateArguments& simulate) {
                "a depth camera on the other side, too: second_depth/, in bags /second_camera/...");
 }
 
+using Commands = std::vector<std::pair<const CLI::App*, std::function<Command()>>>;
+
+std::string known_commands(std::string_view name, const Commands& commands) {
+  std::vector<std::string> names;
+  for (const auto& [command, made] : commands) names.push_back(command->get_name());
+  return io::near_names(name, std::vector<std::string_view>(names.begin(), names.end()));
+}
+
+/// Throws InputError if the first argument is neither an option nor a command.
+void check_command(int argc, const char* const* argv, const Commands& commands) {
+  const std::string_view name = argc > 1 ? argv[1] : "-";
+  const auto is_it = [&](const auto& command) { return command.first->get_name() == name; };
+  if (name.starts_with('-') || std::any_of(commands.begin(), commands.end(), is_it)) return;
+  throw InputError("no such command: '" + std::string(name) + "'" + known_commands(name, commands) +
+                   " (penumbra --help lists the commands)");
+}
+
 /// Returns a hint at the help of the given command.
 std::string help_hint(const CLI::App& app) {
   const auto commands = app.get_subcommands();
@@ -117,12 +147,13 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   TuneArguments tune;
   CalibrateArguments calibrate;
   ViewPlanningArguments planning;
+  io::InitOptions init;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
   app.set_version_flag("--version", std::string("penumbra ") + PENUMBRA_VERSION);
   app.require_subcommand(0, 1);
-  std::vector<std::pair<const CLI::App*, std::function<Command()>>> commands;
-  const auto add = [&](const char* name, const char* what, auto& arguments, auto add_options,
+  Commands commands;
+  const auto add = [&](const char* name, const std::string& what, auto& arguments, auto add_options,
                        auto check) {
     CLI::App* const of = app.add_subcommand(name, what);
     add_options(*of, arguments);
@@ -132,6 +163,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
     });
   };
   const auto any = [](const CLI::App&, const auto&) {};
+  add("init", "write the recording.yaml of a folder of images", init, add_init, any);
   add("run", "label every frame of a recording or bag", run, add_run, check_run);
   add("tune", "measure the sensor: tolerance, fringe, missing parts of the URDF", tune, add_tune,
       check_tune);
@@ -143,14 +175,23 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
       });
   add("inspect", "list which links of a URDF are drawn", inspect, add_inspect, any);
   add("doctor", "print what this machine offers", doctor, add_doctor, any);
-  add("simulate", "record a simulated scene with its truth", simulate, add_simulate, any);
-  add("topics", "list the live topics of ROS 2's graph", topics, add_topics, any);
-  add("play", "publish a bag on ROS 2's graph", play, add_play, any);
-  add("live", "label live topics of ROS 2 and publish the results", live, add_live, check_live);
+  const auto add_if = [&](bool is_built, const char* name, std::string what, auto& arguments,
+                          auto add_options, auto check) {
+    if (!is_built) what += " (not in this build: penumbra " + std::string(name) + " says why)";
+    add(name, what, arguments, add_options, check);
+  };
+  const bool has_graph = io::has_dds();
+  add_if(!sim::Simulation::scenes().empty(), "simulate", "record a simulated scene with its truth",
+         simulate, add_simulate, any);
+  add_if(has_graph, "topics", "list the live topics of ROS 2's graph", topics, add_topics, any);
+  add_if(has_graph, "play", "publish a bag on ROS 2's graph", play, add_play, any);
+  add_if(has_graph, "live", "label live topics of ROS 2 and publish the results", live, add_live,
+         check_live);
   add("view", "show a recording or bag in the browser: 3-D, images, timeline", view, add_view,
       check_view);
   add("view-planning", "find where cameras see targets while the robot moves", planning,
       add_view_planning, check_view_planning);
+  check_command(argc, argv, commands);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answered) {
@@ -161,9 +202,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   }
   for (const auto& [command, made] : commands)
     if (command->parsed()) return made();
-  throw InputError(
-      "a command is needed: run, tune, calibrate, render, inspect, doctor, simulate, topics, "
-      "play, live, view or view-planning (penumbra --help tells more)");
+  throw InputError("a command is needed, as 'penumbra run' (penumbra --help lists them)");
 }
 
 }  // namespace penumbra::app

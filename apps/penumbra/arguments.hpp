@@ -16,6 +16,7 @@
 
 #include <io/dds/participant.hpp>
 #include <io/run/calibration_input.hpp>
+#include <io/run/init_recording.hpp>
 #include <io/run/input_session.hpp>
 #include <io/run/output_folder.hpp>
 #include <io/run/planning_input.hpp>
@@ -140,7 +141,7 @@ struct ViewArguments {
 using Command =
     std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
                  SimulateArguments, TopicsArguments, PlayArguments, LiveArguments, ViewArguments,
-                 TuneArguments, CalibrateArguments, ViewPlanningArguments>;
+                 TuneArguments, CalibrateArguments, ViewPlanningArguments, io::InitOptions>;
 
 /// Reads the command line. Returns nothing after --help or --version, which it prints. Throws
 /// InputError that names the argument.

@@ -10,6 +10,7 @@ inline constexpr int device_failed = 1, nothing_judged = 2;
 
 /// Each command returns its exit status. Throws InputError where the user's input is at fault.
 [[nodiscard]] int execute(const RunArguments& arguments);
+[[nodiscard]] int execute(const io::InitOptions& options);
 [[nodiscard]] int execute(const RenderArguments& arguments);
 [[nodiscard]] int execute(const InspectArguments& arguments);
 [[nodiscard]] int execute(const DoctorArguments& arguments);

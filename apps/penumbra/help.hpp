@@ -10,6 +10,7 @@ inline constexpr const char* about =
 
 inline constexpr const char* main_examples = R"(
 Examples:
+  penumbra init folder/                      write the recording.yaml of your images
   penumbra run recording/ -o out             label every frame of a recording
   penumbra tune recording/ -o tuned          measure your sensor: tolerance, fringe, missing tools
   penumbra calibrate recording/ -o pose      find the camera's pose from the robot that it sees
@@ -89,6 +90,15 @@ Examples:
   penumbra view recording/ --labels paper
   penumbra view out                          what penumbra run ... -o out wrote
   penumbra view recording/ --address 0.0.0.0)";
+
+inline constexpr const char* init_examples = R"(
+Looks at FOLDER and three levels below it, and writes FOLDER/recording.yaml: images by their pattern
+(depth_%d.png), videos, the joint file that fits the URDF, camera_info, the camera's pose. Prints
+what is missing or was guessed, and the next command. A ROS bag needs none.
+
+Examples:
+  penumbra init my_recording/
+  penumbra init my_recording/ --robot arm.urdf --package arm_description=/opt/arm_description)";
 
 inline constexpr const char* view_planning_examples = R"(
 Renders the robot and what it carries, as it moved in a recording or bag, for each pose where a

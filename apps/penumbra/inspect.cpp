@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/base/error.hpp>
+#include <penumbra/robot/drawn_links-inl.hpp>
 #include <penumbra/robot/robot.hpp>
 
 #include <apps/penumbra/commands.hpp>
@@ -85,16 +85,15 @@ void print_robot(const Robot& robot) {
 
 int execute(const InspectArguments& arguments) {
   RobotOptions options = arguments.options;
-  options.allow_missing_meshes = true;  // shows the other links; the fault is thrown below
+  options.allow_missing_meshes = true;  // shows the other links
   const Robot robot = Robot::load(arguments.robot, options);
   if (arguments.json) {
     std::cout << io::robot_json(robot) << '\n';
   } else {
     print_robot(robot);
   }
-  if (arguments.options.allow_missing_meshes) return 0;
-  for (const LinkReport& link : robot.report())
-    if (!link.fault.empty()) throw InputError(link.fault);
+  // The status is that of the commands that draw it with these options.
+  check_is_drawn(Robot::load(arguments.robot, arguments.options));
   return 0;
 }
 

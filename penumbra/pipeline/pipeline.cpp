@@ -12,6 +12,7 @@
 #include <penumbra/pipeline/target_stage-inl.hpp>
 #include <penumbra/poses/pose_stage-inl.hpp>
 #include <penumbra/render/near_plane_check.hpp>
+#include <penumbra/robot/drawn_links-inl.hpp>
 #include <penumbra/targets/attach_target-inl.hpp>
 
 namespace penumbra {
@@ -24,13 +25,9 @@ std::vector<std::string> missing_links_of(const Robot& robot) {
   return links;
 }
 
-/// Refuses a robot without geometry, which would make every pixel look clear.
 Robot checked(Robot robot) {
-  for (const LinkReport& link : robot.report())
-    if (link.drawn || link.missing) return robot;
-  throw InputError("robot '" + robot.name() +
-                   "': no link is rendered; it needs geometry of the chosen kind that "
-                   "ignore_links and only_links do not remove");
+  check_is_drawn(robot);
+  return robot;
 }
 
 std::optional<Rectification> rectification_of(const Camera& camera) {

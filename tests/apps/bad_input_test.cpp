@@ -153,10 +153,11 @@ TEST_F(BadInputTest, Options) {
 
 TEST(BadInput, CommandLines) {
   const BadLines lines = {
-      {{},
-       "run, tune, calibrate, render, inspect, doctor, simulate, topics, play, live, view or "
-       "view-planning"},
-      {{"walk"}, "walk"},
+      {{}, "a command is needed"},
+      {{"walk"}, "no such command"},
+      {{"calibrat"}, "did you mean calibrate"},
+      {{"init"}, "FOLDER"},
+      {{"init", "nowhere"}, "nowhere"},
       {{"run"}, "INPUT"},
       {{"run", "x.mcap", "-o", "out"}, "x.mcap"},
       {{"run", "/etc/passwd", "-o", "out"}, "is neither a recording"},

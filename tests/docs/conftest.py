@@ -46,6 +46,7 @@ def prepare(folder):
     shutil.copytree(SHIPPED / "arm_description", folder / ROBOT)
     (folder / "ur5e.urdf").write_text(urdf)
     shutil.copytree(SHIPPED, folder / "my_recording", ignore=shutil.ignore_patterns("truth"))
+    shutil.copytree(SHIPPED, folder / "my_images", ignore=shutil.ignore_patterns("truth", "recording.yaml"))
     for name in ("targets.yaml", "wrist.csv", "camera_info.yaml", "camera_pose.csv", "joint_states.csv"):
         shutil.copy(SHIPPED / name, folder)
     given = penumbra.open_input(SHIPPED)

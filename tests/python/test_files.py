@@ -193,3 +193,60 @@ def test_depth_of_a_camera_of_its_own(recording, images):
     (folder / "depth_pose.csv").unlink()
     result = run(folder)
     assert result.returncode == 2 and "depth_pose.csv" in result.stderr
+
+
+def program(*words):
+    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """The shipped recording's files without what says how they belong together."""
+    folder = tmp_path / "mine"
+    shutil.copytree(SHIPPED, folder, ignore=shutil.ignore_patterns("truth", "recording.yaml"))
+    return folder
+
+
+def test_init_finds_what_a_recording_has(folder):
+    result = program("init", folder)
+    assert result.returncode == 0, result.stderr
+    assert "penumbra run" in result.stdout and "parent" in result.stdout
+    made, shipped = penumbra.Recording.open(folder), penumbra.Recording.open(SHIPPED)
+    assert made.camera.parent == shipped.camera.parent
+    for ours, theirs in zip(penumbra.open_input(folder, color=True), penumbra.open_input(SHIPPED, color=True),
+                            strict=True):
+        np.testing.assert_array_equal(ours.frame.depth, theirs.frame.depth)
+        np.testing.assert_array_equal(ours.color, theirs.color)
+        assert ours.frame.stamp == theirs.frame.stamp
+    again = program("init", folder)
+    assert again.returncode == 2 and "--force" in again.stderr
+    assert program("init", folder, "--force").returncode == 0
+
+
+def test_init_says_what_is_missing(folder):
+    (folder / "camera_pose.csv").unlink()
+    (folder / "joint_states.csv").write_text("frame,elbow\n0,1\n")
+    result = program("init", folder)
+    assert result.returncode == 0
+    assert "calibrate" in result.stdout.splitlines()[-1] and "--search" in result.stdout
+    assert "joints: " in result.stdout and "pose: " in result.stdout
+    assert "# pose: " in (folder / "recording.yaml").read_text()
+
+
+def test_init_needs_one_robot_and_images(folder):
+    urdf = folder / "arm_description/arm.urdf"
+    shutil.copy(urdf, folder / "other.urdf")
+    result = program("init", folder)
+    assert result.returncode == 2 and "--robot" in result.stderr
+    assert program("init", folder, "--robot", urdf).returncode == 0
+    (folder / "recording.yaml").unlink()
+    shutil.rmtree(folder / "depth")
+    shutil.rmtree(folder / "color")
+    result = program("init", folder)
+    assert result.returncode == 2 and "images" in result.stderr
+    assert not (folder / "recording.yaml").exists()
+
+
+def test_an_unknown_command_names_near_ones():
+    result = program("calibrat")
+    assert result.returncode == 2 and "no such command" in result.stderr and "calibrate?" in result.stderr

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace penumbra::io {
+
+struct InitOptions {
+  std::filesystem::path folder;
+  std::optional<std::filesystem::path> robot = {};  ///< the URDF; null: the one in the folder
+  std::map<std::string, std::filesystem::path> packages = {};
+  bool force = false;  ///< replace a recording.yaml
+};
+
+/// What init_recording did.
+struct InitResult {
+  std::filesystem::path file;
+  std::vector<std::string> lacking = {};  ///< a line for each thing that is missing or was guessed
+  bool has_pose = false;             ///< else calibrate --search is next
+};
+
+/// Looks at a folder of images, videos, joint files, URDF and camera files, and three levels of
+/// folders below it, and writes a recording.yaml with what it found and comments for the rest.
+/// Throws InputError if there is a recording.yaml, a bag, several robots, or neither robot nor
+/// images.
+[[nodiscard]] InitResult init_recording(const InitOptions& options);
+
+}  // namespace penumbra::io
