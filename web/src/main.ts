@@ -7,7 +7,7 @@ import { LiveView } from './live_view';
 import { StoredView } from './stored_view';
 import { timelineLegend } from './timeline/timeline_view';
 import { byId } from './view/dom';
-import { cover, showInput } from './view/page';
+import { cover, openNotes, showInput } from './view/page';
 import { bindPanes } from './view/panes';
 import { bindTheme } from './view/theme';
 
@@ -30,6 +30,5 @@ if (new URLSearchParams(location.search).has('token'))
   history.replaceState(null, '', location.pathname + location.hash);
 
 bindTheme(byId('theme'), () => document.dispatchEvent(new Event('theme')));
-const notes = byId<HTMLDialogElement>('notes');
-byId('notes-button').addEventListener('click', () => notes.showModal());
+byId('notes-button').addEventListener('click', () => openNotes(byId('notes').hidden));
 start().catch((error: unknown) => cover(error, [['Try again', () => location.reload()]]));

@@ -3,6 +3,7 @@
 import { ApiError, fetchPacket, fetchReport, fetchSession } from './api/client';
 import type { Report, Session } from './api/types';
 import { FrameCache } from './model/frame_cache';
+import { notesOf } from './model/notes';
 import { Throttle } from './model/throttle';
 import { onsets, waitOf } from './model/timeline';
 import { bindCommands } from './view/commands';
@@ -186,7 +187,7 @@ export class StoredView implements FrameSource {
     showNotes({
       title: session.missing.length ? 'Missing data' : 'Notes',
       level: 'warn',
-      lines: [...session.missing, ...(report.summary?.notes ?? [])],
+      lines: [...session.missing, ...notesOf(report.summary)],
     });
   }
 

@@ -9,9 +9,10 @@ import { Throttle } from './model/throttle';
 import { isSoftwareGl, SceneView, type ScenePart } from './scene/scene_view';
 import { TimelineView } from './timeline/timeline_view';
 import { CamerasPanel } from './view/cameras_panel';
-import { byId, setText } from './view/dom';
+import { byId, element, setText } from './view/dom';
 import { calibrationDetails, frameDetails } from './view/frame_panel';
 import { ImageView } from './view/image_view';
+import { withCommands } from './view/page';
 import { targetDetails, targetList } from './view/target_panel';
 
 const valueParts: readonly PartName[] = ['color', 'overlay', 'labels', 'links', 'vdi', 'depth'];
@@ -123,8 +124,7 @@ export class Viewer {
     if (packet.live) this.calibration = packet.live.calibration ?? null;
     this.scene?.show(packet, this.step, this.selected);
     this.cameras?.show(packet.frame, this.selected);
-    if (this.scene)
-      showSceneNote(sceneNoteOf(packet, packet.live?.missing ?? this.session.missing));
+    this.showSceneNote(packet);
     this.timeline.setCurrent(position, packet.frame);
     for (const id of ['timeline-legend', 'occlusions'])
       byId(id).hidden = this.timeline.tracks.length === 0;
@@ -132,6 +132,18 @@ export class Viewer {
     byId('main').dataset['layer'] = this.image.layer;
     const parts = packet.parts.map(({ name }) => name);
     byId('main').dataset['shown'] = [packet.frame.index, ...parts].join(' ');
+  }
+
+  private showSceneNote(packet: Packet): void {
+    if (!this.scene) return; // the note says that there is no scene
+    const { hidden, points } = this.scene;
+    const { status } = packet.frame;
+    if (hidden.has('robot') && hidden.has('cloud'))
+      return showSceneNote('Robot and points are switched off: see the buttons above.');
+    const missing = packet.live?.missing ?? this.session.missing;
+    const isFetching = !packet.cloud && this.session.parts.includes('cloud') && status === 'ok';
+    const hasPoints = points > 0 || hidden.has('cloud') || isFetching;
+    showSceneNote(sceneNoteOf(packet, missing, hasPoints));
   }
 
   select(target: string | null): void {
@@ -162,7 +174,9 @@ export class Viewer {
     if (shown) this.scene?.hidden.delete(part);
     else this.scene?.hidden.add(part);
     if (part === 'cloud') this.source.partsChanged();
-    if (this.packet) this.scene?.show(this.packet, this.step, this.selected);
+    if (!this.packet) return;
+    this.scene?.show(this.packet, this.step, this.selected);
+    this.showSceneNote(this.packet);
   }
 
   setCalibration(calibration: Calibration | null): void {
@@ -238,7 +252,9 @@ export class Viewer {
     );
     if (isFocused) list.querySelector<HTMLElement>('[aria-pressed=true]')?.focus();
     const target = frame.targets.find(({ name }) => name === this.selected);
-    byId('target-details').replaceChildren(target ? targetDetails(target) : '');
+    byId('target-details').replaceChildren(
+      ...(target ? [element('h2', '', target.name), targetDetails(target)] : []),
+    );
   }
 }
 
@@ -251,24 +267,29 @@ function makeScene(isSlow: boolean): SceneView | null {
   }
 }
 
-/** @param text empty: hides the note */
+/** @param text commands are between backticks; empty: hides the note */
 export function showSceneNote(text: string): void {
-  setText(byId('scene-note'), text);
+  byId('scene-note').replaceChildren(...withCommands(text));
 }
 
 /**
- * Returns why robot or camera are missing in the scene, or an empty text.
+ * Returns why robot, points or camera are missing in the scene, or an empty text.
  * @param missing the server's messages about missing data
  */
-function sceneNoteOf(packet: Packet, missing: readonly string[]): string {
+function sceneNoteOf(packet: Packet, missing: readonly string[], hasPoints: boolean): string {
   const { frame, link_poses: linkPoses, camera_pose: cameraPose } = packet;
   const isOk = frame.status === 'ok';
   const reason = isOk ? '' : `: ${frame.message ?? frame.status}`;
   const without = linkPoses.filter((pose) => pose === null).length;
   const noPose = linkPoses.length > 0 && without === linkPoses.length;
-  if (isOk && missing.length > 0 && (noPose || cameraPose === null)) return missing.join('; ');
+  if (isOk && missing.length > 0 && (noPose || cameraPose === null))
+    return `No ${noPose ? 'robot and no ' : ''}points to show: see the missing data above`;
   if (noPose) return `No robot in this frame: its pose is not known${reason}`;
   if (without > 0) return `${without} of ${linkPoses.length} links have no pose${reason}`;
   if (cameraPose === null) return `No points: the camera's pose is not known${reason}`;
-  return isOk ? '' : `${frame.status}${reason}`;
+  if (!hasPoints)
+    return isOk
+      ? 'No points: this frame has no measured depth to show'
+      : `No points in this frame${reason}`;
+  return isOk ? '' : `This frame is not judged${reason}`;
 }

@@ -16,17 +16,18 @@ export const okabeIto = {
 interface LabelStyle {
   readonly name: string;
   readonly color: string | null;
-  readonly meaning: string;
+  /** For readers who do not know the name. */
+  readonly plain: string;
 }
 
 /** By label value. */
 export const labelStyles: readonly LabelStyle[] = [
-  { name: 'clear', color: null, meaning: 'no robot at this pixel' },
-  { name: 'front', color: okabeIto.blue, meaning: 'an object in front of the robot' },
-  { name: 'occluded', color: okabeIto.vermillion, meaning: 'the sensor measures the robot' },
-  { name: 'unknown', color: okabeIto.yellow, meaning: 'robot, but no measurement' },
-  { name: 'beyond', color: okabeIto.purple, meaning: 'measured depth is behind the robot model' },
-  { name: 'fringe', color: okabeIto.green, meaning: 'next to the robot, depth is unreliable' },
+  { name: 'clear', color: null, plain: 'no robot here' },
+  { name: 'front', color: okabeIto.blue, plain: 'something in front of the robot' },
+  { name: 'occluded', color: okabeIto.vermillion, plain: 'robot hides this' },
+  { name: 'unknown', color: okabeIto.yellow, plain: 'robot, nothing measured' },
+  { name: 'beyond', color: okabeIto.purple, plain: 'seen past the robot model' },
+  { name: 'fringe', color: okabeIto.green, plain: 'edge of the robot, not trusted' },
 ];
 
 const invalidLabelColor = '#ffffff'; // differs from all labels, and from clear
@@ -47,11 +48,11 @@ export const isRobot = (label: number): boolean => label !== 0 && label !== 5;
 
 export const verdictNames: Readonly<Record<Verdict, string>> = {
   visible: 'visible',
-  partial: 'partial',
+  partial: 'partly hidden',
   hidden: 'hidden',
   unknown: 'unknown',
   out_of_view: 'out of view',
-  held: 'held',
+  held: 'carried',
 };
 
 export const verdicts = Object.keys(verdictNames) as Verdict[];

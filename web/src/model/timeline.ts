@@ -39,6 +39,13 @@ export const hiddenFraction = (target: TargetReport): number | null =>
     ? null
     : target.occluded_fraction + (target.hidden_by_other_fraction ?? 0);
 
+/** Returns the sample with the largest hidden fraction, or null if none is known. */
+export function mostHidden(samples: readonly (TargetReport | null)[]): TargetReport | null {
+  const fractionOf = (sample: TargetReport | null): number =>
+    (sample && hiddenFraction(sample)) ?? -1;
+  return samples.reduce((a, b) => (fractionOf(b) > fractionOf(a) ? b : a), null);
+}
+
 const minFraction = 0.005; // smaller ones round to 0 %
 
 /** Returns the links that hide a target, and "others" for other objects; the largest part first. */

@@ -7,7 +7,7 @@ import { element } from '../view/dom';
 import { frameDetails } from '../view/frame_panel';
 import { targetDetails, targetList } from '../view/target_panel';
 import { verdictIcon } from '../view/verdict_icon';
-import { headOf, notesOf, tilesOf } from './summary';
+import { diagnosisOf, headOf, notesOf, targetTiles, tilesOf } from './summary';
 import { targetsTable } from './targets_table';
 
 export interface KeyFrame {
@@ -45,8 +45,12 @@ export class ReportPage {
     };
     host.replaceChildren(
       headOf(report),
-      tilesOf(report),
+      ...diagnosisOf(report, (index) =>
+        this.seek(report.frames.findIndex((frame) => frame.index === index)),
+      ),
       ...notesOf(report),
+      targetTiles(this.timeline.tracks),
+      tilesOf(report),
       section('Timeline', element('div', 'panel', legend, chart), this.details),
       section('Targets', targetsTable(this.timeline.tracks, frames)),
       ...(images.length ? [section('Key frames', this.gallery(images))] : []),
@@ -111,9 +115,9 @@ export class ReportPage {
     const target = frame.targets.find((one) => one.name === this.target);
     const list = targetList(frame, this.target, (name) => this.select(name));
     this.details.replaceChildren(
-      card(`Frame ${frame.index}`, frameDetails(frame)),
       card('Targets', list),
       ...(target ? [card(target.name, targetDetails(target))] : []),
+      card(`Frame ${frame.index}`, frameDetails(frame)),
     );
   }
 }

@@ -1,8 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { FrameReport, Report, Summary } from '../api/types';
+import type { FrameReport, Report, Summary, TargetReport, Verdict } from '../api/types';
 import { count, milliseconds, percent, seconds, stamp, turnedText } from '../model/format';
-import { secondsOf } from '../model/timeline';
+import { verdictNames, verdictOf, verdicts } from '../model/labels';
+import { notesOf as notesWithoutDiagnosis, plainText, setupText } from '../model/notes';
+import {
+  hiddenFraction,
+  hidersOf,
+  mostHidden,
+  secondsOf,
+  worse,
+  type Track,
+} from '../model/timeline';
 import { element } from '../view/dom';
+import { verdictIcon } from '../view/verdict_icon';
 
 export function headOf(report: Report): HTMLElement {
   const { backend = '?', isa, device } = report.renderer ?? {};
@@ -34,8 +44,8 @@ export function tilesOf({ frames, summary }: Report): HTMLElement {
     'tiles',
     tile('frames', count(frames.length), duration === null ? '' : seconds(duration)),
     tile('bad frames', count(bad), bad ? statuses(frames) : 'all ok', bad > 0),
-    tile('robot pixels', count(robot), `unknown ${fractionOf('unknown')}`),
-    tile('front', fractionOf('front'), `beyond ${fractionOf('beyond')}`),
+    tile('robot pixels', count(robot), `${fractionOf('unknown')} not measured`),
+    tile('something in front', fractionOf('front'), `${fractionOf('beyond')} past its model`),
     ...(calibration
       ? [
           tile(
@@ -60,6 +70,32 @@ function tile(name: string, value: string, more: string, fault = false): HTMLEle
   );
 }
 
+/** Returns a card per target: in how many frames it is visible, and how much is hidden at worst. */
+export function targetTiles(tracks: readonly Track[]): HTMLElement {
+  return element('div', 'tiles targets', ...tracks.map(targetTile));
+}
+
+function targetTile({ name, samples }: Track): HTMLElement {
+  const known = samples.filter((sample) => sample !== null);
+  const worst = known.reduce<TargetReport | null>(worse, known[0] ?? null);
+  const countOf = (verdict: Verdict): number =>
+    known.filter((sample) => verdictOf(sample) === verdict).length;
+  const others = verdicts.filter((verdict) => verdict !== 'visible' && countOf(verdict) > 0);
+  const made = tile(
+    name,
+    `visible ${countOf('visible')} of ${known.length}`,
+    others.map((verdict) => `${verdictNames[verdict]} ${countOf(verdict)}`).join(', '),
+  );
+  if (worst) made.firstElementChild?.prepend(verdictIcon(verdictOf(worst)));
+  const most = mostHidden(samples);
+  const by = most ? hidersOf(most)[0] : undefined;
+  if (most && by)
+    made.append(
+      element('span', 'hint', `at worst ${percent(hiddenFraction(most), 0)} hidden, by ${by}`),
+    );
+  return made;
+}
+
 /** Sums the known stages, and names them if others have no time. */
 function medianOf(summary: Summary | null): { total: number | null; of: string } {
   const stages = Object.entries(summary?.timing_ms ?? {});
@@ -77,10 +113,19 @@ function statuses(frames: readonly FrameReport[]): string {
   return [...counts].map(([status, times]) => `${status} ${times}`).join(', ');
 }
 
+/** Returns what is wrong with the setup, with a button for the frame that shows it. */
+export function diagnosisOf({ summary }: Report, seek: (index: number) => void): HTMLElement[] {
+  if (!summary?.diagnosis) return [];
+  const { diagnosis } = summary;
+  const button = element('button', '', `Show frame ${diagnosis.frame}`);
+  button.addEventListener('click', () => seek(diagnosis.frame));
+  return [element('p', 'diagnosis', setupText(diagnosis), ' ', button)];
+}
+
 /** Returns the run's notes, faults and missing links. */
 export function notesOf({ summary }: Report): HTMLElement[] {
   const lines = [
-    ...(summary?.notes ?? []).map(textOf),
+    ...notesWithoutDiagnosis(summary).map(plainText),
     ...(summary?.faults ?? []).map(textOf),
     ...(summary?.missing_links ?? []).map((link) => `not rendered: ${textOf(link)}`),
   ];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Source, TargetReport } from '../api/types';
+import type { Source, Verdict } from '../api/types';
 import { percent } from '../model/format';
 import { verdictNames, verdictOf, verdicts } from '../model/labels';
-import { hiddenFraction, hidersOf, onsets, type Track } from '../model/timeline';
+import { hiddenFraction, hidersOf, mostHidden, onsets, type Track } from '../model/timeline';
 import { element } from '../view/dom';
 import { verdictIcon } from '../view/verdict_icon';
 
@@ -18,23 +18,26 @@ interface Frames {
 export function targetsTable(tracks: readonly Track[], frames: Frames): HTMLElement {
   if (tracks.length === 0) return element('p', 'hint', 'No targets.');
   const head = element('tr', '', element('th', '', 'target'));
-  for (const verdict of verdicts)
+  const counted = verdicts.filter((verdict) =>
+    tracks.some(({ samples }) => samples.some((one) => one && verdictOf(one) === verdict)),
+  );
+  for (const verdict of counted)
     head.append(element('th', '', verdictIcon(verdict), verdictNames[verdict]));
   head.append(element('th', '', 'max hidden'));
-  for (const title of ['by', 'handled', 'occlusion starts'])
+  for (const title of ['by', 'position', 'starts in frame'])
     head.append(element('th', 'text', title));
   const table = element('table', '', head);
-  for (const track of tracks) table.append(rowOf(track, frames));
+  for (const track of tracks) table.append(rowOf(track, counted, frames));
   return element('div', 'panel card scroll', table);
 }
 
-function rowOf(track: Track, frames: Frames): HTMLTableRowElement {
+function rowOf(track: Track, counted: readonly Verdict[], frames: Frames): HTMLTableRowElement {
   const row = element('tr', '', element('th', '', track.name));
-  for (const verdict of verdicts) {
+  for (const verdict of counted) {
     const count = track.samples.filter((sample) => sample && verdictOf(sample) === verdict).length;
     row.append(element('td', count ? '' : 'none', String(count)));
   }
-  const worst = mostHidden(track);
+  const worst = mostHidden(track.samples);
   row.append(
     element('td', '', percent(worst && hiddenFraction(worst))),
     element('td', 'text', (worst && hidersOf(worst)[0]) ?? ''),
@@ -42,12 +45,6 @@ function rowOf(track: Track, frames: Frames): HTMLTableRowElement {
     element('td', 'text', ...onsetButtons(track, frames)),
   );
   return row;
-}
-
-function mostHidden(track: Track): TargetReport | null {
-  const fractionOf = (sample: TargetReport | null): number =>
-    (sample && hiddenFraction(sample)) ?? -1;
-  return track.samples.reduce((a, b) => (fractionOf(b) > fractionOf(a) ? b : a), null);
 }
 
 function handledText(track: Track): string {

@@ -60,6 +60,7 @@ export class SceneView {
   private cameraPose: Pose | null = null;
   private hasOverview = false;
   private pending = 0;
+  points = 0; // of the displayed cloud
 
   /**
    * @param isSlow disables antialiasing and high pixel densities
@@ -155,8 +156,8 @@ export class SceneView {
     this.cameraPose = cameraPose;
     applyPose(this.frustum.lines, isShown('camera') && this.camera ? cameraPose : null);
     if (this.camera) this.cloud.uniforms.metresPerDepth.value = step / this.camera.fx;
-    const points = this.cloud.update(isShown('cloud') ? packet.cloud : undefined, cameraPose);
-    this.canvas.dataset['points'] = String(points);
+    this.points = this.cloud.update(isShown('cloud') ? packet.cloud : undefined, cameraPose);
+    this.canvas.dataset['points'] = String(this.points);
     this.showCameras();
     this.targets.show(isShown('targets') ? frame.targets : [], selected);
     if (this.robot) {

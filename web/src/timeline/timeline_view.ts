@@ -251,9 +251,10 @@ export function timelineLegend(): HTMLElement[] {
       [swatch('--l-other'), 'by others'],
       [swatch('--l-unknown'), 'unknown'],
     ]),
-    group(
-      'Handled',
-      ['measured', 'predicted', 'held'].map((source) => [line(source), source]),
-    ),
+    group('Position', [
+      [line('measured'), 'measured'],
+      [line('predicted'), 'predicted'],
+      [line('held'), 'kept'],
+    ]),
   ];
 }

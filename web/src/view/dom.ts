@@ -25,6 +25,10 @@ export function swatch(color: string): HTMLElement {
   return box;
 }
 
+/** Returns plain words, and behind them the field's own word. */
+export const term = (plain: string, word: string): HTMLElement =>
+  element('span', '', plain, ' ', element('span', 'word', word));
+
 const svgNamespace = 'http://www.w3.org/2000/svg';
 
 export function svg<K extends keyof SVGElementTagNameMap>(

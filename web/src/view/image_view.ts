@@ -6,6 +6,7 @@ import { depthRange, type DepthRange } from '../model/depth_colors';
 import { bindDrag } from './drag';
 import { byId, setText } from './dom';
 import { showLegend } from './legend';
+import { fitScene } from './panes';
 import { Painter, clear, decode, noMeasurement, noRobot } from './painters';
 import { Readout, type Pixel } from './readout';
 import { TargetMarks } from './target_marks';
@@ -66,6 +67,7 @@ export class ImageView {
     showLegend(this.layer, links, this.range, this.withoutRobot);
     const { width, height } = this.below;
     this.frame.style.setProperty('--ratio', `${width} / ${height}`);
+    fitScene(width / height);
     this.marks.show(this.layer === 'overlay' ? packet : null, selected, width, height);
     setText(byId('image-note'), this.noteOf(packet));
     this.updateReadout();

@@ -3,7 +3,7 @@ import type { Layer } from '../api/types';
 import { depthPercentiles, fullResidual, type DepthRange } from '../model/depth_colors';
 import { metres } from '../model/format';
 import { labelStyles, linkColor } from '../model/labels';
-import { byId, element, swatch } from './dom';
+import { byId, element, swatch, term } from './dom';
 
 let shown = '';
 
@@ -20,38 +20,43 @@ export function showLegend(
   const entries = entriesOf(layer, links, range);
   if (withoutRobot) entries.push(element('span', 'hint', 'checkered: removed'));
   byId('image-legend').replaceChildren(...entries);
+  byId('image-legend').classList.toggle('terms', layer === 'overlay' || layer === 'labels');
 }
 
 function entriesOf(layer: Layer, links: readonly string[], range: DepthRange | null): Node[] {
-  if (layer === 'vdi') return [...depthEntries(range), element('span', 'hint', 'clear: no robot')];
+  if (layer === 'vdi')
+    return depthEntries('distance of the robot model', range, 'transparent: no robot');
   if (layer === 'depth')
-    return [...depthEntries(range), element('span', 'hint', 'striped: no measurement')];
+    return depthEntries('distance that the camera measured', range, 'striped: no measurement');
   if (layer === 'residual') return residualEntries();
   if (layer === 'links')
     return links.map((name, index) => entry(name, `rgb(${linkColor(index).join(' ')})`));
-  return labelStyles.flatMap(({ name, color, meaning }) =>
-    color ? [entry(name, color, meaning)] : [],
+  return labelStyles.flatMap(({ name, color, plain }) =>
+    color ? [entry(term(plain, name), color)] : [],
   );
 }
 
-function depthEntries(range: DepthRange | null): HTMLElement[] {
+function depthEntries(what: string, range: DepthRange | null, rest: string): HTMLElement[] {
   const [low, high] = depthPercentiles;
   const [near, far] = (range ?? [null, null]).map(metres) as [string, string];
   const scale = element('span', 'legend-entry', near, element('i', 'depth-bar'), far);
   scale.title = `${low}nd and ${high}th percentile of depth over the frames shown so far`;
-  return [scale, element('span', 'hint', `percentiles ${low}–${high}`)];
+  return [element('span', '', what), scale, element('span', 'hint', rest)];
 }
 
 function residualEntries(): HTMLElement[] {
   const most = `${1000 * fullResidual} mm`;
   return [
-    element('span', 'legend-entry', `−${most}`, element('i', 'residual-bar'), `+${most}`),
-    element('span', 'hint', 'red: measured behind the robot, striped: no measurement'),
+    element(
+      'span',
+      'legend-entry',
+      `in front of the robot model −${most}`,
+      element('i', 'residual-bar'),
+      `+${most} behind it`,
+    ),
+    element('span', 'hint', 'striped: no measurement'),
   ];
 }
 
-function entry(name: string, color: string, meaning = ''): HTMLElement {
-  const made = element('span', 'legend-entry', swatch(color), name);
-  made.title = meaning;
-  return made;
-}
+const entry = (name: Node | string, color: string): HTMLElement =>
+  element('span', 'legend-entry', swatch(color), name);

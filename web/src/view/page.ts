@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bar at the top of the page, its dialog of notes, and the cover that replaces the page's content.
+// The bar at the top of the page with its notes, and the cover that replaces the page's content.
 import type { Diagnosis, Session } from '../api/types';
+import { plainText, setupText } from '../model/notes';
 import { byId, element, setText } from './dom';
 
 export function showInput({ input }: Session): void {
@@ -38,30 +39,38 @@ export interface Notes {
 
 let shownNotes = '';
 
-/** Shows a button that opens a list of notes. */
+/** Lists notes below the bar, and shows the button that hides them; hidden are those of level ok. */
 export function showNotes(notes: Notes): void {
   const { title, level, lines } = notes;
   const json = JSON.stringify(notes);
   if (json === shownNotes) return;
   shownNotes = json;
   const button = byId('notes-button');
+  // Changed lines do not open a list again that the user has closed.
+  const isNew = button.hidden || !button.classList.contains(level);
   button.hidden = lines.length === 0;
   button.className = `chip ${level}`;
   setText(button, level === 'ok' ? title : `${title} (${lines.length})`);
-  setText(byId('notes-title'), title);
-  byId('notes-list').replaceChildren(
-    ...lines.map((line) => element('li', '', ...withCommands(line))),
-  );
+  byId('notes').replaceChildren(...lines.map((line) => element('li', '', ...withCommands(line))));
+  if (isNew || button.hidden) openNotes(level !== 'ok' && !button.hidden);
 }
 
-const withCommands = (line: string): (Node | string)[] =>
-  line.split('`').map((part, index) => (index % 2 ? element('code', '', part) : part));
+export function openNotes(open: boolean): void {
+  byId('notes').hidden = !open;
+  byId('notes-button').ariaExpanded = String(open);
+}
+
+/** Returns a line whose commands, between backticks, are elements. */
+export const withCommands = (line: string): (Node | string)[] =>
+  plainText(line)
+    .split('`')
+    .map((part, index) => (index % 2 ? element('code', '', part) : part));
 
 /** Shows what is wrong with the setup, with a button for the frame that shows it. */
 export function showDiagnosis(diagnosis: Diagnosis | null, seek: (index: number) => void): void {
   byId('diagnosis').hidden = !diagnosis;
   if (!diagnosis) return;
-  setText(byId('diagnosis-text'), `Setup: ${diagnosis.message}.`);
+  setText(byId('diagnosis-text'), setupText(diagnosis));
   const button = byId('diagnosis-frame');
   setText(button, `Show frame ${diagnosis.frame}`);
   button.onclick = () => seek(diagnosis.frame);

@@ -21,7 +21,24 @@ const borders: Readonly<Record<string, Border>> = {
   'timeline-border': { name: '--timeline-size', axis: 'y', fromEnd: true },
 };
 
+const imageMargin = 18; // pixels: padding and border of the image's pane
+const minScene = 0.32; // of the width of scene and image
+const maxScene = 0.53;
+let ratio = 0; // of the image, width to height; 0: no image
+
+/** Gives the image's pane the width that its height allows, as long as no user moved the border. */
+export function fitScene(imageRatio = ratio): void {
+  ratio = imageRatio;
+  const [scene, image] = [byId('scene').offsetWidth, byId('image').offsetWidth];
+  if (ratio === 0 || scene === 0 || image === 0) return; // a phone shows one of them
+  const both = scene + image;
+  const wanted = both - byId('image-stage').offsetHeight * ratio - imageMargin;
+  const width = Math.max(minScene * both, Math.min(wanted, maxScene * both));
+  byId('main').style.setProperty('--scene-fit', `${Math.round(width)}px`);
+}
+
 export function bindPanes(): void {
+  new ResizeObserver(() => requestAnimationFrame(() => fitScene())).observe(byId('image-stage'));
   const main = byId('main');
   const sizes = readStored<Record<string, number>>(key) ?? {};
   for (const [id, { name, axis, fromEnd }] of Object.entries(borders)) {

@@ -5,8 +5,18 @@ import { metres, unknownText } from '../model/format';
 import { labelName } from '../model/labels';
 import { byId, element, setText } from './dom';
 
-const names = ['px', 'label', 'link', 'virtual', 'measured', 'diff'] as const;
-type Values = Readonly<Record<(typeof names)[number], string>>;
+/** The values, and their titles. */
+const titles = {
+  px: 'pixel',
+  label: 'label',
+  link: 'link',
+  virtual: 'model',
+  measured: 'measured',
+  diff: 'difference',
+} as const;
+type Name = keyof typeof titles;
+const names = Object.keys(titles) as Name[];
+type Values = Readonly<Record<Name, string>>;
 
 export interface Pixel {
   readonly u: number;
@@ -23,7 +33,7 @@ export class Readout {
       const value = element('span');
       value.id = `read-${name}`;
       const mark = name === 'label' ? [this.swatch] : [];
-      return element('div', '', element('dt', '', name), element('dd', '', ...mark, value));
+      return element('div', '', element('dt', '', titles[name]), element('dd', '', ...mark, value));
     });
     byId('readout').replaceChildren(...fields);
   }

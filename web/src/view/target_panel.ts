@@ -4,7 +4,7 @@ import type { FrameReport, Handled, TargetReport } from '../api/types';
 import { count, metres, percent, seconds, unknownText, vector } from '../model/format';
 import { verdictNames, verdictOf } from '../model/labels';
 import { hiddenText } from '../model/timeline';
-import { element, swatch } from './dom';
+import { element, swatch, term } from './dom';
 import { verdictIcon } from './verdict_icon';
 
 /** One value of report.json, and its text. */
@@ -15,6 +15,24 @@ interface Fact {
   readonly value: unknown;
   readonly color: string;
 }
+
+/** Plain words, shown before the fact's name. */
+const plainWords: Readonly<Record<string, string>> = {
+  front: 'in front of it',
+  occluded: 'robot seen',
+  unknown: 'not measured',
+  beyond: 'seen past it',
+  fringe: 'its edge',
+  occluded_fraction: 'robot hides it',
+  front_fraction: 'in front of the robot',
+  clear_fraction: 'no robot there',
+  hidden_by_other_fraction: 'others hide it',
+  measured_fraction: 'has a depth',
+  seen_past_fraction: 'camera sees past it',
+  covered: 'all its pixels',
+  inside: 'pixels in the image',
+  sigma_m: 'may be off by',
+};
 
 /** Tooltips; see docs/targets.md. */
 const meanings: Readonly<Record<string, string>> = {
@@ -43,7 +61,8 @@ export const fact = (
 export function factList(facts: readonly Fact[]): HTMLDListElement {
   const list = element('dl', 'facts');
   for (const fact of facts) {
-    const name = element('dt', '', fact.name);
+    const plain = plainWords[fact.key];
+    const name = element('dt', '', plain ? term(plain, fact.name) : fact.name);
     name.title = meanings[fact.key] ?? '';
     if (fact.color) name.prepend(swatch(fact.color));
     const value = element('dd', fact.text === unknownText ? 'none' : '', fact.text);
@@ -67,7 +86,10 @@ export function targetDetails(target: TargetReport): HTMLElement {
   if (target.blame?.length) body.append(element('h4', '', 'Hidden by'), blameBars(target));
   body.append(element('h4', '', 'Measured point'), factList(measuredFacts(target)));
   if (target.handled)
-    body.append(element('h4', '', 'Handled'), factList(handledFacts(target, target.handled)));
+    body.append(
+      element('h4', '', term('Position to use', 'handled')),
+      factList(handledFacts(target, target.handled)),
+    );
   return body;
 }
 
@@ -80,11 +102,11 @@ function coverageFacts(target: TargetReport): Fact[] {
     fraction('front_fraction', 'front', '--l-front'),
     fraction('unknown_fraction', 'unknown', '--l-unknown'),
     fraction('clear_fraction', 'clear'),
-    fraction('hidden_by_other_fraction', 'hidden by others', '--l-other'),
+    fraction('hidden_by_other_fraction', 'other', '--l-other'),
     fraction('measured_fraction', 'measured'),
     fraction('seen_past_fraction', 'seen past'),
-    fact('covered', 'pixels', target.covered, count(target.covered)),
-    fact('inside', 'in the image', target.inside, count(target.inside)),
+    fact('covered', 'covered', target.covered, count(target.covered)),
+    fact('inside', 'inside', target.inside, count(target.inside)),
   ];
 }
 
@@ -122,7 +144,8 @@ export function targetList(
   const buttons = frame.targets.map((target) => {
     const verdict = verdictOf(target);
     const hidden = hiddenText(target);
-    const amount = element('span', 'amount', hidden.replace('at least', '≥'));
+    const [share = '', ...by] = hidden.replace('at least', '≥').split(/(?= behind )/);
+    const amount = element('span', 'amount', share, element('span', 'by', ...by));
     const name = element('span', 'name', target.name);
     const button = element('button', '', verdictIcon(verdict), name, amount);
     const title = `${target.name}: ${verdictNames[verdict]}, hidden: ${hidden}`;

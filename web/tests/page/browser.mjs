@@ -127,3 +127,13 @@ export async function showsWithout(page, part) {
   }, part);
   await drawn(page);
 }
+
+/** Returns the visible buttons and choices that are smaller than a finger, 44 pixels. */
+export const smallButtons = (page) =>
+  page
+    .locator('button:visible, select:visible, label:has(input):visible')
+    .evaluateAll((nodes) =>
+      nodes
+        .filter(({ offsetWidth, offsetHeight }) => offsetWidth < 44 || offsetHeight < 44)
+        .map((node) => `${node.textContent} ${node.offsetWidth} x ${node.offsetHeight}`),
+    );

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Unknown values look unknown, and failures give their reason.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import { cp, mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import os from 'node:os';
 import path from 'node:path';
@@ -11,6 +12,8 @@ import {
   example,
   launch,
   open,
+  phone,
+  program,
   serve,
   showsFrame,
   showsWithout,
@@ -177,9 +180,52 @@ test('an incomplete run is reported, with its note', async () => {
   await page.goto(server.url);
   await showsFrame(page, 0);
   assert.equal(await page.locator('#state').textContent(), '3 of 12 frames');
+  assert.ok(await page.locator('#notes', { hasText: note }).isVisible(), 'without a click');
   await page.click('#notes-button');
-  assert.match(await page.locator('#notes').textContent(), new RegExp(note));
+  assert.ok(await page.locator('#notes').isHidden());
   await context.close();
+});
+
+test('a wrong setup is said at once, with the frame that shows it', async () => {
+  const wrong = await mkdtemp(path.join(os.tmpdir(), 'penumbra-page-'));
+  await cp(example, wrong, { recursive: true });
+  const pose = path.join(wrong, 'camera_pose.csv');
+  const rows = (await readFile(pose, 'utf8')).trim().split('\n');
+  const shifted = rows[0].split(',').with(3, String(Number(rows[0].split(',')[3]) + 0.06));
+  await writeFile(pose, `${[shifted.join(','), ...rows.slice(1)].join('\n')}\n`);
+  const own = await serve(wrong);
+  const { diagnosis } = (await (await fetch(new URL('/api/report', own.url))).json()).summary;
+  for (const options of [desktop, phone]) {
+    const { page, faults, close } = await open(browser, own.url, options);
+    const shown = page.locator('#diagnosis');
+    assert.match(await shown.textContent(), /60 ± \d+ mm/);
+    const box = await shown.boundingBox();
+    assert.ok(box.y + box.height < options.viewport.height / 2, 'at the top');
+    assert.ok(!(await page.locator('#notes').textContent()).includes('mm'), 'and only once');
+    await page.click('#diagnosis-frame');
+    await showsFrame(page, diagnosis.frame);
+    assert.deepEqual(faults, []);
+    await close();
+  }
+  await own.stop();
+  await rm(wrong, { recursive: true });
+});
+
+test('an empty scene says why: of a run, and of a frame without depth', async () => {
+  const out = path.join(folder, 'out');
+  execFileSync(program, ['run', example, '-o', out], { stdio: 'ignore' });
+  const own = await serve(out);
+  const { page, close } = await open(browser, own.url, desktop);
+  assert.match(await page.locator('#scene-note').textContent(), /robot.*points/);
+  assert.ok(await page.locator('#notes code').first().isVisible(), 'the command that shows them');
+  await close();
+  await own.stop();
+  const { frames } = await (await fetch(new URL('/api/report', server.url))).json();
+  const other = await open(browser, `${server.url}#frame=4`, desktop);
+  await other.page
+    .locator('#scene-note', { hasText: `No points in this frame: ${frames[4].message}` })
+    .waitFor();
+  await other.close();
 });
 
 test('frames appear as they are judged', async () => {

@@ -86,7 +86,7 @@ test('after a network failure the page opens a new connection, because the old o
     await says(page, /^live/);
     camera.answers = false; // the old connection is silent, but open
     await says(page, /^no new frame/);
-    await page.waitForFunction(() => document.getElementById('notes-list').textContent !== '');
+    await page.waitForFunction(() => document.getElementById('notes').textContent !== '');
     assert.equal(camera.connections, 1);
     const old = camera.socket;
     camera.answers = true;

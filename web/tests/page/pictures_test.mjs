@@ -25,13 +25,14 @@ import { served } from './served.mjs';
 const pagePanels = {
   scene: ['#scene', 0.018],
   image: ['#image', 0.035],
-  targets: ['#target-list', 0.2],
+  targets: ['#targets', 0.15],
   details: ['#details', 0.07],
   player: ['#transport', 0.03],
   timeline: ['#timeline-panel', 0.065],
 };
 const reportPanels = {
-  numbers: ['.tiles', 0.07],
+  targets: ['.tiles', 0.07],
+  numbers: ['.tiles + .tiles', 0.07],
   timeline: ['#timeline', 0.065],
   details: ['.report-details', 0.07],
 };
@@ -43,7 +44,7 @@ const hideTimes = (page) =>
     const times = [
       '.row-body.stages',
       '.row-head.stages .scale',
-      '.tile:last-child strong',
+      '.tiles:not(.targets) .tile:last-child strong',
       'table',
       'header p',
     ];

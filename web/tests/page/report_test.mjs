@@ -7,7 +7,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { desktop, example, launch, openFile, phone, program } from './browser.mjs';
+import { desktop, example, launch, openFile, phone, program, smallButtons } from './browser.mjs';
 
 let browser, folder;
 
@@ -90,6 +90,23 @@ test('a key frame selects its frame, and names are text', async () => {
     assert.deepEqual(faults, []);
     await close();
   }
+});
+
+test('the first cards of a report are the targets, and its buttons fit a finger', async () => {
+  const out = path.join(folder, 'cards');
+  execFileSync(program, ['run', example, '-o', out, '--report'], { stdio: 'ignore' });
+  const { frames } = JSON.parse(await readFile(path.join(out, 'report.json'), 'utf8'));
+  const { page, close } = await openFile(browser, path.join(out, 'report.html'), phone);
+  const tiles = await page.locator('.tile').allTextContents();
+  for (const [index, { name }] of frames[0].targets.entries()) {
+    const verdicts = frames.map(({ targets }) => targets[index].verdict);
+    const visible = verdicts.filter((verdict) => verdict === 'visible').length;
+    assert.ok(tiles[index].startsWith(name), tiles[index]);
+    assert.ok(tiles[index].includes(`${visible} of ${frames.length}`), tiles[index]);
+  }
+  assert.match(await page.locator('.report-details .card').first().textContent(), /^Targets/);
+  assert.deepEqual(await smallButtons(page), []);
+  await close();
 });
 
 test('unknown pixels and times are dashes', async () => {

@@ -1,8 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of a stored recording: image and scene.
 import assert from 'node:assert/strict';
+import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
 import { test } from 'node:test';
-import { desktop, drawn, showsFrame, showsLayer, showsWithout } from './browser.mjs';
+import {
+  desktop,
+  drawn,
+  open,
+  root,
+  serve,
+  showsFrame,
+  showsLayer,
+  showsWithout,
+} from './browser.mjs';
 import { changedFraction } from './pictures.mjs';
 import { frameShown, served } from './served.mjs';
 
@@ -207,8 +219,67 @@ test('the overlay has outlines and names of targets', () =>
     await showsLayer(page, 'depth');
     assert.equal(await names.count(), 0, 'other layers have no names');
     const legend = await page.locator('#image-legend').textContent();
-    assert.match(legend, /^\d\.\d{3} m\d\.\d{3} mpercentiles 2–98striped: no measurement$/);
+    assert.match(legend, /\d\.\d{3} m\d\.\d{3} m.*striped/);
   }));
+
+test('the legend says what a label means, and its name behind it', () =>
+  withPage('/', desktop, async (page) => {
+    await showsFrame(page, 0);
+    const entries = await page.locator('#image-legend .legend-entry').evaluateAll((all) =>
+      all.map((one) => {
+        const name = one.querySelector('.word').textContent;
+        const { right } = one.querySelector('.word').getBoundingClientRect();
+        const { right: end } = document.getElementById('image').getBoundingClientRect();
+        return { name, text: one.textContent, isInside: right <= end };
+      }),
+    );
+    assert.deepEqual(
+      entries.map(({ name }) => name),
+      ['front', 'occluded', 'unknown', 'beyond', 'fringe'],
+    );
+    for (const { name, text, isInside } of entries) {
+      assert.match(text, new RegExp(`^\\w.+ \\w+ ${name}$`));
+      assert.ok(isInside, text);
+    }
+  }));
+
+test('a scene without robot and points says why', () =>
+  withPage('/#frame=3', desktop, async (page) => {
+    const note = page.locator('#scene-note');
+    await showsFrame(page, 3);
+    assert.ok(await note.isHidden());
+    for (const part of ['robot', 'cloud']) await page.click(`[data-part=${part}]`);
+    await note.waitFor();
+    await page.click('[data-part=cloud]');
+    await note.waitFor({ state: 'hidden' });
+  }));
+
+const wide = path.join(root, '../shared/data/xarm7_realsense'); // 1280 x 720
+test('a wide image fills its pane', { skip: !existsSync(wide) && `no ${wide}` }, async () => {
+  const folder = mkdtempSync(path.join(tmpdir(), 'wide-'));
+  cpSync(wide, folder, { recursive: true });
+  const recording = path.join(folder, 'recording.yaml');
+  const robots = path.join(wide, '../robots');
+  const text = readFileSync(recording, 'utf8').replaceAll('../robots', robots);
+  writeFileSync(recording, `${text}\ntargets: targets.yaml\n`);
+  const boxes = ['left', 'middle', 'right'].map((name, i) => [name, 300 * i + 100]);
+  const targets = boxes.map(([name, u]) => `  - {name: ${name}, box: [${u}, 300, 80, 80]}\n`);
+  writeFileSync(path.join(folder, 'targets.yaml'), `targets:\n${targets.join('')}`);
+  const server = await serve(folder);
+  const { page, faults, close } = await open(shared.browser, server.url);
+  await showsFrame(page, 0);
+  await page.waitForTimeout(300);
+  const [frame, stage, scene] = await Promise.all(
+    ['#image-frame', '#image-stage', '#scene'].map((id) => page.locator(id).boundingBox()),
+  );
+  assert.ok(Math.abs(frame.width / frame.height - 16 / 9) < 0.01);
+  assert.ok(frame.width * frame.height > 0.95 * stage.width * stage.height);
+  assert.ok(scene.width > 300, 'the scene keeps a place');
+  assert.deepEqual(faults, []);
+  await close();
+  await server.stop();
+  rmSync(folder, { recursive: true });
+});
 
 test('the scene is drawn, rotates, and hides its parts', () =>
   withPage('/#frame=2', desktop, async (page) => {

@@ -2,7 +2,7 @@
 // The page of a stored recording: themes, keys, touch, accessibility.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { desktop, drawn, phone, showsFrame } from './browser.mjs';
+import { desktop, drawn, phone, showsFrame, smallButtons } from './browser.mjs';
 import { changedFraction } from './pictures.mjs';
 import { frameShown, served } from './served.mjs';
 
@@ -108,7 +108,8 @@ test('panes are resized by pointer and keys, and keep their sizes', () =>
       () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
     );
     assert.equal(overflow, 0);
-    await page.dblclick('#scene-border');
+    for (const border of ['#timeline-border', '#details-border', '#scene-border'])
+      await page.dblclick(border);
     near((await sizes())[0], scene);
   }));
 
@@ -161,6 +162,25 @@ test('controls have a name', () =>
     assert.deepEqual(nameless, []);
   }));
 
+test('a phone shows the targets, and then the scene or image, without scrolling', () =>
+  withPage('/', phone, async (page) => {
+    for (const view of ['scene', 'image']) {
+      await page.tap(`#view-tabs label:has([value=${view}])`);
+      const [fold, targets, pane] = await page.evaluate(
+        (id) => [
+          document.getElementById('transport').getBoundingClientRect().top,
+          [...document.querySelectorAll('#target-list button')].map(
+            (one) => one.getBoundingClientRect().bottom,
+          ),
+          document.getElementById(id).getBoundingClientRect().bottom,
+        ],
+        view === 'scene' ? 'scene' : 'image-frame',
+      );
+      assert.equal(targets.length, 4);
+      for (const bottom of [...targets, pane]) assert.ok(bottom <= fold, `${bottom} > ${fold}`);
+    }
+  }));
+
 for (const width of [360, 390])
   test(`a phone of ${width} pixels, by touch`, () =>
     withPage('/', { ...phone, viewport: { width, height: 780 } }, async (page) => {
@@ -185,12 +205,10 @@ for (const width of [360, 390])
       await page.waitForFunction(() => document.getElementById('read-label').textContent !== '–');
       await page.tap('#step-forward');
       await showsFrame(page, 1);
-      const small = await page
-        .locator('#transport button:visible')
-        .evaluateAll(
-          (nodes) => nodes.filter((node) => node.clientHeight < 40 || node.clientWidth < 40).length,
-        );
-      assert.equal(small, 0, 'large enough for touch');
+      for (const view of ['image', 'scene']) {
+        await page.tap(`#view-tabs label:has([value=${view}])`);
+        assert.deepEqual(await smallButtons(page), [], 'large enough for touch');
+      }
       const [end, top] = await page.evaluate(() => {
         const main = document.getElementById('main');
         main.scrollTo(0, main.scrollHeight);

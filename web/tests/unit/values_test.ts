@@ -2,10 +2,12 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { parseJson, type Packet } from '../../src/api/packet';
+import type { Summary } from '../../src/api/types';
 import { depthColors, depthRange } from '../../src/model/depth_colors';
 import { count, metres, milliseconds, percent, stamp } from '../../src/model/format';
 import { FrameCache } from '../../src/model/frame_cache';
 import { labelColor, labelStyles } from '../../src/model/labels';
+import { notesOf } from '../../src/model/notes';
 import { waitOf } from '../../src/model/timeline';
 import { niceStep } from '../../src/timeline/charts';
 
@@ -77,4 +79,11 @@ test('invalid labels are visible, and differ from all labels', () => {
   assert.equal(new Set(colors).size, colors.length);
   assert.equal(colors[0], null, 'clear');
   for (const label of [6, 17, 255]) assert.ok(!colors.includes(labelColor(label)), `${label}`);
+});
+
+test('the diagnosis is not among the notes', () => {
+  const message = 'the camera is elsewhere';
+  const summary = { notes: [message, 'another'], diagnosis: { message } } as unknown as Summary;
+  assert.deepEqual(notesOf(summary), ['another']);
+  assert.deepEqual(notesOf(null), []);
 });
