@@ -16,7 +16,7 @@ namespace penumbra::io {
 /// Returns the depth image of a file's pixels. `scale`: metres per unit; default: millimetres for
 /// integers, metres for floating-point numbers.
 template <typename T>
-[[nodiscard]] SharedDepth depth_of(Image<T> pixels, std::optional<double> scale) {
+[[nodiscard]] SharedDepth shared_depth_of(Image<T> pixels, std::optional<double> scale) {
   constexpr bool is_plain = std::is_same_v<T, std::uint16_t> || std::is_same_v<T, float>;
   if constexpr (is_plain)
     if (!scale) return SharedDepth(std::make_shared<const Image<T>>(std::move(pixels)));

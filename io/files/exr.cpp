@@ -59,7 +59,7 @@ FileResult read_exr_depth(const std::filesystem::path& file, std::optional<Image
                                     sizeof(float), sizeof(float) * pixels.view().stride));
   input.setFrameBuffer(buffer);
   input.readPixels(window.min.y, window.max.y);
-  depth = depth_of(std::move(pixels), scale);
+  depth = shared_depth_of(std::move(pixels), scale);
   return {};
 }
 

@@ -147,7 +147,8 @@ FileResult FrameReader::read_depth_image(std::int64_t index, SharedDepth& depth)
   if (depth_video_) {
     std::shared_ptr<const Image<std::uint16_t>> image;
     result = depth_video_->read(static_cast<std::size_t>(index), image);
-    if (result.ok()) depth = depth_scale_ ? depth_of(*image, depth_scale_) : SharedDepth(image);
+    if (result.ok())
+      depth = depth_scale_ ? shared_depth_of(*image, depth_scale_) : SharedDepth(image);
   } else {
     result = read_depth(files_.depth.file(index), depth_camera_ ? depth_camera_->size() : size_,
                         depth_scale_, depth);

@@ -44,7 +44,7 @@ FileResult read_any_depth(const std::filesystem::path& file, std::optional<Image
     return FileResult::bad(file, "is no depth image; PNG, TIFF, EXR and NumPy files are read");
   Image<std::uint16_t> pixels;
   FileResult result = read_png(file, pixels, wanted);
-  if (result.ok()) depth = depth_of(std::move(pixels), scale);
+  if (result.ok()) depth = shared_depth_of(std::move(pixels), scale);
   return result;
 }
 

@@ -117,7 +117,7 @@ FileResult read_depth_of(const std::filesystem::path& file, InputFile& input, co
                          SharedDepth& depth) {
   Image<T> pixels;
   FileResult result = read_pixels(file, input, header, wanted, pixels);
-  if (result.ok()) depth = depth_of(std::move(pixels), scale);
+  if (result.ok()) depth = shared_depth_of(std::move(pixels), scale);
   return result;
 }
 

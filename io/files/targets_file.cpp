@@ -26,6 +26,13 @@ struct TargetSource {
   std::optional<EstimateSource> estimate;
 };
 
+/// How the detections of a class are judged.
+struct DetectedClass {
+  RegionTarget region = {.region = {}, .extent = Extent::modal};
+  Target settings = {};
+  double min_score = 0.0;
+};
+
 namespace {
 
 /// Pixels refer to the image that the file names, else to the raw image.
@@ -114,13 +121,6 @@ void read_settings(const YamlNode& node, const TargetsContext& context, TargetSo
             "is not possible here: the part of a box3d or a mesh outside of the image is not "
             "known");
 }
-
-/// How the detections of a class are judged.
-struct DetectedClass {
-  RegionTarget region = {.region = {}, .extent = Extent::modal};
-  Target settings = {};
-  double min_score = 0.0;
-};
 
 std::map<std::int64_t, std::string> class_names_of(const YamlNode& node) {
   std::map<std::int64_t, std::string> names;

@@ -15,19 +15,19 @@
 namespace penumbra::io {
 namespace {
 
-struct Tags {
+struct TiffTags {
   std::uint32_t width = 0, height = 0;
   std::uint16_t bits = 0, channels = 0, format = 0;
 };
 
 template <typename T>
-FileResult read_rows(TIFF* tiff, const std::filesystem::path& file, const Tags& tags,
-                     std::optional<double> scale, SharedDepth& depth) {
+FileResult read_tiff_rows(TIFF* tiff, const std::filesystem::path& file, const TiffTags& tags,
+                          std::optional<double> scale, SharedDepth& depth) {
   Image<T> pixels(static_cast<int>(tags.width), static_cast<int>(tags.height));
   for (std::uint32_t v = 0; v < tags.height; ++v)
     if (TIFFReadScanline(tiff, pixels.view().row(static_cast<int>(v)), v) < 0)
       return FileResult::bad(file, "is a damaged TIFF");
-  depth = depth_of(std::move(pixels), scale);
+  depth = shared_depth_of(std::move(pixels), scale);
   return {};
 }
 
@@ -40,7 +40,7 @@ FileResult read_tiff_depth(const std::filesystem::path& file, std::optional<Imag
       (TIFFSetErrorHandler(nullptr), TIFFSetWarningHandler(nullptr), true);
   const std::unique_ptr<TIFF, void (*)(TIFF*)> tiff(TIFFOpen(file.c_str(), "rm"), TIFFClose);
   if (!tiff) return FileResult::bad(file, "is a damaged TIFF");
-  Tags tags;
+  TiffTags tags;
   TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &tags.width);
   TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &tags.height);
   TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_BITSPERSAMPLE, &tags.bits);
@@ -52,7 +52,7 @@ FileResult read_tiff_depth(const std::filesystem::path& file, std::optional<Imag
   if (TIFFIsTiled(tiff.get()) != 0) return FileResult::bad(file, "is in tiles; expected strips");
   if (tags.channels == 1) {
     const auto read_as = [&]<typename T>(T) {
-      return read_rows<T>(tiff.get(), file, tags, scale, depth);
+      return read_tiff_rows<T>(tiff.get(), file, tags, scale, depth);
     };
     const std::pair<int, int> kind(tags.format, tags.bits);
     if (kind == std::pair(SAMPLEFORMAT_UINT, 16)) return read_as(std::uint16_t{});

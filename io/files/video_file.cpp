@@ -19,13 +19,12 @@
 #include <io/files/video_file.hpp>
 
 namespace penumbra::io {
-namespace {
 
 /// A running program whose output is read.
-class Program {
+class ChildProgram {
  public:
   /// Throws InputError if the program is not installed.
-  explicit Program(std::vector<std::string> words) {
+  explicit ChildProgram(std::vector<std::string> words) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::bad_alloc();
     output_ = ends[0];
@@ -46,14 +45,14 @@ class Program {
     throw InputError("videos need the program " + words.front() +
                      ", which cannot be run; install FFmpeg (Debian: apt install ffmpeg)");
   }
-  ~Program() {
+  ~ChildProgram() {
     ::close(output_);
     ::kill(process_, SIGKILL);
     while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
+  ChildProgram(const ChildProgram&) = delete;
+  ChildProgram& operator=(const ChildProgram&) = delete;
 
   /// Returns the number of bytes; fewer than wanted at the end.
   std::size_t read(char* to, std::size_t count) const {
@@ -72,10 +71,12 @@ class Program {
   pid_t process_ = 0;
 };
 
+namespace {
+
 /// Returns what a program prints, at most 256 MB.
 std::string output_of(std::vector<std::string> words) {
   constexpr std::size_t most = 256U << 20U;
-  const Program program(std::move(words));
+  const ChildProgram program(std::move(words));
   std::string text;
   for (std::size_t got = 1; got > 0 && text.size() < most;) {
     const std::size_t before = text.size();
@@ -98,18 +99,18 @@ std::vector<std::string> joined(std::vector<std::string> words,
 }
 
 /// What ffprobe says of the first video stream.
-struct Probe {
+struct VideoProbe {
   std::string pixels;  // ffmpeg's name of the format
   std::uint64_t width = 0, height = 0;
   std::vector<double> times;
 };
 
-Probe probe(const std::filesystem::path& file) {
+VideoProbe probe_of(const std::filesystem::path& file) {
   std::istringstream lines(
       output_of(joined({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries",
                         "stream=width,height,pix_fmt:packet=pts_time,flags", "-of", "compact=nk=0"},
                        input_words(file))));
-  Probe found;
+  VideoProbe found;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream fields(line);
     std::string kind, field, flags;
@@ -145,15 +146,9 @@ bool is_video_name(const std::filesystem::path& file) {
 }
 
 template <typename T>
-class VideoFile<T>::Decoder : public Program {
- public:
-  using Program::Program;
-};
-
-template <typename T>
 VideoFile<T>::VideoFile(const std::filesystem::path& file) : file_(file) {
   InputFile().open(file).require();
-  const Probe found = probe(file);
+  const VideoProbe found = probe_of(file);
   if (found.times.empty() || found.width == 0)
     throw InputError(file.string() + ": holds no video that ffprobe can read");
   if (auto fault = check_image_size(found.width, found.height))
@@ -182,7 +177,7 @@ void VideoFile<T>::start(std::size_t index) {
   }
   words = joined(std::move(words), input_words(file_));
   const char* const pixels = std::is_same_v<T, Rgb8> ? "rgb24" : "gray16le";
-  decoder_ = std::make_unique<Decoder>(joined(
+  decoder_ = std::make_unique<ChildProgram>(joined(
       std::move(words),
       {"-map", "0:v:0", "-vsync", "passthrough", "-f", "rawvideo", "-pix_fmt", pixels, "pipe:1"}));
   next_ = index;

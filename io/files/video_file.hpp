@@ -18,6 +18,8 @@
 
 namespace penumbra::io {
 
+class ChildProgram;
+
 /// Returns whether a file's name ends as that of a video.
 [[nodiscard]] bool is_video_name(const std::filesystem::path& file);
 
@@ -40,15 +42,14 @@ class VideoFile {
   [[nodiscard]] FileResult read(std::size_t index, std::shared_ptr<const Image<T>>& image);
 
  private:
-  class Decoder;
   void start(std::size_t index);
 
   std::filesystem::path file_;
   ImageSize size_;
   std::vector<double> times_;  // of the frames, seconds, ascending
   std::mutex mutex_;
-  std::unique_ptr<Decoder> decoder_;
-  std::size_t next_ = 0;  // frame of the decoder
+  std::unique_ptr<ChildProgram> decoder_;  // ffmpeg
+  std::size_t next_ = 0;                   // frame of the decoder
   std::deque<std::pair<std::size_t, std::shared_ptr<const Image<T>>>> recent_;
 };
 

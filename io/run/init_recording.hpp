@@ -20,7 +20,7 @@ struct InitOptions {
 struct InitResult {
   std::filesystem::path file;
   std::vector<std::string> lacking = {};  ///< a line for each thing that is missing or was guessed
-  bool has_pose = false;             ///< else calibrate --search is next
+  bool has_pose = false;                  ///< else calibrate --search is next
 };
 
 /// Looks at a folder of images, videos, joint files, URDF and camera files, and three levels of
