@@ -157,8 +157,15 @@ int execute(const CalibrateArguments& arguments) {
       options.camera_parent.empty() ? robot.links().front() : options.camera_parent;
   print_pose(found, parent, input.input.camera.frame_id);
   if (!folder) return 0;
-  std::cout << "recording.yaml:\ncamera:\n  parent: " << parent
-            << "\n  pose: " << (arguments.output / "camera_pose.csv").string() << '\n';
+  const std::filesystem::path& of = arguments.input.input.path;
+  std::error_code error;
+  const bool is_bag = of.extension() != ".yaml" && !std::filesystem::is_directory(of, error);
+  const auto pose = arguments.output / "camera_pose.csv";
+  const auto file = is_bag ? pose
+                           : std::filesystem::proximate(
+                                 pose, of.extension() == ".yaml" ? of.parent_path() : of, error);
+  std::cout << "in the recording.yaml, below 'camera:':\n  parent: " << parent
+            << "\n  pose: " << file.string() << '\n';
   return 0;
 }
 

@@ -93,7 +93,7 @@ void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& e
   const Tolerance& e = tuning.rule.tolerance;
   const std::string a = short_number(e.a), c = short_number(e.c);
   const int reach = tuning.rule.fringe_reach;
-  std::cout << "\nrecording.yaml:\ncamera:\n  tolerance: [" << a << ", 0, " << c
+  std::cout << "\nin the recording.yaml, below 'camera:':\n  tolerance: [" << a << ", 0, " << c
             << "]\n  fringe_reach: " << reach << '\n';
   std::string list, options;
   for (const io::WrittenExtra& extra : extras) {

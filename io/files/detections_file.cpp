@@ -86,6 +86,7 @@ Region coco_region(const json& entry, const Intrinsics& images) {
                          counts.is_string() ? runs_of(counts.get<std::string>())
                                             : counts.get<std::vector<std::uint32_t>>()};
   }
+  if (!entry.contains("bbox")) throw InputError("has neither a bbox nor a mask of run lengths");
   const auto box = entry.at("bbox").get<std::vector<double>>();
   if (box.size() != 4) throw InputError("has a bbox that is not [x, y, width, height]");
   return box_of(box[0], box[1], box[2], box[3]);
@@ -264,6 +265,7 @@ Detections read_detections(const std::string& file_or_pattern, const std::filesy
                            const Intrinsics& images,
                            const std::map<std::int64_t, std::string>& names) {
   Detections all = read_any(file_or_pattern, folder, images, names);
+  if (all.empty()) throw InputError(file_or_pattern + ": holds no detection");
   for (const auto& [index, found] : all)
     for (const Detection& detection : found) {
       if (!detection.category.empty()) check_name(detection.category);

@@ -20,7 +20,8 @@ void check_known(const Robot& robot, const FrameTable& table, std::string_view n
   if (is_mimic || robot.find_variable(name) || name == "stamp") return;
   const std::vector<std::string_view> known(robot.variables().begin(), robot.variables().end());
   throw InputError(table.header_place() + "column '" + printable(name) +
-                   "' is no joint of the robot that moves" + near_names(name, known));
+                   "' is no joint of the robot that moves" + near_names(name, known) +
+                   "; leave out columns of other devices");
 }
 
 std::optional<std::size_t> part_of_variable(const Robot& robot, std::size_t variable) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <map>
+#include <set>
 #include <span>
 #include <unordered_map>
 #include <utility>
@@ -156,6 +157,20 @@ DetectedClass class_of(const YamlNode& node, const TargetsContext& context) {
   return found;
 }
 
+/// Refuses classes of which there is no detection: of numbers, `names` may be missing.
+void check_classes(const YamlNode& node, const Detections& detections,
+                   const std::map<std::string, DetectedClass>& classes) {
+  std::set<std::string> known;
+  for (const auto& [index, found] : detections)
+    for (const Detection& detection : found) known.insert(detection.category);
+  const auto is_known = [&](const auto& of) { return of.first == "*" || known.contains(of.first); };
+  if (std::any_of(classes.begin(), classes.end(), is_known)) return;
+  const std::vector<std::string_view> names(known.begin(), known.end());
+  node.fail("no detection is of a class in 'classes'" +
+            near_names(classes.empty() ? "" : classes.begin()->first, names) +
+            "; 'names' gives numbers their names");
+}
+
 Target target_of(const DetectedClass& settings, const Detection& detection, std::size_t number) {
   Target target = settings.settings;
   RegionTarget region = settings.region;
@@ -222,6 +237,7 @@ TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsCo
     else
       for (const YamlNode& node : classes->entries())
         state->classes.emplace(node.key(), class_of(node, context));
+    check_classes(*detections, state->detections, state->classes);
   } else {
     for (const char* const key : {"names", "classes"})
       if (const YamlNode* found = root.find(key)) found->fail("is for detections; name their file");

@@ -71,7 +71,7 @@ std::string_view reason_for_unknown(const Visibility& visibility,
   if (!visibility.has_whole)
     return "it was not seen whole away from the robot: how much of it the robot hides is not "
            "known; "
-           "give expected_depth, or its height and a track";
+           "give its expected_depth or height, or the full extent as amodal";
   if (visibility.is_missing)
     return "its mask is smaller than the whole target, and the robot is next to it";
   if (visibility.is_expected && visibility.is_passed(thresholds.past_limit))

@@ -123,7 +123,8 @@ std::optional<double> ExtentObserver::depth_by_height(const TargetInFrame& at,
                                                       double focal) const {
   if (seen_.spans().empty() || !at.frame.has_pose()) return memory.depth;
   const SpanBox box = box_of_spans(seen_.spans());
-  if (at.target.extent == Extent::modal) {
+  // Of a region that is cut, its height says at most how far the target is.
+  if (memory.depth && at.target.extent == Extent::modal) {
     Eigen::Array2d around(2.0 * at.reach(), 2.0 * at.reach());
     if (!memory.whole.empty())
       around += (size_of(box_of_spans(memory.whole)) - size_of(box)).max(0);

@@ -93,6 +93,7 @@ TEST_F(DetectionsTest, FaultsNameFileAndLine) {
   };
   refused("a.json", "", "no JSON");
   refused("a.json", "[1]", "detection 0");
+  refused("a.json", "[]", "no detection");
   refused("a.json", R"([{"image_id": 4, "category_id": 39}])", "bbox");
   refused("a.json", R"([{"image_id": "left", "category_id": 1, "bbox": [1, 2, 3, 4]}])", "left");
   refused("a.json",
@@ -157,6 +158,7 @@ TEST_F(DetectionsTest, WrongClassesNameTheirLine) {
   refused("detections: d.csv\nclasses: {a: {height: 0}}\n", "2: classes.a.height");
   refused("detections: d.csv\nclasses: {a: {handling: pose}}\n", "2: classes.a.handling");
   refused("detections: d.csv\nnames: {a: b}\n", "2: names.a");
+  refused("detections: d.csv\nclasses: {cup: {}}\n", "1: detections: ");
   refused("targets: []\nclasses: {}\n", "2: classes");
 }
 

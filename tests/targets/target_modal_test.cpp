@@ -86,6 +86,7 @@ TEST_F(ModalTargets, OfKnownHeightKeepTheirDepthWhileTheyAreCut) {
     return judge.judge(target, memory);
   };
   EXPECT_EQ(judge_rows(rows / 2, 50).verdict, Verdict::unknown) << "not seen whole";
+  EXPECT_EQ(judge_rows(3 * rows, 110).verdict, Verdict::unknown) << "the wall is behind it";
   memory = {};
   EXPECT_EQ(judge_rows(rows, 110).verdict, Verdict::visible);
   ASSERT_TRUE(memory.depth);
