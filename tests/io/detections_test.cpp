@@ -16,15 +16,13 @@ namespace {
 
 using test::expect_refused;
 
-constexpr int width = 70, height = 50;
-
 class DetectionsTest : public testing::Test {
  protected:
   [[nodiscard]] Detections read(const std::string& name, const std::string& text) const {
     folder_.write(name, text);
     return read_detections(name, folder_.path(), images(), {{39, "bottle"}});
   }
-  static Intrinsics images() { return {width, height, 100, 100, 35, 25}; }
+  static Intrinsics images() { return {70, 50, 100, 100, 35, 25}; }
   [[nodiscard]] TargetsFile open(const std::string& name) const {
     return TargetsFile::open(folder_.path() / name, {.robot = robot_,
                                                      .image = ImageSpace::raw,
