@@ -123,11 +123,11 @@ std::optional<double> ExtentObserver::depth_by_height(const TargetInFrame& at,
                                                       double focal) const {
   if (seen_.spans().empty() || !at.frame.has_pose()) return memory.depth;
   const SpanBox box = box_of_spans(seen_.spans());
-  // Of a region that is cut, its height says at most how far the target is.
-  if (memory.depth && at.target.extent == Extent::modal) {
-    Eigen::Array2d around(2.0 * at.reach(), 2.0 * at.reach());
+  if (at.target.extent == Extent::modal) {
+    // As in observe_modal, which judges what is near the robot by the whole extent alone.
+    Eigen::Array2d around(at.reach(), at.reach());
     if (!memory.whole.empty())
-      around += (size_of(box_of_spans(memory.whole)) - size_of(box)).max(0);
+      around = 2 * around + (size_of(box_of_spans(memory.whole)) - size_of(box)).max(0);
     const SpanBox near = grown(box, static_cast<int>(around.x()), static_cast<int>(around.y()));
     if (reaches_border() || holds_robot(at, near)) return memory.depth;
   }

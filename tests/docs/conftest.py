@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A folder in which all names that the documents use exist."""
 
+import json
 import os
 import pathlib
 import shutil
@@ -47,6 +48,9 @@ def prepare(folder):
     (folder / "ur5e.urdf").write_text(urdf)
     shutil.copytree(SHIPPED, folder / "my_recording", ignore=shutil.ignore_patterns("truth"))
     shutil.copytree(SHIPPED, folder / "my_images", ignore=shutil.ignore_patterns("truth", "recording.yaml"))
+    for name in ("detections.json", "results.json"):
+        box = {"image_id": 0, "category_id": 39, "bbox": [460, 172, 38, 98], "score": 0.9}
+        (folder / name).write_text(json.dumps([box]))
     for name in ("targets.yaml", "wrist.csv", "camera_info.yaml", "camera_pose.csv", "joint_states.csv"):
         shutil.copy(SHIPPED / name, folder)
     given = penumbra.open_input(SHIPPED)

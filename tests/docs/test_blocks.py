@@ -147,6 +147,11 @@ def read_targets(text, work):
 @pytest.mark.parametrize("block", all_blocks("yaml"), ids=str)
 def test_yaml_is_read(block, work):
     shown = yaml.safe_load(block.text)
+    if "detections" in shown:
+        found = {"image_id": 0, "category_id": 39, "bbox": [10, 20, 30, 40], "score": 0.9}
+        (work / shown["detections"]).write_text(json.dumps([found]))
+        assert len(read_targets(block.text, work).of_frame(0)) == 1
+        return
     if "targets" in shown:
         assert len(read_targets(block.text, work)) == len(shown["targets"])
         return

@@ -26,6 +26,7 @@ NOT_RUN = {
     r"ctest --preset": "these tests",
     r"python3 -m (venv|pip)|~/penumbra-python": "a wheel: tests/python/test_wheel.py",
     r"build/dev/bench/": "a benchmark on real recordings",
+    r"cd penumbra$": "after git clone",
     r"ros2 |rviz2 |colcon |rosdep |git clone ": "ROS 2's own: scripts/test_ros.sh",
     r"python3 -m penumbra\.batch": "tests/python/test_batch.py",
     r"penumbra_research |export PATH=|scripts/experiment_tables": "minutes: tests/research",

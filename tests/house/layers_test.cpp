@@ -84,7 +84,7 @@ const std::vector<Library>& libraries() {
                                         {"jerror.h", "io/files", 1},
                                         {"tiffio.h", "io/files", 1},
                                         {"OpenEXR/", "io/files", 1},
-                                        {"nlohmann/", "io", 1},
+                                        {"nlohmann/", "io", 2},
                                         {"lz4frame.h", "io/mcap", 1},
                                         {"zstd", "io/mcap", 1},
                                         {"zlib.h", "io/mcap", 1},

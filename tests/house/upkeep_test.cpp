@@ -67,6 +67,8 @@ TEST(Upkeep, PackagesAreListed) {
                                                   {"yaml-cpp", "libyaml-cpp-dev"},
                                                   {"PNG", "libpng-dev"},
                                                   {"JPEG", "libjpeg-dev"},
+                                                  {"TIFF", "libtiff-dev"},
+                                                  {"OpenEXR", "libopenexr-dev"},
                                                   {"fastcdr", "libfastcdr-dev"},
                                                   {"fastrtps", "libfastrtps-dev"},
                                                   {"CycloneDDS", "cyclonedds-dev"},
