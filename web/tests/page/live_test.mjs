@@ -23,7 +23,7 @@ const maxLag = full ? 300 : 15_000; // milliseconds, median
 const minShownFraction = full ? 0.1 : 0.02; // of the published frames
 const minShownRate = full ? 2.5 : 0.1; // Hz
 const maxHeapGrowth = 8 * 2 ** 20; // bytes, after a garbage collection
-const maxServerGrowth = 24 * 2 ** 20;
+const maxServerGrowth = 64 * 2 ** 20; // the program keeps so much freed memory for later images
 const timeout_ = 60_000; // milliseconds
 const skip = existsSync(bag) ? false : `${bag} does not exist`;
 
