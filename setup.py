@@ -19,7 +19,8 @@ from setuptools.command.build_ext import build_ext
 
 ROOT = pathlib.Path(__file__).parent.absolute()
 PARTS = ["-DPENUMBRA_BUILD_TESTS=OFF", "-DPENUMBRA_BUILD_BENCHMARKS=OFF", "-DPENUMBRA_BUILD_EXAMPLES=OFF",
-         "-DPENUMBRA_WITH_SIMULATION=OFF", "-DPENUMBRA_WITH_PYTHON=ON"]
+         "-DPENUMBRA_WITH_SIMULATION=OFF", "-DPENUMBRA_WITH_PYTHON=ON", "-DPENUMBRA_WITH_TIFF=OFF",
+         "-DPENUMBRA_WITH_EXR=OFF"]
 # Every machine has these: the policy of manylinux (PEP 600).
 SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|gcc_s|stdc\+\+|z))\.so\b.*")
 

@@ -158,12 +158,9 @@ int execute(const CalibrateArguments& arguments) {
   print_pose(found, parent, input.input.camera.frame_id);
   if (!folder) return 0;
   const std::filesystem::path& of = arguments.input.input.path;
-  std::error_code error;
-  const bool is_bag = of.extension() != ".yaml" && !std::filesystem::is_directory(of, error);
-  const auto pose = arguments.output / "camera_pose.csv";
-  const auto file = is_bag ? pose
-                           : std::filesystem::proximate(
-                                 pose, of.extension() == ".yaml" ? of.parent_path() : of, error);
+  const auto file =
+      std::filesystem::proximate(arguments.output / "camera_pose.csv",
+                                 std::filesystem::is_directory(of) ? of : of.parent_path());
   std::cout << "in the recording.yaml, below 'camera:':\n  parent: " << parent
             << "\n  pose: " << file.string() << '\n';
   return 0;

@@ -155,13 +155,13 @@ class Writer:
                                     [":staticmethod:"] if static else [])
 
     def in_python(self, name, value, kind="function"):
-        """What Python itself tells the signature of."""
-        told = re.sub(r"\(self(, )?", "(", str(inspect.signature(value)).replace("'", ""))
-        told = told.removesuffix(" -> None") if kind == "class" else told
+        """What is written in Python, and so has a signature."""
+        shown = re.sub(r"\(self(, )?", "(", str(inspect.signature(value)).replace("'", ""))
+        shown = shown.removesuffix(" -> None") if kind == "class" else shown
         members = [self.in_python(key, member, "method") for key, member in vars(value).items()
                    if inspect.isclass(value) and not key.startswith("_")]
         texts = [value.__doc__, *([value.__init__.__doc__] if inspect.isclass(value) else [])]
-        return block(f".. py:{kind}:: {name}{told}", [],
+        return block(f".. py:{kind}:: {name}{shown}", [],
                      "\n\n".join(as_rst(inspect.cleandoc(text)) for text in texts), *members)
 
     def described(self, name, value):

@@ -202,6 +202,7 @@ Detections read_mot(const std::filesystem::path& file, const ClassNames& names) 
           "has " + std::to_string(n.size()) +
           " numbers; expected MOT's frame, track, x, y, width, height[, score[, class, "
           "...]]");
+    if (n[0] < 1) throw InputError("has the frame 0; the first frame of MOT is 1: add 1 to all");
     Detection found{.category = "object", .track = {}, .region = box_of(n[2], n[3], n[4], n[5])};
     if (n[1] >= 0) found.track = std::to_string(whole(n[1]));
     if (n.size() > 6) found.score = n[6];

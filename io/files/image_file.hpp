@@ -11,7 +11,7 @@
 
 namespace penumbra::io {
 
-/// Reads a depth image, whose format is told by its first bytes: PNG or TIFF of 16-bit grey, NumPy
+/// Reads a depth image, whose format its first bytes say: PNG or TIFF of 16-bit grey, NumPy
 /// of integers (millimetres), TIFF, EXR or NumPy of floating-point numbers (metres). `scale`:
 /// metres per unit instead of these. Returns a fault of the file, or another size than wanted.
 /// Never throws.

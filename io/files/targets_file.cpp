@@ -157,7 +157,7 @@ DetectedClass class_of(const YamlNode& node, const TargetsContext& context) {
   return found;
 }
 
-/// Refuses classes of which there is no detection: of numbers, `names` may be missing.
+/// Refuses classes without a detection: their names may be missing in `names`.
 void check_classes(const YamlNode& node, const Detections& detections,
                    const std::map<std::string, DetectedClass>& classes) {
   std::set<std::string> known;

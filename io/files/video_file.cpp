@@ -185,7 +185,7 @@ void VideoFile<T>::start(std::size_t index) {
 
 template <typename T>
 FileResult VideoFile<T>::read(std::size_t index, std::shared_ptr<const Image<T>>& image) {
-  constexpr std::size_t most_skipped = 64, most_recent = 16;
+  constexpr std::size_t most_skipped = 64, most_recent = 8;  // as many as are read at once
   const std::string name = "frame " + std::to_string(index);
   if (index >= frames())
     return {FileStatus::missing,

@@ -18,6 +18,7 @@
 #include <io/files/joint_file.hpp>
 #include <io/files/names.hpp>
 #include <io/files/pose_file.hpp>
+#include <io/files/printable.hpp>
 #include <io/files/video_file.hpp>
 #include <io/run/init_recording.hpp>
 
@@ -42,7 +43,8 @@ std::vector<fs::path> files_below(const fs::path& folder) {
   std::error_code error, ignored;
   fs::recursive_directory_iterator entry(folder, error);
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-    const bool is_hidden = entry->path().filename().string().starts_with('.');
+    const std::string name = entry->path().filename().string();
+    const bool is_hidden = name.starts_with('.') || without_controls(name) != name;
     if (entry->is_directory(ignored)) {
       if (is_hidden || entry.depth() + 1 >= most_levels) entry.disable_recursion_pending();
     } else if (!is_hidden && entry->is_regular_file(ignored)) {
@@ -237,7 +239,7 @@ void check_folder(const InitOptions& options) {
   std::error_code error;
   if (!fs::is_directory(options.folder, error))
     throw InputError(options.folder.string() + ": is no folder");
-  if (!options.force && fs::exists(options.folder / "recording.yaml", error))
+  if (!options.force && fs::exists(fs::symlink_status(options.folder / "recording.yaml", error)))
     throw InputError((options.folder / "recording.yaml").string() +
                      ": exists; replace it by --force");
 }
@@ -290,11 +292,12 @@ void write_frames(Draft& draft, const InitOptions& options, const std::vector<fs
       },
       &fault);
   std::string variables;
-  for (const std::string& name : robot.variables()) variables += "," + name;
+  for (const std::string& name : robot.variables())
+    variables += (variables.empty() ? "" : ",") + name;
   draft.line("frames:");
   draft.one_of("joints", joints,
-               "a CSV file with the header frame,[stamp,]" + variables.substr(1) +
-                   " (radians, metres)" + (fault.empty() ? "" : "; " + fault));
+               "a CSV file with the header frame,[stamp,]" + variables + " (radians, metres)" +
+                   (fault.empty() ? "" : "; " + fault));
   if (depth != nullptr)
     draft.images("depth", *depth);
   else

@@ -106,6 +106,7 @@ TEST_F(DetectionsTest, FaultsNameFileAndLine) {
   refused("a.txt", "1,2,3\n", ":1: ");
   refused("a.txt", "1,2,3,4,5,6\n1.5,2,3,4,5,6\n", ":2: ");
   refused("a.txt", "1,2,3,4,5,x\n", ":1: 'x'");
+  refused("a.txt", "0,2,3,4,5,6\n", ":1: has the frame 0");
   refused("a.xml", "", "no detector's file");
   folder_.write("labels/3.txt", "0 100 200 14 15\n");
   expect_refused(
