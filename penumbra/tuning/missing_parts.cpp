@@ -42,6 +42,7 @@ void MissingParts::measure(const FrameReport& report) {
   measured.depth = Image<float>(seen.width(), seen.height());
   measured.T_root_camera = *report.T_root_camera;
   measured.T_root_link.assign(report.T_root_link.begin(), report.T_root_link.end());
+  measured.fringe.resize(links_.size());
   std::visit(
       [&](const auto& depth) {
         for (int v = 0; v < seen.height(); ++v)
@@ -56,8 +57,7 @@ void MissingParts::measure(const FrameReport& report) {
       const auto nearest = robot.at(u, v);
       const std::size_t of = report.virtual_depth.links(step * nearest.u, step * nearest.v);
       if (of > links_.size()) continue;  // an attached body
-      Link& link = links_[of - 1];
-      link.fringe += step * step;
+      measured.fringe[of - 1] += step * step;
       if (step * robot.distance(u, v) > far_)
         far_fringe_.push_back({measured_.size() - 1, of - 1, u, v});
     }
@@ -76,15 +76,20 @@ bool MissingParts::stands_still(const Far& pixel) const {
 
 std::vector<std::string> MissingParts::lines() const {
   constexpr std::size_t pixels = 16;  // for each that is measured
-  std::vector<std::size_t> moving(links_.size());
+  std::vector<std::vector<std::size_t>> moving(measured_.size(),
+                                               std::vector<std::size_t>(links_.size()));
   for (const Far& pixel : far_fringe_)
-    if (!stands_still(pixel)) moving[pixel.link] += pixels;
-  const std::size_t measured = static_cast<std::size_t>(std::bit_width(frames_));
+    if (!stands_still(pixel)) moving[pixel.frame][pixel.link] += pixels;
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    const Link& link = links_[i];
-    if (link.has_moved && link.fringe >= least_fringe * measured &&
-        static_cast<double>(moving[i]) > most * static_cast<double>(link.fringe))
+    std::size_t judged = 0, with_part = 0;  // frames
+    for (std::size_t frame = 0; frame < measured_.size(); ++frame) {
+      const std::size_t fringe = measured_[frame].fringe[i];
+      if (fringe < least_fringe) continue;
+      ++judged;
+      if (static_cast<double>(moving[frame][i]) > most * static_cast<double>(fringe)) ++with_part;
+    }
+    if (links_[i].has_moved && with_part >= 2 && 2 * with_part > judged)
       lines.push_back("something large moves with link '" + robot_.links()[i] +
                       "' that the URDF lacks, or touches it: run 'penumbra tune' on this input");
   }

@@ -19,12 +19,13 @@ namespace penumbra {
 /// moves with its link: what stands still next to a link is left out.
 class MissingParts {
  public:
-  /// A link is named if more than `most` of the fringe pixels next to it are farther from the
-  /// outline than `far` times the fringe's reach. On a real recording that share is at most 0.06
-  /// for complete links, and 0.13 or more where a part of 10 cm is missing.
+  /// A link is named if in most frames, two or more, over `most` of the fringe pixels next to it
+  /// are farther from the outline than `far` times the fringe's reach. On a real recording complete
+  /// links exceed `most` in at most one frame of four, and where a part of 10 cm is missing in
+  /// three.
   static constexpr double far = 0.6;
-  static constexpr double most = 0.1;
-  /// Pixels of fringe per frame; less is too little to judge a link by.
+  static constexpr double most = 0.15;
+  /// Pixels of fringe in a frame; less is too little to judge a link by.
   static constexpr std::size_t least_fringe = 200;
 
   /// `fringe_reach`: of the label rule, pixels.
@@ -40,7 +41,6 @@ class MissingParts {
   struct Link {
     Eigen::Isometry3d first_pose = Eigen::Isometry3d::Identity();  // in the root link's frame
     bool has_moved = false;
-    std::size_t fringe = 0;  // pixels
   };
   /// A fringe pixel far from the outline.
   struct Far {
@@ -52,6 +52,7 @@ class MissingParts {
     Image<float> depth;  // every fourth pixel; 0: robot, or not measured
     Eigen::Isometry3d T_root_camera;
     std::vector<Eigen::Isometry3d> T_root_link;
+    std::vector<std::size_t> fringe;  // pixels next to each link
   };
 
   void measure(const FrameReport& report);
