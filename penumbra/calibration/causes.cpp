@@ -212,7 +212,11 @@ std::string text_of_depth(const Refined& fit) {
     text += (text.empty() ? "the measured depth is " : " and ") +
             amount(fit.state.depth_scale, fit.covariance(scale, scale), 100.0, 1) + " % too " +
             (fit.state.depth_scale > 0.0 ? "large" : "small");
-  return text.empty() ? text : text + ", more than depth cameras are";
+  if (text.empty()) return text;
+  text += ", more than depth cameras are";
+  if (is_beyond(fit.state.depth_scale, scale, usual_scale))
+    text += ": multiply camera.depth_scale by " + number(1.0 / (1.0 + fit.state.depth_scale), 3);
+  return text;
 }
 
 Twist motion_with_usual_depth(Observer& observer, const Unknowns& own,
