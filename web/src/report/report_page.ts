@@ -8,7 +8,7 @@ import { frameDetails } from '../view/frame_panel';
 import { targetDetails, targetList } from '../view/target_panel';
 import { verdictIcon } from '../view/verdict_icon';
 import { diagnosisOf, headOf, notesOf, targetTiles, tilesOf } from './summary';
-import { targetsTable } from './targets_table';
+import { targetsTable, verdictList } from './targets_table';
 
 export interface KeyFrame {
   /** Index in the report's frames. */
@@ -52,7 +52,11 @@ export class ReportPage {
       targetTiles(this.timeline.tracks),
       tilesOf(report),
       section('Timeline', element('div', 'panel', legend, chart), this.details),
-      section('Targets', targetsTable(this.timeline.tracks, frames)),
+      section(
+        'Targets',
+        targetsTable(this.timeline.tracks, frames),
+        verdictList(this.timeline.tracks, frames),
+      ),
       ...(images.length ? [section('Key frames', this.gallery(images))] : []),
       section('Stage times', stageTable(report)),
     );

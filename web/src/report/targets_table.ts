@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Source, Verdict } from '../api/types';
+import type { Source, TargetReport, Verdict } from '../api/types';
 import { percent } from '../model/format';
 import { verdictNames, verdictOf, verdicts } from '../model/labels';
-import { hiddenFraction, hidersOf, mostHidden, onsets, type Track } from '../model/timeline';
+import {
+  hiddenFraction,
+  hidersOf,
+  mostHidden,
+  onsets,
+  runsOf,
+  worse,
+  type Track,
+} from '../model/timeline';
 import { element } from '../view/dom';
 import { verdictIcon } from '../view/verdict_icon';
 
@@ -65,3 +73,38 @@ function onsetButtons(track: Track, { numberOf, seek }: Frames): (Node | string)
   if (begin.length > maxOnsets) shown.push(` and ${begin.length - maxOnsets} more`);
   return shown;
 }
+
+/** Lists what each target is, and behind which links, from frame to frame; closed at first. */
+export function verdictList(tracks: readonly Track[], frames: Frames): HTMLElement {
+  const head = element('tr', '', element('th', '', 'frames'));
+  for (const title of ['verdict', 'max hidden', 'by']) head.append(element('th', 'text', title));
+  const lists = tracks.map((track) => {
+    const table = element('table', '', head.cloneNode(true));
+    for (const { from, to } of runsOf(track.samples.map(stateOf))) {
+      const sample = track.samples.slice(from, to).reduce(worse, null);
+      if (!sample) continue;
+      const button = element('button', 'small', spanOf(from, to, frames));
+      button.addEventListener('click', () => frames.seek(from));
+      table.append(
+        element(
+          'tr',
+          '',
+          element('td', '', button),
+          element('td', 'text', verdictIcon(verdictOf(sample)), verdictNames[verdictOf(sample)]),
+          element('td', 'text', percent(hiddenFraction(sample))),
+          element('td', 'text', hidersOf(sample).join(', ')),
+        ),
+      );
+    }
+    const title = element('summary', '', `${track.name}, frame by frame`);
+    return element('details', 'panel card scroll', title, table);
+  });
+  return element('div', '', ...lists);
+}
+
+/** Neighbouring frames of one state are one row. */
+const stateOf = (sample: TargetReport | null): string =>
+  sample ? [verdictOf(sample), ...hidersOf(sample)].join() : '';
+
+const spanOf = (from: number, to: number, { numberOf }: Frames): string =>
+  to - from === 1 ? numberOf(from) : `${numberOf(from)} to ${numberOf(to - 1)}`;
