@@ -59,6 +59,9 @@ void judge(CameraTask& task, const std::function<bool()>& go_on) {
   task.views = recorder.run();
 }
 
+/// Thrown where a camera's work ends because another one failed: it leaves no results.
+struct Stopped {};
+
 /// Works on the cameras, `workers` at a time, until one fails. Throws the first camera's fault.
 void for_all(std::vector<CameraTask>& tasks, std::size_t workers,
              const std::function<void(CameraTask&, const std::atomic<bool>& has_fault)>& work_on) {
@@ -71,6 +74,7 @@ void for_all(std::vector<CameraTask>& tasks, std::size_t workers,
         tasks[i].fault =
             std::make_exception_ptr(InputError("camera '" + tasks[i].name + "': " + error.what()));
         has_fault = true;
+      } catch (const Stopped&) {  // NOLINT(bugprone-empty-catch): the other's fault is told
       } catch (...) {
         tasks[i].fault = std::current_exception();
         has_fault = true;
@@ -127,7 +131,10 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
   folder.remove_former();
   catch_interrupts();
   for_all(tasks, static_cast<std::size_t>(workers), [](CameraTask& task, const auto& has_fault) {
-    judge(task, [&] { return !was_interrupted() && !has_fault; });
+    judge(task, [&] {
+      if (has_fault) throw Stopped();
+      return !was_interrupted();
+    });
   });
 
   std::vector<io::CameraRun> runs;
