@@ -17,6 +17,12 @@ import sys
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
+try:
+    import pybind11  # of PyPI; else Debian's, which CMake finds
+    PYBIND11 = [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"]
+except ImportError:
+    PYBIND11 = []
+
 ROOT = pathlib.Path(__file__).parent.absolute()
 PARTS = ["-DPENUMBRA_BUILD_TESTS=OFF", "-DPENUMBRA_BUILD_BENCHMARKS=OFF", "-DPENUMBRA_BUILD_EXAMPLES=OFF",
          "-DPENUMBRA_WITH_SIMULATION=OFF", "-DPENUMBRA_WITH_PYTHON=ON", "-DPENUMBRA_WITH_TIFF=OFF",
@@ -54,7 +60,7 @@ class CMakeBuild(build_ext):
         build = pathlib.Path(self.build_temp).absolute()
         subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
                         "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=24",
-                        f"-DPython_EXECUTABLE={sys.executable}", *PARTS,
+                        f"-DPython_EXECUTABLE={sys.executable}", *PYBIND11, *PARTS,
                         *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "penumbra_python", "penumbra_app"],
                        check=True)

@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Makes Python wheels in build/wheel.
+#   scripts/wheel.sh [PYTHON...]   e.g. python3.10 python3.12; without one: the system's python3
+# A Python that lacks NumPy or setuptools gets them from PyPI for the time of the build.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+for python in "$@"; do
+  command -v "$python" >/dev/null || { echo "wheel.sh: no Python '$python' here" >&2; exit 2; }
+done
+scripts/packages.sh --install build ros python
+for python in "${@:-/usr/bin/python3}"; do
+  how=()
+  if "$python" -c 'import numpy, setuptools, wheel' 2>/dev/null; then how=(--no-build-isolation); fi
+  "$python" -m pip wheel "${how[@]}" --no-deps -w build/wheel .
+done
+echo "wheels: $(echo build/wheel/*.whl)"
