@@ -53,8 +53,8 @@ std::int64_t stamp_of(const OwnedFrame& frame, const std::string& name) {
   return *frame.stamp;
 }
 
-Trajectory trajectory_of(const std::vector<OwnedFrame>& motion, const Robot& robot) {
-  Trajectory trajectory;
+StampedPoses trajectory_of(const std::vector<OwnedFrame>& motion, const Robot& robot) {
+  StampedPoses trajectory;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const std::string name = "motion[" + std::to_string(i) + "]";
     trajectory.emplace_back(stamp_of(motion[i], name),
@@ -71,7 +71,7 @@ Calibration calibrate_frames(const std::vector<OwnedFrame>& frames, const Intrin
   if (!masks.empty() && masks.size() != frames.size())
     throw py::value_error("masks: expected one for each of " + std::to_string(frames.size()) +
                           " frames; got " + std::to_string(masks.size()));
-  const Trajectory trajectory = trajectory_of(motion, robot);
+  const StampedPoses trajectory = trajectory_of(motion, robot);
   std::vector<CalibrationFrame> all;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     all.push_back(calibration_frame(frames[i], i, robot));

@@ -147,6 +147,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   TuneArguments tune;
   CalibrateArguments calibrate;
   ViewPlanningArguments planning;
+  LookAheadArguments ahead;
   io::InitOptions init;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);
@@ -191,6 +192,8 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
       check_view);
   add("view-planning", "find where cameras see targets while the robot moves", planning,
       add_view_planning, check_view_planning);
+  add("look-ahead", "say what a planned motion will hide, when, and by which link", ahead,
+      add_look_ahead, check_look_ahead);
   check_command(argc, argv, commands);
   try {
     app.parse(argc, argv);

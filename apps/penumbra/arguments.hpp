@@ -18,6 +18,7 @@
 #include <io/run/calibration_input.hpp>
 #include <io/run/init_recording.hpp>
 #include <io/run/input_session.hpp>
+#include <io/run/look_ahead_input.hpp>
 #include <io/run/output_folder.hpp>
 #include <io/run/planning_input.hpp>
 #include <io/web/web_server.hpp>
@@ -80,6 +81,12 @@ struct ViewPlanningArguments {
   std::optional<int> threads;    ///< null: one per core
 };
 
+struct LookAheadArguments {
+  io::LookAheadOptions input;
+  std::filesystem::path output;  ///< empty: nothing is written
+  std::optional<int> threads;    ///< null: one per core
+};
+
 struct TopicsArguments {
   io::ParticipantOptions graph;
   double wait = 2.0;  ///< seconds
@@ -138,10 +145,10 @@ struct ViewArguments {
   ServerArguments server;
 };
 
-using Command =
-    std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
-                 SimulateArguments, TopicsArguments, PlayArguments, LiveArguments, ViewArguments,
-                 TuneArguments, CalibrateArguments, ViewPlanningArguments, io::InitOptions>;
+using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
+                             SimulateArguments, TopicsArguments, PlayArguments, LiveArguments,
+                             ViewArguments, TuneArguments, CalibrateArguments,
+                             ViewPlanningArguments, LookAheadArguments, io::InitOptions>;
 
 /// Reads the command line. Returns nothing after --help or --version, which it prints. Throws
 /// InputError that names the argument.

@@ -22,5 +22,6 @@ inline constexpr int device_failed = 1, nothing_judged = 2;
 [[nodiscard]] int execute(const TuneArguments& arguments);
 [[nodiscard]] int execute(const CalibrateArguments& arguments);
 [[nodiscard]] int execute(const ViewPlanningArguments& arguments);
+[[nodiscard]] int execute(const LookAheadArguments& arguments);
 
 }  // namespace penumbra::app

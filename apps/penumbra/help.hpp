@@ -23,6 +23,7 @@ Examples:
   penumbra play bag.mcap                     publish a bag on ROS 2's graph
   penumbra view recording/                   look at a recording in the browser
   penumbra view-planning recording/ --candidates poses.csv   find where cameras see targets
+  penumbra look-ahead recording/ --trajectory plan.csv       say what a motion will hide, and when
   penumbra run --help                        all options of one command
 
 Exit status: 0 done; 2 an error in the input (one line on stderr says where); 1 an internal error,
@@ -112,6 +113,22 @@ candidates and targets, over all frames and over time.
 Examples:
   penumbra view-planning recording/ --candidates poses.csv --targets targets.yaml -o plan
   penumbra view-planning bag.mcap --candidates poses.csv --targets targets.yaml --cameras 3 -o plan)";
+
+inline constexpr const char* look_ahead_examples = R"(
+Says for each target when a planned motion of the robot will hide it, for how long, and by which
+link, if nothing else moves. INPUT gives robot, cameras and targets; the motion begins in one of its
+frames. Joints that the motion does not name stay where they are. FILE is a table with the header
+time,JOINT,... (seconds, rad and m); or a message of JointTrajectory, RobotTrajectory or
+DisplayTrajectory as `ros2 topic echo` prints it. Between points the robot moves as
+joint_trajectory_controller moves it. Several motions are ranked by how long targets stay visible.
+OUT gets look_ahead.json (all numbers) and report.html: timelines, and pictures of the moments when
+targets are hidden.
+
+Examples:
+  penumbra look-ahead recording/ --trajectory plan.csv -o ahead
+  ros2 topic echo --once --full-length /display_planned_path > plan.yaml
+  penumbra look-ahead bag.mcap --targets targets.yaml --trajectory plan.yaml --from 120
+  penumbra look-ahead recording/ --trajectory left.csv --trajectory right.csv)";
 
 inline constexpr const char* render_examples = R"(
 Joints that are not given are at rest (0, or no rotation); --json lists every position.

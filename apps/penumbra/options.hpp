@@ -145,6 +145,7 @@ void add_tune(CLI::App& app, TuneArguments& tune);
 void add_calibrate(CLI::App& app, CalibrateArguments& calibrate);
 void add_view(CLI::App& app, ViewArguments& view);
 void add_view_planning(CLI::App& app, ViewPlanningArguments& planning);
+void add_look_ahead(CLI::App& app, LookAheadArguments& ahead);
 void add_topics(CLI::App& app, TopicsArguments& topics);
 void add_play(CLI::App& app, PlayArguments& play);
 void add_live(CLI::App& app, LiveArguments& live);
@@ -155,6 +156,7 @@ void check_tune(const CLI::App& app, TuneArguments& tune);
 void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate);
 void check_view(const CLI::App& app, ViewArguments& view);
 void check_view_planning(const CLI::App& app, ViewPlanningArguments& planning);
+void check_look_ahead(const CLI::App& app, LookAheadArguments& ahead);
 void check_live(const CLI::App& app, const LiveArguments& live);
 
 }  // namespace penumbra::app

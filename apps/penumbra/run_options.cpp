@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <map>
 
 #include <penumbra/base/error.hpp>
@@ -287,6 +289,30 @@ void add_view_planning(CLI::App& app, ViewPlanningArguments& planning) {
   add_bag(app, input.bag);
 }
 
+void add_look_ahead(CLI::App& app, LookAheadArguments& ahead) {
+  app.footer(look_ahead_examples);
+  io::InputOptions& input = ahead.input.input;
+  add_input(app, input);
+  add_list(
+      app, "--trajectory",
+      "a planned motion: *.csv with time,JOINT,..., or a message in YAML or JSON; may be given "
+      "several times: they are ranked",
+      "FILE", [&](const std::string& file) { ahead.input.trajectories.emplace_back(file); })
+      ->required();
+  add_text(app, "--targets", "what to keep in view; default: the recording's", "YAML",
+           ahead.input.targets);
+  add_number<std::int64_t>(app, "--from",
+                           "frame in which the motion begins; default: the first with joints", "N",
+                           ahead.input.from, 0, std::numeric_limits<std::int64_t>::max() - 1);
+  add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", ahead.output);
+  add_number(app, "--threads", "default: one per core; results do not depend on it", "N",
+             ahead.threads, 1, RendererOptions::max_threads);
+  add_geometry(app, input.geometry, "the recording's, else collision");
+  add_extra(app, input.extra);
+  add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
+  add_bag(app, input.bag);
+}
+
 void add_run(CLI::App& app, RunArguments& run) {
   app.footer(run_examples);
   add_path(app, run.session.input);
@@ -337,6 +363,12 @@ void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate) {
 void check_view_planning(const CLI::App& app, ViewPlanningArguments& planning) {
   check_input(app, planning.input.input);
   if (!planning.input.input.bag.target_topics.empty())
+    throw InputError("--target-topic: targets come from the file of --targets; leave it out");
+}
+
+void check_look_ahead(const CLI::App& app, LookAheadArguments& ahead) {
+  check_input(app, ahead.input.input);
+  if (!ahead.input.input.bag.target_topics.empty())
     throw InputError("--target-topic: targets come from the file of --targets; leave it out");
 }
 

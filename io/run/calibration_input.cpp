@@ -63,7 +63,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   const auto source = input.frames(robot);
   Frame frame;
   CalibrationFrames resting, all;
-  Trajectory trajectory;
+  StampedPoses trajectory;
   std::map<std::size_t, std::int64_t> stamps;
   Speed speed;
   std::size_t seen = 0, faulty = 0;

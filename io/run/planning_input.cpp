@@ -8,12 +8,12 @@
 #include <io/run/planning_input.hpp>
 
 namespace penumbra::io {
-namespace {
 
-TargetsFile open_planned_targets(const PlanningOptions& options, const RunInput& input) {
-  const auto& file = options.targets ? options.targets : input.targets;
-  if (!file)
-    throw InputError(options.input.path.string() + ": has no targets; give a file with --targets");
+TargetsFile open_planned_targets(const std::filesystem::path& path,
+                                 const std::optional<std::filesystem::path>& given,
+                                 const RunInput& input) {
+  const auto& file = given ? given : input.targets;
+  if (!file) throw InputError(path.string() + ": has no targets; give a file with --targets");
   TargetsFile targets =
       TargetsFile::open(*file, {.robot = input.robot,
                                 .image = ImageSpace::raw,
@@ -24,6 +24,8 @@ TargetsFile open_planned_targets(const PlanningOptions& options, const RunInput&
   if (targets.size() == 0) throw InputError(file->string() + ": has no targets");
   return targets;
 }
+
+namespace {
 
 /// Places a shape that is given in the camera's frame.
 struct PlacedInRoot {
@@ -81,7 +83,7 @@ std::string why_without_pose(const RobotPose& pose, const Robot& robot) {
 PlanningInput read_planning_input(const PlanningOptions& options, const LineSink& print,
                                   const std::function<void()>& step) {
   RunInput opened = open_input(options.input, print);
-  TargetsFile targets = open_planned_targets(options, opened);
+  TargetsFile targets = open_planned_targets(options.input.path, options.targets, opened);
   std::vector<CameraCandidate> candidates = read_candidates(options.candidates, opened.robot);
   PlanningInput read{.input = std::move(opened),
                      .targets = std::move(targets),

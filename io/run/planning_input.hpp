@@ -32,6 +32,12 @@ struct PlanningInput {
   std::vector<std::string> notes;   ///< a line each
 };
 
+/// Opens the targets of a file or, without one, of the input at `path`. Throws InputError if there
+/// are none.
+[[nodiscard]] TargetsFile open_planned_targets(const std::filesystem::path& path,
+                                               const std::optional<std::filesystem::path>& given,
+                                               const RunInput& input);
+
 /// Reads an input's poses and targets, not its depth. Targets in the camera's frame are placed by
 /// the input's camera. Calls `step` after each frame. Throws InputError that names the file, also
 /// for targets in pixels and if the robot's pose is known in no frame; other frames' faults are

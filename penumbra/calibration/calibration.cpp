@@ -363,7 +363,7 @@ class Calibrator {
 
 }  // namespace
 
-std::vector<NearbyPoses> nearby_poses(const Trajectory& trajectory, std::int64_t stamp) {
+std::vector<NearbyPoses> nearby_poses(const StampedPoses& trajectory, std::int64_t stamp) {
   std::vector<NearbyPoses> found;
   for (const auto& [time, poses] : trajectory) {
     const double seconds = 1e-9 * static_cast<double>(time - stamp);

@@ -25,11 +25,11 @@ struct NearbyPoses {
 };
 
 /// The links' poses in the root at stamps (ns), in any order.
-using Trajectory = std::vector<std::pair<std::int64_t, std::vector<Eigen::Isometry3d>>>;
+using StampedPoses = std::vector<std::pair<std::int64_t, std::vector<Eigen::Isometry3d>>>;
 
 /// Returns the poses up to 0.15 s before and after an image's stamp; none if they reach less than
 /// 0.1 s.
-[[nodiscard]] std::vector<NearbyPoses> nearby_poses(const Trajectory& trajectory,
+[[nodiscard]] std::vector<NearbyPoses> nearby_poses(const StampedPoses& trajectory,
                                                     std::int64_t stamp);
 
 /// What calibration needs of a frame.

@@ -56,15 +56,25 @@ DepthRenderer::DepthRenderer(const Intrinsics& intrinsics, std::span<const Body>
 }
 
 VirtualDepthView DepthRenderer::render(std::span<const Eigen::Isometry3d> T_camera_body) {
+  return render(T_camera_body, {0, 0, intrinsics_.width(), intrinsics_.height()});
+}
+
+VirtualDepthView DepthRenderer::render(std::span<const Eigen::Isometry3d> T_camera_body,
+                                       const PixelRectangle& window) {
   if (pending_ > 0) {
     throw std::logic_error("render: " + std::to_string(pending_) +
                            " submitted frames are not collected yet");
   }
-  submit(T_camera_body);
+  submit(T_camera_body, window);
   return collect();
 }
 
 void DepthRenderer::submit(std::span<const Eigen::Isometry3d> T_camera_body) {
+  submit(T_camera_body, {0, 0, intrinsics_.width(), intrinsics_.height()});
+}
+
+void DepthRenderer::submit(std::span<const Eigen::Isometry3d> T_camera_body,
+                           const PixelRectangle& window) {
   if (T_camera_body.size() != body_count_) {
     throw std::logic_error("submit: " + std::to_string(T_camera_body.size()) + " poses for " +
                            std::to_string(body_count_) + " bodies");
@@ -73,7 +83,7 @@ void DepthRenderer::submit(std::span<const Eigen::Isometry3d> T_camera_body) {
     throw std::logic_error("submit: " + std::to_string(pending_) +
                            " frames are pending, the most there may be: collect one first");
   }
-  do_submit(T_camera_body);
+  do_submit(T_camera_body, window);
   ++pending_;
 }
 

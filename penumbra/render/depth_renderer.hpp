@@ -14,6 +14,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/mesh/prepared_mesh.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
 
 namespace penumbra {
 
@@ -66,12 +67,17 @@ class DepthRenderer {
   /// submit() and collect() in one. The view's link image holds body index + 1. Throws
   /// std::logic_error while earlier frames are pending.
   [[nodiscard]] VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_body);
+  /// The same where only a window's pixels matter, which saves time: other pixels may lack what is
+  /// there.
+  [[nodiscard]] VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_body,
+                                        const PixelRectangle& window);
 
   /// Begins a frame, for collect() to wait for; the caller may do other things meanwhile. The poses
   /// need only live during the call. Throws std::logic_error if max_pending() frames are pending or
   /// the poses are not as many as the bodies, and DeviceError if the graphics device fails or has
   /// failed: make a new renderer.
   void submit(std::span<const Eigen::Isometry3d> T_camera_body);
+  void submit(std::span<const Eigen::Isometry3d> T_camera_body, const PixelRectangle& window);
 
   /// The oldest pending frame; frames come in the order of submission. The view of the n-th frame
   /// is valid until frame n + max_pending() is submitted or rendered. Throws std::logic_error if no
@@ -92,7 +98,8 @@ class DepthRenderer {
  protected:
   DepthRenderer(const Intrinsics& intrinsics, std::span<const Body> bodies, RendererInfo info,
                 int max_pending = 1);
-  virtual void do_submit(std::span<const Eigen::Isometry3d> T_camera_body) = 0;
+  virtual void do_submit(std::span<const Eigen::Isometry3d> T_camera_body,
+                         const PixelRectangle& window) = 0;
   virtual VirtualDepthView do_collect() = 0;
 
  private:

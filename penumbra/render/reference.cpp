@@ -37,7 +37,8 @@ class ReferenceRenderer final : public DepthRenderer {
   }
 
  private:
-  void do_submit(std::span<const Isometry3d> T_camera_body) override {
+  void do_submit(std::span<const Isometry3d> T_camera_body,
+                 const PixelRectangle& /*window*/) override {
     std::fill_n(depth_.data(), depth_.size(), 0.0F);
     std::fill_n(links_.data(), links_.size(), std::uint16_t{0});
     std::fill(touched_.rows.begin(), touched_.rows.end(), std::uint64_t{0});

@@ -5,6 +5,7 @@
 #include <penumbra/camera/registration.hpp>
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/scene/look_ahead.hpp>
 #include <penumbra/scene/target_fusion.hpp>
 #include <penumbra/time/pose_history.hpp>
 #include <penumbra/tracking/trackers.hpp>
@@ -20,9 +21,11 @@ extern penumbra::Camera depth_camera, colour_camera;
 extern penumbra::Frame frame, left_frame, right_frame;
 extern penumbra::DepthView depth;
 extern penumbra::Verdict verdict;
-extern Eigen::Isometry3d T_parent_child, T_colour_depth, T_base_object;
+extern Eigen::Isometry3d T_parent_child, T_colour_depth, T_base_object, T_root_camera;
 extern std::vector<std::string> names;
-extern std::vector<double> positions;
+extern std::vector<double> positions, configurations;
+extern std::vector<penumbra::TrajectoryPoint> points;
+extern std::vector<penumbra::ForecastTarget> targets;
 extern std::string parent, child;
 extern std::int64_t stamp, now, image_stamp, clock_now;
 extern std::shared_ptr<const void> owner;

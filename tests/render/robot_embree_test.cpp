@@ -87,6 +87,29 @@ TEST_P(RobotAgainstEmbree, RandomPosesAndCameras) {
   }
 }
 
+TEST_P(RobotAgainstEmbree, AWindowShowsWhatTheWholeImageShows) {
+  PENUMBRA_REQUIRE_DATA();
+  const Robot robot = load_robot(GetParam().name, GetParam().geometry);
+  std::mt19937_64 random = seeded_random(102);
+  const std::vector<Body> bodies = link_bodies(robot);
+  const Intrinsics intrinsics = random_intrinsics(random, 320, 240);
+  for (const BackendChoice& choice : usable_backend_choices(1)) {
+    const auto whole = make(choice, intrinsics, bodies), part = make(choice, intrinsics, bodies);
+    for (int view = 0; view < views_per_camera; ++view) {
+      const auto poses = random_view(random, robot, bodies, intrinsics, kind_of(view));
+      const int u0 = static_cast<int>(random() % 300), v0 = static_cast<int>(random() % 220);
+      const PixelRectangle window{u0, v0, std::min(u0 + 60, 320), std::min(v0 + 40, 240)};
+      const VirtualDepthView expected = whole->render(poses), seen = part->render(poses, window);
+      std::size_t different = 0;
+      for (int v = window.v0; v < window.v1; ++v)
+        for (int u = window.u0; u < window.u1; ++u)
+          different +=
+              seen.depth(u, v) != expected.depth(u, v) || seen.links(u, v) != expected.links(u, v);
+      EXPECT_EQ(different, 0U);
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Robots, RobotAgainstEmbree,
                          ::testing::Values(RobotCase{"ur5e", Geometry::collision},
                                            RobotCase{"ur5e", Geometry::visual},

@@ -73,7 +73,9 @@ class CpuRenderer final : public DepthRenderer {
   }
 
  private:
-  void do_submit(std::span<const Eigen::Isometry3d> T_camera_body) override {
+  void do_submit(std::span<const Eigen::Isometry3d> T_camera_body,
+                 const PixelRectangle& window) override {
+    view_.look_at(window);
     frames_.clear();
     for (const Eigen::Isometry3d& T : T_camera_body) {
       frames_.emplace_back(T, intrinsics(), numbers_.of_body[frames_.size()]);

@@ -17,6 +17,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/render/clusters.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
 #include <penumbra/render/triangle_groups.hpp>
 
 namespace penumbra::cpu {
@@ -40,7 +41,8 @@ inline constexpr int block_width = 4;  // pixels; a block is one vector: 4 x (la
 
 /// A side of the view as a plane through the camera's centre: inside, s across + t z >= 0.
 struct ViewSide {
-  float s, t;
+  float s = 0.0F, t = 0.0F;
+  ViewSide() = default;
   ViewSide(double sign, double tangent)
       : s(static_cast<float>(sign / std::hypot(1.0, tangent))),
         t(static_cast<float>(tangent / std::hypot(1.0, tangent))) {}
@@ -51,16 +53,23 @@ struct ViewSide {
 struct View {
   explicit View(const Intrinsics& k)
       : intrinsics(k),
-        left(1.0, (k.cx() + 1.0) / k.fx()),
-        right(-1.0, (k.width() - k.cx()) / k.fx()),
-        top(1.0, (k.cy() + 1.0) / k.fy()),
-        bottom(-1.0, (k.height() - k.cy()) / k.fy()),
         guard_u(2048.0 + std::abs(k.cx()) + k.width()),
-        guard_v(2048.0 + std::abs(k.cy()) + k.height()) {}
+        guard_v(2048.0 + std::abs(k.cy()) + k.height()) {
+    look_at({0, 0, k.width(), k.height()});
+  }
+
+  /// Sets the sides of the window that matters.
+  void look_at(const PixelRectangle& window) {
+    const Intrinsics& k = intrinsics;
+    left = {1.0, (k.cx() - window.u0 + 1.0) / k.fx()};
+    right = {-1.0, (window.u1 - k.cx()) / k.fx()};
+    top = {1.0, (k.cy() - window.v0 + 1.0) / k.fy()};
+    bottom = {-1.0, (window.v1 - k.cy()) / k.fy()};
+  }
 
   Intrinsics intrinsics;
-  ViewSide left, right, top, bottom;  // one pixel outside of the image
-  double guard_u, guard_v;            // pixels from the principal point
+  ViewSide left{}, right{}, top{}, bottom{};  // one pixel outside of the window
+  double guard_u, guard_v;                    // pixels from the principal point
 };
 
 /// A body's pose as the kernel needs it.

@@ -45,7 +45,8 @@ class GlRenderer final : public DepthRenderer {
     throw DeviceError(failure_ + "; a new renderer is needed");
   }
 
-  void do_submit(std::span<const Eigen::Isometry3d> T_camera_body) override {
+  void do_submit(std::span<const Eigen::Isometry3d> T_camera_body,
+                 const PixelRectangle& /*window*/) override {
     guarded([&] {
       const EglContext::Current current(*context_);
       const PixelRectangle seen = drawing_.scene.place(T_camera_body, next_);

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/text.hpp>
+#include <io/files/result_folder.hpp>
+#include <io/run/look_ahead_input.hpp>
+#include <io/web/look_ahead_page.hpp>
+#include <io/web/moment_painter.hpp>
+
+namespace penumbra::app {
+namespace {
+
+std::string seconds(const std::optional<double>& time) {
+  return time ? fixed(*time, 2) + " s" : "-";
+}
+
+std::vector<std::string> row_of(const std::string& target, const std::string& camera,
+                                const CameraForecast& forecast) {
+  const auto worst = std::ranges::max_element(forecast.intervals, {}, &VerdictInterval::hidden);
+  double hidden = 0.0;
+  for (const VerdictInterval& each : forecast.intervals)
+    if (each.verdict == Verdict::hidden) hidden += each.end - each.begin;
+  return {target,
+          camera,
+          std::string(to_string(forecast.intervals.front().verdict)),
+          seconds(forecast.hidden_at()),
+          hidden > 0.0 ? fixed(hidden, 2) + " s" : "-",
+          fixed(100.0 * worst->hidden, 0) + " %",
+          worst->by.empty() ? "-" : worst->by,
+          seconds(forecast.seen_again_at())};
+}
+
+void print_motion(const io::LookAheadResult& result, const io::MotionForecast& motion) {
+  std::cout << motion.name << ": " << fixed(motion.duration, 2) << " s\n";
+  std::vector<std::vector<std::string>> rows{{"target", "camera", "at first", "hidden in",
+                                              "hidden for", "most hidden", "by", "seen again in"}};
+  for (const TargetForecast& target : motion.targets) {
+    for (std::size_t c = 0; c < result.cameras.size(); ++c)
+      rows.push_back(row_of(target.name,
+                            result.cameras[c].name.empty() ? "-" : result.cameras[c].name,
+                            target.cameras[c]));
+    if (result.cameras.size() > 1) rows.push_back(row_of(target.name, "any", target.any));
+  }
+  print_table(std::move(rows));
+}
+
+/// The first reason for an unknown verdict of each motion.
+void add_unknown(const std::vector<io::MotionForecast>& motions, std::vector<std::string>& notes) {
+  for (const io::MotionForecast& motion : motions)
+    for (const TargetForecast& target : motion.targets) {
+      const auto unknown =
+          std::ranges::find(target.any.intervals, Verdict::unknown, &VerdictInterval::verdict);
+      if (unknown != target.any.intervals.end())
+        notes.push_back(motion.name + ": '" + target.name + "' is unknown from " +
+                        fixed(unknown->begin, 2) + " to " + fixed(unknown->end, 2) +
+                        " s: " + unknown->reason);
+    }
+}
+
+}  // namespace
+
+int execute(const LookAheadArguments& arguments) {
+  std::optional<io::ResultFolder> folder;
+  if (!arguments.output.empty())
+    folder.emplace(io::ResultFolderOptions{.path = arguments.output,
+                                           .report = {"look_ahead.json", io::json_begin},
+                                           .others = {{"report.html", io::page_begin}}});
+  io::LookAheadInput input = io::read_look_ahead_input(arguments.input, print_line);
+  if (folder) folder->remove_former();
+  LookAheadConfig config;
+  config.threads = arguments.threads.value_or(
+      std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+  LookAhead ahead(input.robot, input.cameras, input.targets, input.pose, config);
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<io::MotionForecast> motions;
+  for (const io::NamedTrajectory& each : input.trajectories)
+    motions.push_back({each.name, each.trajectory.duration(), ahead.along(each.trajectory)});
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  std::vector<std::vector<TargetForecast>> forecasts;
+  std::vector<double> durations;
+  for (const io::MotionForecast& motion : motions) {
+    forecasts.push_back(motion.targets);
+    durations.push_back(motion.duration);
+  }
+  const std::vector<RankedMotion> ranking = rank(forecasts, durations);
+  add_unknown(motions, input.notes);
+  const io::LookAheadResult result{.input = arguments.input.input.path.string(),
+                                   .frame = input.frame,
+                                   .cameras = input.cameras,
+                                   .now = input.now,
+                                   .motions = motions,
+                                   .ranking = ranking,
+                                   .notes = input.notes};
+  print_notes(input.notes);
+  for (const io::MotionForecast& motion : motions) print_motion(result, motion);
+  if (motions.size() > 1) {
+    std::vector<std::vector<std::string>> rows{{"motion", "targets seen", "what costs most"}};
+    for (const RankedMotion& each : ranking)
+      rows.push_back({motions[each.trajectory].name, fixed(100.0 * each.seen, 1) + " %",
+                      each.reason.empty() ? "-" : each.reason});
+    print_table(std::move(rows));
+  }
+  std::cout << "looked ahead in " << fixed(1e3 * elapsed.count(), 1) << " ms\n";
+  if (!folder) return 0;
+  std::vector<std::vector<io::MomentPicture>> pictures;
+  io::MomentPainter painter(input.robot, input.cameras.front(), input.color.view(), input.targets,
+                            input.pose);
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    pictures.push_back(painter.pictures(input.trajectories[i].trajectory, motions[i].targets));
+  folder->add_text("report.html", io::look_ahead_page(result, pictures));
+  folder->add_text("look_ahead.json", io::look_ahead_json(result) + "\n");
+  folder->finish();
+  return 0;
+}
+
+}  // namespace penumbra::app

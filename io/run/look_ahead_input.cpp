@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <sstream>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
+
+#include <io/files/trajectory_file.hpp>
+#include <io/run/look_ahead_input.hpp>
+#include <io/run/planning_input.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr double least_jump = 0.01;  // rad or m: what a robot at rest may differ by
+
+/// The first frame whose joint positions are known, or the given one.
+Frame find_frame(FrameSource& source, const Robot& robot, const LookAheadOptions& options) {
+  Frame frame;
+  std::string fault;
+  while (source.next(frame)) {
+    if (has_pose(frame.pose.status) && frame.pose.positions.size() == robot.variables().size())
+      return frame;
+    if (!fault.empty()) continue;
+    fault = "; frame " + std::to_string(frame.index.value_or(0)) + ": " +
+            (frame.pose.message.empty() && !frame.pose.T_root_link.empty() ? "poses come from TF"
+                                                                           : frame.pose.message);
+  }
+  throw InputError(options.input.path.string() + ": " +
+                   (options.from ? "the robot's joint positions are not known in frame " +
+                                       std::to_string(*options.from)
+                                 : "the robot's joint positions are known in no frame") +
+                   fault);
+}
+
+ForecastCamera camera_of(const RunInput& input, const RobotPose& pose, std::string name) {
+  return {.name = std::move(name),
+          .camera = input.camera,
+          .parent = input.config.camera_parent,
+          .T_parent_camera = pose.T_parent_camera.value_or(input.config.T_parent_camera),
+          .rule = input.config.rule};
+}
+
+/// What the camera measures of the targets in the frame.
+std::vector<TargetReport> judged(const RunInput& input, const Robot& robot, Frame frame) {
+  if (frame.source_status != FrameStatus::ok) return {};
+  for (Target& target : frame.targets) target.handling = {};
+  Pipeline pipeline(robot, input.camera, input.config);
+  const FrameReport& report = pipeline.process(frame);
+  if (!has_depth(report.status)) return {};
+  return {report.targets.begin(), report.targets.end()};
+}
+
+void add_trajectories(const std::filesystem::path& file, LookAheadInput& to) {
+  for (FileTrajectory& read : read_trajectories(file)) try {
+      const Trajectory& trajectory =
+          to.trajectories
+              .emplace_back(NamedTrajectory{
+                  read.name,
+                  Trajectory(to.robot, read.variables, std::move(read.points), to.pose.positions)})
+              .trajectory;
+      if (const Trajectory::Jump jump = trajectory.jump(); jump.by > least_jump) {
+        std::ostringstream note;
+        note << read.name << ": begins " << jump.by << " rad or m from where '"
+             << to.robot.variables()[jump.variable] << "' is in frame " << to.frame
+             << ": the robot is elsewhere than the plan assumes";
+        to.notes.push_back(note.str());
+      }
+      for (const std::string& line : trajectory.beyond_limits(to.robot))
+        to.notes.push_back(read.name + ": " + line);
+    } catch (const InputError& fault) {
+      throw InputError(file.string() + ": " + fault.what());
+    }
+}
+
+}  // namespace
+
+LookAheadInput read_look_ahead_input(const LookAheadOptions& options, const LineSink& print) {
+  InputOptions input = options.input;
+  input.with_color = true;
+  if (options.from) input.frames = {*options.from, *options.from + 1};
+  std::vector<std::string> names = cameras_of(input.path);
+  if (names.empty() || !input.camera.empty()) names = {input.camera};
+  std::optional<LookAheadInput> read;
+  for (const std::string& name : names) {
+    input.camera = name;
+    const RunInput opened = open_input(input, print);
+    const auto source = opened.frames(opened.robot);
+    Frame frame = find_frame(*source, opened.robot, options);
+    if (!read) {
+      read = LookAheadInput{
+          .robot = opened.robot, .frame = frame.index.value_or(0), .pose = frame.pose};
+      const TargetsFile targets = open_planned_targets(options.input.path, options.targets, opened);
+      frame.targets = targets.of_frame(static_cast<std::int64_t>(read->frame));
+      for (const Target& target : frame.targets)
+        if (target.fault.empty())
+          read->targets.push_back({.target = target});
+        else
+          read->notes.push_back("target '" + target.name + "': " + target.fault);
+      const ImageView<const Rgb8> color = frame.color.view;
+      if (!color.empty()) {
+        read->color = Image<Rgb8>(color.width, color.height);
+        for (int v = 0; v < color.height; ++v)
+          std::copy_n(color.row(v), color.width, read->color.view().row(v));
+      }
+      // Frames by number, so that each camera's is of the same time.
+      input.frames = {static_cast<std::int64_t>(read->frame),
+                      static_cast<std::int64_t>(read->frame) + 1};
+      read->now = judged(opened, opened.robot, frame);
+    }
+    read->cameras.push_back(camera_of(opened, frame.pose, name));
+  }
+  for (const std::filesystem::path& file : options.trajectories) add_trajectories(file, *read);
+  return std::move(*read);
+}
+
+}  // namespace penumbra::io

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/scene/look_ahead.hpp>
+
+#include <io/files/overlay_painter.hpp>
+#include <io/web/look_ahead_page.hpp>
+
+namespace penumbra::io {
+
+/// Draws the robot, as it will be, and the targets into the colour image of now.
+class MomentPainter {
+ public:
+  /// `color`: as the camera recorded it with the robot at `start`; empty: the picture is grey, as
+  /// it is once the camera has moved. Robot and targets must outlive this.
+  MomentPainter(const Robot& robot, const ForecastCamera& camera, ImageView<const Rgb8> color,
+                std::span<const ForecastTarget> targets, const RobotPose& start);
+
+  /// Returns pictures of the first camera where a target gets hidden, a few, and of the end.
+  [[nodiscard]] std::vector<MomentPicture> pictures(const Trajectory& trajectory,
+                                                    std::span<const TargetForecast> forecasts);
+
+ private:
+  [[nodiscard]] Image<Rgb8> draw(std::span<const double> positions,
+                                 std::span<const TargetForecast> forecasts, double time);
+
+  const Robot& robot_;
+  std::span<const ForecastTarget> targets_;
+  std::size_t parent_;
+  Eigen::Isometry3d T_parent_camera_, T_root_camera_;  // the latter at the start
+  std::vector<AttachedBody> attached_;
+  std::optional<Rectification> rectification_;
+  Camera camera_;  // of the pictures
+  Image<Rgb8> background_;
+  std::unique_ptr<DepthRenderer> renderer_;
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// One camera's prediction of targets, for one pose of the robot at a time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/labels/image_space-inl.hpp>
+#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/render/near_plane_check.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
+#include <penumbra/scene/look_ahead.hpp>
+#include <penumbra/targets/object_renderers-inl.hpp>
+#include <penumbra/targets/region_spans-inl.hpp>
+#include <penumbra/targets/target_judge.hpp>
+#include <penumbra/targets/target_views-inl.hpp>
+
+namespace penumbra::scene {
+
+/// A target in space at the start of a motion.
+struct AnchoredTarget {
+  Target target;  ///< its shape is not in the camera's frame
+  /// Of a region or key point whose depth is known: its outline in the root's frame, metres.
+  std::vector<Eigen::Vector3d> outline = {};
+  Eigen::Isometry3d T_root_camera = Eigen::Isometry3d::Identity();  ///< of the first camera
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< as ForecastTarget
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       ///< as ForecastTarget
+};
+
+/// Fixes a target in space as a camera on a given pose gives it.
+[[nodiscard]] AnchoredTarget anchored(const ForecastTarget& target, const Camera& camera,
+                                      const Eigen::Isometry3d& T_root_camera);
+
+/// Where something is in the image.
+struct SeenBody {
+  Eigen::Isometry3d T_camera_body;
+  PixelRectangle pixels;  ///< in which it may be seen
+};
+
+/// A time of the motion.
+struct Sample {
+  double time = 0.0;                    ///< seconds
+  std::vector<Prediction> predictions;  ///< by target
+  std::vector<PixelRectangle> targets;  ///< pixels of each, empty if it is not in the image
+  std::vector<SeenBody> bodies;         ///< links, then attached bodies; empty if not known
+};
+
+class CameraPredictor {
+ public:
+  /// Robot and targets must outlive this. `start`: what links carry, and links whose pose is not
+  /// known. `clearance`: as LookAheadConfig.
+  CameraPredictor(const Robot& robot, const ForecastCamera& camera,
+                  std::span<const AnchoredTarget> targets, const RobotPose& start, int clearance);
+
+  /// Judges all targets at a time of the motion, with the robot at `positions`.
+  [[nodiscard]] Sample at(double time, std::span<const double> positions);
+
+  /// Returns the pixels by which a part of a body moves at most from one sample to another.
+  [[nodiscard]] double motion_of(std::size_t body, const Sample& a, const Sample& b) const;
+
+ private:
+  struct Part {
+    std::string name;
+    Eigen::AlignedBox3d bounds;  // in its frame; empty if it is not drawn
+  };
+  struct Shown {
+    TargetView view;
+    double depth = 0.0;  // of its middle, metres; infinite: not known
+  };
+
+  void place_bodies(const PoseResult& poses, Sample& sample);
+  [[nodiscard]] Prediction judge(std::size_t target, const PoseResult& poses, Sample& sample);
+  [[nodiscard]] std::optional<Shown> show(std::size_t target, const PoseResult& poses, double time);
+  void move(std::size_t target, double time);
+  void draw(bool is_near, const PixelRectangle& window, const PixelRectangle& region);
+  [[nodiscard]] static std::size_t index(const PixelRectangle& window, int u, int v) {
+    return static_cast<std::size_t>(v - window.v0) * static_cast<std::size_t>(window.width()) +
+           static_cast<std::size_t>(u - window.u0);
+  }
+  [[nodiscard]] double clearance(const Shown& shown, const PixelRectangle& window);
+  void mark_blocked(const Shown& shown, const PixelRectangle& window);
+  [[nodiscard]] double free_distance(const PixelRectangle& window) const;
+  [[nodiscard]] double hidden_depth(const PixelRectangle& window);
+
+  const Robot& robot_;
+  std::span<const AnchoredTarget> anchored_;
+  std::vector<Target> targets_;           // at the sample's time
+  std::vector<Eigen::Vector3d> outline_;  // of the target that was moved last
+  std::optional<Rectification> rectification_;
+  std::optional<UncoveredPixels> uncovered_;
+  Camera camera_;  // of the rectified images
+  int clearance_;
+  LabelRule rule_;
+  labelling::Rule label_rule_;
+  RobotPose pose_;
+  PoseStage poses_;
+  std::vector<Part> parts_;
+  std::unique_ptr<DepthRenderer> renderer_;
+  NearPlaneCheck near_plane_;
+  std::vector<Eigen::Isometry3d> T_camera_body_;
+  std::string unknown_reason_;  // why what seems to be seen may be hidden; empty: it is seen
+  std::string always_unknown_;
+  ObjectRenderers objects_;
+  TargetViews views_;
+  TargetJudge judge_;
+  SeenPixels seen_pixels_;
+  RegionSpans spans_;
+  VirtualDepthView drawn_;
+  Image<std::uint8_t> labels_;
+  std::vector<std::uint8_t> blocked_;  // of a window: the robot could hide the target there
+  std::vector<std::int16_t> columns_;  // of a window: rows to the nearest pixel that is not blocked
+};
+
+}  // namespace penumbra::scene

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <iomanip>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/robot/drawn_links-inl.hpp>
+#include <penumbra/scene/camera_predictor-inl.hpp>
+#include <penumbra/scene/look_ahead.hpp>
+
+namespace penumbra {
+namespace {
+
+using scene::AnchoredTarget;
+using scene::CameraPredictor;
+using scene::Sample;
+
+constexpr double least_step = 0.001;  // seconds
+
+void check(const LookAheadConfig& config) {
+  const auto fault = [](const std::string& what) { throw InputError("look-ahead: " + what); };
+  if (config.threads < 1 || config.threads > RendererOptions::max_threads)
+    fault("threads is " + std::to_string(config.threads) + "; expected 1 to " +
+          std::to_string(RendererOptions::max_threads));
+  for (const auto& [name, value] :
+       {std::pair("step", config.step), {"motion", config.motion}, {"border", config.border}})
+    if (!(std::isfinite(value) && value >= least_step))
+      fault(std::string(name) + " is " + std::to_string(value) + "; expected 0.001 or more");
+  if (config.clearance < 1 || config.clearance > 1000)
+    fault("clearance is " + std::to_string(config.clearance) + " pixels; expected 1 to 1000");
+}
+
+/// Calls work(thread, index) for each index below `count`, on some threads.
+void parallel_for(int threads, std::size_t count,
+                  const std::function<void(std::size_t, std::size_t)>& work) {
+  std::atomic<std::size_t> next = 0;
+  const auto take = [&](std::size_t thread) {
+    for (std::size_t i = next++; i < count; i = next++) work(thread, i);
+  };
+  std::vector<std::future<void>> others;
+  for (std::size_t i = 1; i < std::min(static_cast<std::size_t>(threads), count); ++i)
+    others.push_back(std::async(std::launch::async, take, i));
+  take(0);
+  for (std::future<void>& other : others) other.get();
+}
+
+/// One camera's samples of a part of a motion.
+class Sampler {
+ public:
+  Sampler(CameraPredictor& judge, const Trajectory& trajectory, const LookAheadConfig& config,
+          std::size_t variables)
+      : judge_(judge), trajectory_(trajectory), config_(config), positions_(variables) {}
+
+  /// Returns samples from step `first` to `last` of the motion's `steps`, both included, as close
+  /// as the motion asks.
+  std::vector<Sample> between(std::size_t first, std::size_t last, std::size_t steps) {
+    const auto time = [&](std::size_t step) {
+      return steps == 0
+                 ? 0.0
+                 : trajectory_.duration() * static_cast<double>(step) / static_cast<double>(steps);
+    };
+    samples_.push_back(at(time(first)));
+    for (std::size_t i = first + 1; i <= last; ++i) {
+      Sample next = at(time(i));
+      const Sample before = samples_.back();
+      refine(before, next);
+      samples_.push_back(std::move(next));
+    }
+    return std::move(samples_);
+  }
+
+ private:
+  Sample at(double time) {
+    trajectory_.at(time, positions_);
+    return judge_.at(time, positions_);
+  }
+
+  /// Adds what is needed between two samples.
+  void refine(const Sample& a, const Sample& b) {
+    const double apart = b.time - a.time;
+    const bool is_wanted = apart > config_.border && differ(a, b);
+    if (!is_wanted && !(apart > least_step && moves_far(a, b))) return;
+    Sample middle = at(0.5 * (a.time + b.time));
+    refine(a, middle);
+    samples_.push_back(middle);
+    refine(middle, b);
+  }
+
+  static bool differ(const Sample& a, const Sample& b) {
+    return !std::ranges::equal(a.predictions, b.predictions, {}, &Prediction::verdict,
+                               &Prediction::verdict);
+  }
+
+  /// Whether a target, or a part of the robot next to it, moves by too much of the target's size.
+  [[nodiscard]] bool moves_far(const Sample& a, const Sample& b) const {
+    if (a.bodies.empty() || b.bodies.empty()) return false;
+    std::vector<double> motions;
+    for (std::size_t body = 0; body < a.bodies.size(); ++body)
+      motions.push_back(a.bodies[body].pixels.empty() && b.bodies[body].pixels.empty()
+                            ? 0.0
+                            : judge_.motion_of(body, a, b));
+    for (std::size_t i = 0; i < a.targets.size(); ++i) {
+      const PixelRectangle &from = a.targets[i], &to = b.targets[i];
+      if (from.empty() || to.empty()) continue;
+      const double most = std::max(
+          1.0, config_.motion * std::min({from.width(), from.height(), to.width(), to.height()}));
+      if (std::max(std::abs(from.u0 + from.u1 - to.u0 - to.u1),
+                   std::abs(from.v0 + from.v1 - to.v0 - to.v1)) > 2.0 * most)
+        return true;
+      for (std::size_t body = 0; body < motions.size(); ++body) {
+        if (motions[body] <= most) continue;
+        const auto by = static_cast<int>(std::min(motions[body], 1e6));
+        PixelRectangle swept = a.bodies[body].pixels.united(b.bodies[body].pixels);
+        swept = {swept.u0 - by, swept.v0 - by, swept.u1 + by, swept.v1 + by};
+        if (!overlap(swept, from.united(to)).empty()) return true;
+      }
+    }
+    return false;
+  }
+
+  CameraPredictor& judge_;
+  const Trajectory& trajectory_;
+  const LookAheadConfig& config_;
+  std::vector<double> positions_;
+  std::vector<Sample> samples_;
+};
+
+/// Adds an interval, or extends the last one of the same verdict.
+void add(std::vector<VerdictInterval>& intervals, VerdictInterval next) {
+  if (intervals.empty() || intervals.back().verdict != next.verdict) {
+    intervals.push_back(std::move(next));
+    return;
+  }
+  VerdictInterval& last = intervals.back();
+  last.end = next.end;
+  last.seen += next.seen;
+  if (next.hidden > last.hidden || last.by.empty()) {
+    last.hidden = std::max(last.hidden, next.hidden);
+    last.by = std::move(next.by);
+  }
+}
+
+/// The less the more of a target is seen.
+int order_of(Verdict verdict) {
+  constexpr std::array order = {Verdict::held,    Verdict::visible, Verdict::partial,
+                                Verdict::unknown, Verdict::hidden,  Verdict::out_of_view};
+  return static_cast<int>(std::ranges::find(order, verdict) - order.begin());
+}
+
+bool is_seen(Verdict verdict) { return order_of(verdict) <= order_of(Verdict::partial); }
+
+std::vector<VerdictInterval> intervals_of(const CameraForecast& forecast) {
+  std::vector<VerdictInterval> intervals;
+  for (std::size_t i = 0; i < forecast.times.size(); ++i) {
+    const Prediction& prediction = forecast.predictions[i];
+    const bool is_last = i + 1 == forecast.times.size();
+    const double begin = i == 0 ? 0.0 : 0.5 * (forecast.times[i - 1] + forecast.times[i]);
+    const double end =
+        is_last ? forecast.times[i] : 0.5 * (forecast.times[i] + forecast.times[i + 1]);
+    const double seen =
+        is_seen(prediction.verdict) ? (1.0 - prediction.hidden) * (end - begin) : 0.0;
+    add(intervals, {begin, end, prediction.verdict, prediction.hidden, seen, prediction.by,
+                    prediction.reason});
+  }
+  return intervals;
+}
+
+/// What the camera that sees most sees.
+std::vector<VerdictInterval> together(const std::vector<CameraForecast>& cameras) {
+  std::set<double> borders;
+  for (const CameraForecast& camera : cameras)
+    for (const VerdictInterval& each : camera.intervals) borders.insert({each.begin, each.end});
+  std::vector<VerdictInterval> intervals;
+  std::vector<std::size_t> at(cameras.size());  // of each camera's intervals
+  for (auto border = borders.begin(); border != borders.end(); ++border) {
+    const auto next = std::next(border);
+    if (next == borders.end() && borders.size() > 1) break;
+    VerdictInterval best;
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      const auto& all = cameras[c].intervals;
+      while (at[c] + 1 < all.size() && all[at[c]].end <= *border) ++at[c];
+      const VerdictInterval& each = all[at[c]];
+      if (c == 0 || std::pair(order_of(each.verdict), each.hidden) <
+                        std::pair(order_of(best.verdict), best.hidden))
+        best = each;
+    }
+    const double length = best.end - best.begin;
+    best.begin = *border;
+    best.end = next == borders.end() ? *border : *next;
+    if (length > 0.0) best.seen *= (best.end - best.begin) / length;
+    add(intervals, std::move(best));
+  }
+  return intervals;
+}
+
+std::string reason_of(std::span<const TargetForecast> forecasts) {
+  const TargetForecast* of = nullptr;
+  const VerdictInterval* worst = nullptr;
+  const auto cost = [](const VerdictInterval& each) {
+    constexpr double out_of_view = 1e-3;  // it is named if nothing else costs
+    return (each.verdict == Verdict::out_of_view ? out_of_view : 1.0) *
+           (each.end - each.begin - each.seen);
+  };
+  for (const TargetForecast& forecast : forecasts)
+    for (const VerdictInterval& each : forecast.any.intervals)
+      if (cost(each) > (worst == nullptr ? 1e-6 : cost(*worst))) of = &forecast, worst = &each;
+  if (worst == nullptr) return {};
+  std::ostringstream line;
+  line << std::fixed << std::setprecision(2) << "'" << of->name << "' is "
+       << to_string(worst->verdict);
+  if (!worst->by.empty()) line << " behind '" << worst->by << "'";
+  line << " from " << worst->begin << " s, for " << worst->end - worst->begin << " s";
+  return line.str();
+}
+
+}  // namespace
+
+std::optional<double> CameraForecast::hidden_at() const {
+  const auto found = std::ranges::find(intervals, Verdict::hidden, &VerdictInterval::verdict);
+  return found == intervals.end() ? std::nullopt : std::optional(found->begin);
+}
+
+std::optional<double> CameraForecast::seen_again_at() const {
+  auto at = std::ranges::find(intervals, Verdict::hidden, &VerdictInterval::verdict);
+  at = std::find_if(at, intervals.end(), [](const auto& each) { return is_seen(each.verdict); });
+  return at == intervals.end() ? std::nullopt : std::optional(at->begin);
+}
+
+double CameraForecast::seen_for() const {
+  double seconds = 0.0;
+  for (const VerdictInterval& each : intervals) seconds += each.seen;
+  return seconds;
+}
+
+struct LookAhead::State {
+  /// The judge of a camera on a thread.
+  CameraPredictor& judge(std::size_t camera, std::size_t thread) {
+    std::unique_ptr<CameraPredictor>& made =
+        judges[camera * static_cast<std::size_t>(config.threads) + thread];
+    if (made == nullptr)
+      made = std::make_unique<CameraPredictor>(robot, cameras[camera], targets, start,
+                                               config.clearance);
+    return *made;
+  }
+
+  Robot robot;
+  std::vector<ForecastCamera> cameras;
+  LookAheadConfig config;
+  RobotPose start;
+  std::vector<AnchoredTarget> targets;
+  std::vector<std::unique_ptr<CameraPredictor>> judges;  // made when first used
+};
+
+LookAhead::LookAhead(const Robot& robot, std::vector<ForecastCamera> cameras,
+                     std::vector<ForecastTarget> targets, RobotPose start,
+                     const LookAheadConfig& config)
+    : state_(std::make_unique<State>(
+          State{robot, std::move(cameras), config, std::move(start), {}, {}})) {
+  check(config);
+  check_is_drawn(robot);
+  if (state_->cameras.empty()) throw InputError("look-ahead: no camera is given");
+  const ForecastCamera& first = state_->cameras.front();
+  std::vector<Eigen::Isometry3d> T_root_link(robot.links().size());
+  robot.forward_kinematics(state_->start.positions, T_root_link);
+  const Eigen::Isometry3d T_root_camera =
+      T_root_link[find_camera_parent(robot, first.parent)] * first.T_parent_camera;
+  for (const ForecastTarget& target : targets)
+    state_->targets.push_back(scene::anchored(target, first.camera, T_root_camera));
+  state_->judges.resize(state_->cameras.size() * static_cast<std::size_t>(config.threads));
+  for (std::size_t i = 0; i < state_->cameras.size(); ++i) static_cast<void>(state_->judge(i, 0));
+}
+LookAhead::~LookAhead() = default;
+LookAhead::LookAhead(LookAhead&&) noexcept = default;
+LookAhead& LookAhead::operator=(LookAhead&&) noexcept = default;
+
+std::vector<TargetForecast> LookAhead::along(const Trajectory& trajectory) {
+  State& s = *state_;
+  const auto threads = static_cast<std::size_t>(s.config.threads);
+  const auto steps = static_cast<std::size_t>(std::ceil(trajectory.duration() / s.config.step));
+  // Parts of equal length, several for each thread, since their cost differs.
+  constexpr std::size_t parts_of_thread = 4;
+  const std::size_t parts =
+      threads == 1 ? 1 : std::clamp<std::size_t>(parts_of_thread * threads, 1, steps + 1);
+  std::vector<std::vector<Sample>> samples(s.cameras.size() * parts);
+  parallel_for(s.config.threads, samples.size(), [&](std::size_t thread, std::size_t i) {
+    const std::size_t first = i % parts * steps / parts, last = (i % parts + 1) * steps / parts;
+    Sampler sampler(s.judge(i / parts, thread), trajectory, s.config, s.robot.variables().size());
+    samples[i] = sampler.between(first, last, steps);
+    if (i % parts > 0) samples[i].erase(samples[i].begin());  // the last part's last
+  });
+  std::vector<TargetForecast> forecasts;
+  for (std::size_t t = 0; t < s.targets.size(); ++t) {
+    TargetForecast& forecast = forecasts.emplace_back();
+    forecast.name = s.targets[t].target.name;
+    forecast.cameras.resize(s.cameras.size());
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      for (Sample& sample : samples[i]) {
+        forecast.cameras[i / parts].times.push_back(sample.time);
+        forecast.cameras[i / parts].predictions.push_back(std::move(sample.predictions[t]));
+      }
+    for (CameraForecast& camera : forecast.cameras) camera.intervals = intervals_of(camera);
+    forecast.any.intervals = together(forecast.cameras);
+  }
+  return forecasts;
+}
+
+std::vector<LookAhead::Seen> LookAhead::visibility(std::size_t camera,
+                                                   std::span<const double> positions) {
+  State& s = *state_;
+  const std::size_t variables = s.robot.variables().size();
+  if (camera >= s.cameras.size())
+    throw std::invalid_argument("there is no camera " + std::to_string(camera));
+  if (variables == 0 || positions.size() % variables != 0)
+    throw std::invalid_argument(std::to_string(positions.size()) +
+                                " positions are not whole rows of " + std::to_string(variables));
+  const std::size_t rows = positions.size() / variables, targets = s.targets.size();
+  std::vector<Seen> seen(rows * targets);
+  constexpr std::size_t block = 64;  // rows that a thread takes at once
+  parallel_for(
+      s.config.threads, (rows + block - 1) / block, [&](std::size_t thread, std::size_t i) {
+        CameraPredictor& judge = s.judge(camera, thread);
+        for (std::size_t row = i * block; row < std::min(rows, (i + 1) * block); ++row) {
+          const Sample sample = judge.at(0.0, positions.subspan(row * variables, variables));
+          for (std::size_t t = 0; t < targets; ++t) {
+            const Prediction& prediction = sample.predictions[t];
+            const bool is_known = prediction.verdict != Verdict::unknown &&
+                                  prediction.verdict != Verdict::out_of_view;
+            seen[row * targets + t] = {is_known ? static_cast<float>(prediction.hidden)
+                                                : std::numeric_limits<float>::quiet_NaN(),
+                                       static_cast<float>(prediction.clearance)};
+          }
+        }
+      });
+  return seen;
+}
+
+std::vector<RankedMotion> rank(std::span<const std::vector<TargetForecast>> forecasts,
+                               std::span<const double> durations) {
+  std::vector<RankedMotion> ranked;
+  for (std::size_t i = 0; i < forecasts.size(); ++i) {
+    double seen = 0.0;
+    for (const TargetForecast& forecast : forecasts[i])
+      seen += forecast.any.seen_for() / static_cast<double>(forecasts[i].size());
+    ranked.push_back({i, durations[i] > 0.0 ? seen / durations[i] : 0.0, reason_of(forecasts[i])});
+  }
+  std::ranges::stable_sort(ranked, [&](const RankedMotion& a, const RankedMotion& b) {
+    return a.seen != b.seen ? a.seen > b.seen : durations[a.trajectory] < durations[b.trajectory];
+  });
+  return ranked;
+}
+
+}  // namespace penumbra

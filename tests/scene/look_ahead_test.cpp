@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a motion will hide, against rays that Embree casts every millisecond.
+#include "../support/data.hpp"
+#include "../support/errors.hpp"
+#include "../support/random.hpp"
+#include "../support/run_length.hpp"
+#include "link_rays.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/scene/look_ahead.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr double truth_step = 0.001;  // seconds
+/// Rays through the middle of each pixel.
+constexpr int ray_step = 1;
+
+double uniform(std::mt19937_64& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+Camera forecast_camera() { return {Intrinsics(640, 480, 600, 600, 319.5, 239.5), {}, {}, {}}; }
+
+Eigen::Isometry3d looking_at(const Eigen::Vector3d& from, const Eigen::Vector3d& at) {
+  const Eigen::Vector3d z = (at - from).normalized();
+  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() << x, z.cross(x), z;
+  T.translation() = from;
+  return T;
+}
+
+/// A random motion of an arm before a camera, and boxes that stand behind places where it passes.
+struct Scene {
+  Scene(const Robot& robot_, std::mt19937_64& random) : robot(robot_) {
+    const std::vector<std::string> names(robot.variables().begin(), robot.variables().end());
+    std::vector<double> start = robot.rest_positions();
+    std::vector<TrajectoryPoint> points;
+    double time = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      TrajectoryPoint point{.time = time};
+      for (double& value : start) {
+        point.positions.push_back(i == 0 ? uniform(random, -1.5, 1.5)
+                                         : points.back().positions[point.positions.size()] +
+                                               uniform(random, -0.8, 0.8));
+        point.velocities.push_back(0.0);
+        point.accelerations.push_back(0.0);
+        value = point.positions.back();
+      }
+      if (i == 0) first = start;
+      points.push_back(std::move(point));
+      time += uniform(random, 0.3, 1.0);
+    }
+    trajectory.emplace(robot, names, std::move(points), first);
+    const double around = uniform(random, 0.0, 6.28), away = uniform(random, 1.2, 2.2);
+    T_root_camera =
+        looking_at({away * std::cos(around), away * std::sin(around), uniform(random, 0.2, 1.2)},
+                   {0.0, 0.0, uniform(random, 0.2, 0.5)});
+    const int count = std::uniform_int_distribution(1, 10)(random);
+    while (static_cast<int>(boxes.size()) < count) add_box(random);
+  }
+
+  void add_box(std::mt19937_64& random) {
+    std::vector<double> positions(robot.variables().size());
+    trajectory->at(uniform(random, 0.0, trajectory->duration()), positions);
+    std::vector<Eigen::Isometry3d> T(robot.links().size());
+    robot.forward_kinematics(positions, T);
+    const Eigen::Vector3d from = T_root_camera.translation();
+    const Eigen::Vector3d at = T[random() % T.size()].translation();
+    BoxTarget box;
+    box.frame = ReferenceFrame::root();
+    box.pose.translation() = at + uniform(random, 0.1, 0.6) * (at - from).normalized() +
+                             0.1 * Eigen::Vector3d(uniform(random, -1, 1), uniform(random, -1, 1),
+                                                   uniform(random, -1, 1));
+    box.pose.linear() = (Eigen::AngleAxisd(uniform(random, 0.0, 6.28), Eigen::Vector3d::UnitZ()) *
+                         Eigen::AngleAxisd(uniform(random, 0.0, 6.28), Eigen::Vector3d::UnitX()))
+                            .toRotationMatrix();
+    for (int i = 0; i < 3; ++i) box.size[i] = uniform(random, 0.04, 0.14);
+    boxes.push_back(box);
+  }
+
+  [[nodiscard]] std::vector<ForecastTarget> targets() const {
+    std::vector<ForecastTarget> all;
+    for (const BoxTarget& box : boxes)
+      all.push_back({.target = {.name = "box" + std::to_string(all.size()), .shape = box}});
+    return all;
+  }
+
+  const Robot& robot;
+  std::vector<double> first;
+  std::optional<Trajectory> trajectory;
+  Eigen::Isometry3d T_root_camera;
+  std::vector<BoxTarget> boxes;
+};
+
+/// A ray of the camera that meets a box, and the depth where it does.
+struct BoxRay {
+  Eigen::Vector3d direction;  // in the root's frame; z is 1 in the camera's
+  double z;
+};
+
+std::vector<BoxRay> rays_of(const BoxTarget& box, const Scene& scene, const Intrinsics& camera) {
+  std::vector<BoxRay> rays;
+  const Eigen::Isometry3d T_box_camera = box.pose.inverse() * scene.T_root_camera;
+  const Eigen::Array3d half = 0.5 * box.size.array();
+  const Eigen::Array3d from = T_box_camera.translation().array();
+  for (int v = 0; v < camera.height(); v += ray_step)
+    for (int u = 0; u < camera.width(); u += ray_step) {
+      const Eigen::Array3d d = (T_box_camera.linear() * camera.ray(u, v)).array();
+      const Eigen::Array3d a = (-half - from) / d, b = (half - from) / d;
+      const double in = a.min(b).maxCoeff(), out = a.max(b).minCoeff();
+      if (in <= out && in > 0.0)
+        rays.push_back({scene.T_root_camera.linear() * camera.ray(u, v), in});
+    }
+  return rays;
+}
+
+/// What Embree's rays say of a box at one time.
+struct Truth {
+  double hidden = 0.0;
+  std::size_t by = 0;  // link
+};
+
+Truth truth_of(const std::vector<BoxRay>& rays, const LinkRays& links, const Eigen::Vector3d& from,
+               const Tolerance& tolerance) {
+  std::map<std::size_t, std::size_t> hiding;
+  std::size_t hidden = 0;
+  for (const BoxRay& ray : rays)
+    if (const auto hit = links.cast(from, ray.direction, ray.z - tolerance.at(ray.z))) {
+      ++hidden;
+      ++hiding[hit->link];
+    }
+  const auto most =
+      std::ranges::max_element(hiding, {}, [](const auto& each) { return each.second; });
+  return {static_cast<double>(hidden) / static_cast<double>(rays.size()),
+          most == hiding.end() ? 0 : most->first};
+}
+
+/// Counts over all motions, as they are printed.
+struct Tally {
+  std::size_t both = 0, neither = 0, missed = 0, invented = 0;  // milliseconds of hidden
+  std::size_t intervals = 0, lost = 0;                          // hidden for 30 ms and more
+  std::vector<double> borders;                                  // seconds off
+  std::size_t blamed = 0, blamed_right = 0;
+  std::vector<double> shares;  // off
+
+  [[nodiscard]] double balanced() const {
+    return 0.5 *
+           (double(both) / double(both + missed) + double(neither) / double(neither + invented));
+  }
+};
+
+/// The times at which a series is hidden, as [begin, end).
+std::vector<std::pair<double, double>> hidden_times(const std::vector<Truth>& truth,
+                                                    double threshold) {
+  std::vector<std::pair<double, double>> times;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (truth[i].hidden <= threshold) continue;
+    const double time = static_cast<double>(i) * truth_step;
+    if (times.empty() || time - times.back().second > 0.5 * truth_step)
+      times.emplace_back(time, time);
+    times.back().second = time + truth_step;
+  }
+  return times;
+}
+
+void compare(const CameraForecast& forecast, const std::vector<Truth>& truth, const Robot& robot,
+             const TargetThresholds& thresholds, Tally& tally) {
+  std::vector<const VerdictInterval*> hidden;
+  for (const VerdictInterval& each : forecast.intervals)
+    if (each.verdict == Verdict::hidden) hidden.push_back(&each);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double time = static_cast<double>(i) * truth_step;
+    const bool foreseen = std::ranges::any_of(
+        hidden, [&](const auto* each) { return each->begin <= time && time < each->end; });
+    const bool is_so = truth[i].hidden > thresholds.hidden_enter;
+    ++(is_so ? (foreseen ? tally.both : tally.missed)
+             : (foreseen ? tally.invented : tally.neither));
+  }
+  for (const auto& [begin, end] : hidden_times(truth, thresholds.hidden_enter)) {
+    const VerdictInterval* found = nullptr;
+    for (const VerdictInterval* each : hidden)
+      if (each->begin < end && begin < each->end) found = each;
+    if (end - begin >= 0.03) {
+      ++tally.intervals;
+      tally.lost += found == nullptr ? 1 : 0;
+    }
+    if (found == nullptr) continue;
+    if (begin > 0.0) tally.borders.push_back(std::abs(found->begin - begin));
+    if (end < static_cast<double>(truth.size() - 1) * truth_step)
+      tally.borders.push_back(std::abs(found->end - end));
+  }
+  for (std::size_t i = 0; i < forecast.times.size(); ++i) {
+    const Truth& at = truth[std::min(
+        truth.size() - 1, static_cast<std::size_t>(std::lround(forecast.times[i] / truth_step)))];
+    const Prediction& prediction = forecast.predictions[i];
+    if (prediction.verdict == Verdict::out_of_view) continue;
+    // Times between two milliseconds are left out.
+    if (std::abs(std::remainder(forecast.times[i], truth_step)) < 1e-6)
+      tally.shares.push_back(std::abs(prediction.hidden - at.hidden));
+    if (at.hidden < thresholds.partial_enter || prediction.by.empty()) continue;
+    ++tally.blamed;
+    tally.blamed_right += prediction.by == robot.links()[at.by] ? 1 : 0;
+  }
+}
+
+double quantile(std::vector<double> values, double part) {
+  if (values.empty()) return 0.0;
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+}
+
+void judge_motions(const Robot& robot, int motions, std::mt19937_64& random, Tally& tally) {
+  LinkRays links(robot);
+  std::vector<Eigen::Isometry3d> T(robot.links().size());
+  std::vector<double> positions(robot.variables().size());
+  for (int motion = 0; motion < motions; ++motion) {
+    const Scene scene(robot, random);
+    const ForecastCamera camera{
+        .name = "cell", .camera = forecast_camera(), .T_parent_camera = scene.T_root_camera};
+    const std::vector<TargetForecast> forecasts =
+        LookAhead(robot, {camera}, scene.targets(), RobotPose{.positions = scene.first})
+            .along(*scene.trajectory);
+    std::vector<std::vector<BoxRay>> rays;
+    for (const BoxTarget& box : scene.boxes)
+      rays.push_back(rays_of(box, scene, camera.camera.intrinsics));
+    std::vector<std::vector<Truth>> truth(rays.size());
+    for (double time = 0.0; time <= scene.trajectory->duration(); time += truth_step) {
+      scene.trajectory->at(time, positions);
+      robot.forward_kinematics(positions, T);
+      links.place(T);
+      for (std::size_t i = 0; i < rays.size(); ++i)
+        if (!rays[i].empty())
+          truth[i].push_back(
+              truth_of(rays[i], links, scene.T_root_camera.translation(), camera.rule.tolerance));
+    }
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      if (!rays[i].empty())
+        compare(forecasts[i].cameras[0], truth[i], robot, TargetThresholds{}, tally);
+  }
+}
+
+Robot arm() {
+  return Robot::load(std::string(PENUMBRA_SOURCE_DIR) +
+                     "/examples/arm_over_table/arm_description/arm.urdf");
+}
+
+TEST(LookAhead, AgreesWithRaysEveryMillisecond) {
+  std::mt19937_64 random = seeded_random(391);
+  const int motions = measures_in_full() ? 100 : 2;
+  Tally tally;
+  judge_motions(arm(), motions, random, tally);
+  if (has_data())
+    for (const std::string name : {"xarm7", "ur5e"})
+      judge_motions(Robot::load(data_folder() / "robots" / name / (name + ".urdf")), motions,
+                    random, tally);
+  std::cout << "hidden " << tally.both + tally.missed << " ms, balanced accuracy "
+            << 100 * tally.balanced() << " %, intervals of 30 ms " << tally.intervals << ", lost "
+            << tally.lost << ", borders off: median " << 1e3 * quantile(tally.borders, 0.5)
+            << ", 99 % " << 1e3 * quantile(tally.borders, 0.99) << ", most "
+            << 1e3 * quantile(tally.borders, 1.0) << " ms, blame right "
+            << 100.0 * double(tally.blamed_right) / double(tally.blamed) << " % of " << tally.blamed
+            << ", share off: median " << quantile(tally.shares, 0.5) << ", 99 % "
+            << quantile(tally.shares, 0.99) << '\n';
+  EXPECT_GT(tally.both, 0U);
+  EXPECT_GT(tally.balanced(), 0.995);
+  EXPECT_EQ(tally.lost, 0U);
+  EXPECT_LT(quantile(tally.borders, 0.95), 0.010);
+  EXPECT_GT(double(tally.blamed_right), 0.98 * double(tally.blamed));
+}
+
+}  // namespace
+}  // namespace penumbra::test
