@@ -261,7 +261,7 @@ struct LookAhead::State {
 };
 
 LookAhead::LookAhead(const Robot& robot, std::vector<ForecastCamera> cameras,
-                     std::vector<ForecastTarget> targets, RobotPose start,
+                     const std::vector<ForecastTarget>& targets, RobotPose start,
                      const LookAheadConfig& config)
     : state_(std::make_unique<State>(
           State{robot, std::move(cameras), config, std::move(start), {}, {}})) {
@@ -286,26 +286,26 @@ std::vector<TargetForecast> LookAhead::along(const Trajectory& trajectory) {
   State& s = *state_;
   const auto threads = static_cast<std::size_t>(s.config.threads);
   const auto steps = static_cast<std::size_t>(std::ceil(trajectory.duration() / s.config.step));
-  // Parts of equal length, several for each thread, since their cost differs.
-  constexpr std::size_t parts_of_thread = 4;
-  const std::size_t parts =
-      threads == 1 ? 1 : std::clamp<std::size_t>(parts_of_thread * threads, 1, steps + 1);
-  std::vector<std::vector<Sample>> samples(s.cameras.size() * parts);
-  parallel_for(s.config.threads, samples.size(), [&](std::size_t thread, std::size_t i) {
-    const std::size_t first = i % parts * steps / parts, last = (i % parts + 1) * steps / parts;
-    Sampler sampler(s.judge(i / parts, thread), trajectory, s.config, s.robot.variables().size());
-    samples[i] = sampler.between(first, last, steps);
-    if (i % parts > 0) samples[i].erase(samples[i].begin());  // the last part's last
+  // Pieces of equal length, several for each thread, since their cost differs.
+  constexpr std::size_t pieces_of_thread = 4;
+  const std::size_t pieces =
+      threads == 1 ? 1 : std::clamp<std::size_t>(pieces_of_thread * threads, 1, steps + 1);
+  std::vector<std::vector<Sample>> sampled(s.cameras.size() * pieces);
+  parallel_for(s.config.threads, sampled.size(), [&](std::size_t thread, std::size_t i) {
+    const std::size_t first = i % pieces * steps / pieces, last = (i % pieces + 1) * steps / pieces;
+    Sampler sampler(s.judge(i / pieces, thread), trajectory, s.config, s.robot.variables().size());
+    sampled[i] = sampler.between(first, last, steps);
+    if (i % pieces > 0) sampled[i].erase(sampled[i].begin());  // the last piece's last
   });
   std::vector<TargetForecast> forecasts;
   for (std::size_t t = 0; t < s.targets.size(); ++t) {
     TargetForecast& forecast = forecasts.emplace_back();
     forecast.name = s.targets[t].target.name;
     forecast.cameras.resize(s.cameras.size());
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      for (Sample& sample : samples[i]) {
-        forecast.cameras[i / parts].times.push_back(sample.time);
-        forecast.cameras[i / parts].predictions.push_back(std::move(sample.predictions[t]));
+    for (std::size_t i = 0; i < sampled.size(); ++i)
+      for (Sample& sample : sampled[i]) {
+        forecast.cameras[i / pieces].times.push_back(sample.time);
+        forecast.cameras[i / pieces].predictions.push_back(std::move(sample.predictions[t]));
       }
     for (CameraForecast& camera : forecast.cameras) camera.intervals = intervals_of(camera);
     forecast.any.intervals = together(forecast.cameras);

@@ -102,7 +102,7 @@ class LookAhead {
   /// targets that are invalid in every frame, and settings out of range; and std::invalid_argument
   /// for another number of positions than Robot::variables().
   LookAhead(const Robot& robot, std::vector<ForecastCamera> cameras,
-            std::vector<ForecastTarget> targets, RobotPose start,
+            const std::vector<ForecastTarget>& targets, RobotPose start,
             const LookAheadConfig& config = {});
   ~LookAhead();
   LookAhead(LookAhead&&) noexcept;

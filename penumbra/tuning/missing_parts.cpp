@@ -84,10 +84,11 @@ std::vector<std::string> MissingParts::lines() const {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     std::size_t judged = 0, with_part = 0;  // frames
     for (std::size_t frame = 0; frame < measured_.size(); ++frame) {
-      const std::size_t fringe = measured_[frame].fringe[i];
-      if (fringe < least_fringe) continue;
+      const std::size_t pixels_next = measured_[frame].fringe[i];
+      if (pixels_next < least_fringe) continue;
       ++judged;
-      if (static_cast<double>(moving[frame][i]) > most * static_cast<double>(fringe)) ++with_part;
+      if (static_cast<double>(moving[frame][i]) > most * static_cast<double>(pixels_next))
+        ++with_part;
     }
     if (links_[i].has_moved && with_part >= 2 && 2 * with_part > judged)
       lines.push_back("something large moves with link '" + robot_.links()[i] +
