@@ -249,8 +249,7 @@ void judge_motions(const Robot& robot, int motions, std::mt19937_64& random, Tal
 }
 
 Robot arm() {
-  return Robot::load(std::string(PENUMBRA_SOURCE_DIR) +
-                     "/examples/arm_over_table/arm_description/arm.urdf");
+  return Robot::load(PENUMBRA_SOURCE_DIR "/examples/arm_over_table/arm_description/arm.urdf");
 }
 
 TEST(LookAhead, AgreesWithRaysEveryMillisecond) {
