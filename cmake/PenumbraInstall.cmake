@@ -27,13 +27,13 @@ set(public_headers
   time/stamped_track.hpp time/transform_buffer.hpp
   camera/camera.hpp camera/distortion.hpp camera/intrinsics.hpp camera/rectification.hpp
   camera/registration.hpp
-  render/depth_renderer.hpp
+  render/depth_renderer.hpp render/pixel_rectangle.hpp
   labels/labels.hpp poses/pose_lookup.hpp poses/robot_pose.hpp tracking/trackers.hpp
   targets/region.hpp targets/target.hpp targets/target_judge.hpp
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
   calibration/calibration.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
   session/session.hpp session/warnings.hpp tuning/missing_parts.hpp
-  scene/target_fusion.hpp scene/view_planning.hpp)
+  scene/look_ahead.hpp scene/target_fusion.hpp scene/trajectory.hpp scene/view_planning.hpp)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/penumbra/${header}

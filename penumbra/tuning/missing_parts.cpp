@@ -90,7 +90,7 @@ std::vector<std::string> MissingParts::lines() const {
       if (static_cast<double>(moving[frame][i]) > most * static_cast<double>(pixels_next))
         ++with_part;
     }
-    if (links_[i].has_moved && with_part >= 2 && 2 * with_part > judged)
+    if (links_[i].has_moved && with_part >= 2 && 2 * with_part >= judged)
       lines.push_back("something large moves with link '" + robot_.links()[i] +
                       "' that the URDF lacks, or touches it: run 'penumbra tune' on this input");
   }

@@ -19,10 +19,9 @@ namespace penumbra {
 /// moves with its link: what stands still next to a link is left out.
 class MissingParts {
  public:
-  /// A link is named if in most frames, two or more, over `most` of the fringe pixels next to it
-  /// are farther from the outline than `far` times the fringe's reach. On a real recording complete
-  /// links exceed `most` in at most one frame of four, and where a part of 10 cm is missing in
-  /// three.
+  /// A link is named if in half of the frames, two or more, over `most` of the fringe pixels next to
+  /// it are farther from the outline than `far` times the fringe's reach. On a real recording
+  /// complete links exceed `most` in at most one frame; where a part of 10 cm is missing, in half.
   static constexpr double far = 0.6;
   static constexpr double most = 0.15;
   /// Pixels of fringe in a frame; less is too little to judge a link by.
