@@ -133,7 +133,7 @@ def test_commands_run(document, work, environment):
 
 def options_of_commands():
     told = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True, check=True).stdout
-    commands = re.findall(r"^  (\w+)  ", told, re.MULTILINE)
+    commands = re.findall(r"^  (\w[\w-]*)  ", told, re.MULTILINE)
     assert {"run", "live", "view", "doctor"} <= set(commands)
     return {name: set(re.findall(r"--[a-z][a-z-]*", subprocess.run(
         [PROGRAM, name, "--help"], capture_output=True, text=True, check=True).stdout))
