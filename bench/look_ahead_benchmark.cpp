@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Google Benchmark of looking ahead, beside rendering whole images of the same configurations and
-// beside a cone against spheres, which knows no shape and no link.
+// Google Benchmark of looking ahead; and, to compare, of rendering whole images of the same
+// configurations, and of a cone against spheres, which knows no shape and no link.
 #include "scenes.hpp"
 
 #include <algorithm>

@@ -39,11 +39,12 @@ std::vector<std::string> row_of(const std::string& target, const std::string& ca
           seconds(forecast.seen_again_at())};
 }
 
-void print_motion(const io::LookAheadResult& result, const io::MotionForecast& motion) {
-  std::cout << motion.name << ": " << fixed(motion.duration, 2) << " s\n";
+void print_motion(const io::LookAheadResult& result, std::size_t motion) {
+  std::cout << result.motions[motion].name << ": "
+            << fixed(result.motions[motion].trajectory.duration(), 2) << " s\n";
   std::vector<std::vector<std::string>> rows{{"target", "camera", "at first", "hidden in",
                                               "hidden for", "most hidden", "by", "seen again in"}};
-  for (const TargetForecast& target : motion.targets) {
+  for (const TargetForecast& target : result.forecasts[motion]) {
     for (std::size_t c = 0; c < result.cameras.size(); ++c)
       rows.push_back(row_of(target.name,
                             result.cameras[c].name.empty() ? "-" : result.cameras[c].name,
@@ -53,17 +54,17 @@ void print_motion(const io::LookAheadResult& result, const io::MotionForecast& m
   print_table(std::move(rows));
 }
 
-/// The first reason for an unknown verdict of each motion.
-void add_unknown(const std::vector<io::MotionForecast>& motions, std::vector<std::string>& notes) {
-  for (const io::MotionForecast& motion : motions)
-    for (const TargetForecast& target : motion.targets) {
-      const auto unknown =
-          std::ranges::find(target.any.intervals, Verdict::unknown, &VerdictInterval::verdict);
-      if (unknown != target.any.intervals.end())
-        notes.push_back(motion.name + ": '" + target.name + "' is unknown from " +
-                        fixed(unknown->begin, 2) + " to " + fixed(unknown->end, 2) +
-                        " s: " + unknown->reason);
-    }
+/// The first unknown interval of each target.
+void add_unknown(const std::string& motion, const std::vector<TargetForecast>& targets,
+                 std::vector<std::string>& notes) {
+  for (const TargetForecast& target : targets) {
+    const auto unknown =
+        std::ranges::find(target.any.intervals, Verdict::unknown, &VerdictInterval::verdict);
+    if (unknown != target.any.intervals.end())
+      notes.push_back(motion + ": '" + target.name + "' is unknown from " +
+                      fixed(unknown->begin, 2) + " to " + fixed(unknown->end, 2) +
+                      " s: " + unknown->reason);
+  }
 }
 
 }  // namespace
@@ -81,27 +82,23 @@ int execute(const LookAheadArguments& arguments) {
       std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
   LookAhead ahead(input.robot, input.cameras, input.targets, input.pose, config);
   const auto start = std::chrono::steady_clock::now();
-  std::vector<io::MotionForecast> motions;
-  for (const io::NamedTrajectory& each : input.trajectories)
-    motions.push_back({each.name, each.trajectory.duration(), ahead.along(each.trajectory)});
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const std::vector<io::NamedTrajectory>& motions = input.trajectories;
   std::vector<std::vector<TargetForecast>> forecasts;
-  std::vector<double> durations;
-  for (const io::MotionForecast& motion : motions) {
-    forecasts.push_back(motion.targets);
-    durations.push_back(motion.duration);
-  }
-  const std::vector<RankedMotion> ranking = rank(forecasts, durations);
-  add_unknown(motions, input.notes);
+  for (const io::NamedTrajectory& each : motions) forecasts.push_back(ahead.along(each.trajectory));
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const std::vector<RankedMotion> ranking = rank(forecasts);
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    add_unknown(motions[i].name, forecasts[i], input.notes);
   const io::LookAheadResult result{.input = arguments.input.input.path.string(),
                                    .frame = input.frame,
                                    .cameras = input.cameras,
                                    .now = input.now,
                                    .motions = motions,
+                                   .forecasts = forecasts,
                                    .ranking = ranking,
                                    .notes = input.notes};
   print_notes(input.notes);
-  for (const io::MotionForecast& motion : motions) print_motion(result, motion);
+  for (std::size_t i = 0; i < motions.size(); ++i) print_motion(result, i);
   if (motions.size() > 1) {
     std::vector<std::vector<std::string>> rows{{"motion", "targets seen", "what costs most"}};
     for (const RankedMotion& each : ranking)
@@ -115,7 +112,7 @@ int execute(const LookAheadArguments& arguments) {
   io::MomentPainter painter(input.robot, input.cameras.front(), input.color.view(), input.targets,
                             input.pose);
   for (std::size_t i = 0; i < motions.size(); ++i)
-    pictures.push_back(painter.pictures(input.trajectories[i].trajectory, motions[i].targets));
+    pictures.push_back(painter.pictures(motions[i].trajectory, forecasts[i]));
   folder->add_text("report.html", io::look_ahead_page(result, pictures));
   folder->add_text("look_ahead.json", io::look_ahead_json(result) + "\n");
   folder->finish();

@@ -74,7 +74,7 @@ void for_all(std::vector<CameraTask>& tasks, std::size_t workers,
         tasks[i].fault =
             std::make_exception_ptr(InputError("camera '" + tasks[i].name + "': " + error.what()));
         has_fault = true;
-      } catch (const Stopped&) {  // NOLINT(bugprone-empty-catch): the other's fault is told
+      } catch (const Stopped&) {  // NOLINT(bugprone-empty-catch): the other's fault is reported
       } catch (...) {
         tasks[i].fault = std::current_exception();
         has_fault = true;

@@ -66,12 +66,13 @@ Json now_json(const TargetReport& report) {
 std::string look_ahead_json(const LookAheadResult& result) {
   Json now = Json::array(), motions = Json::array(), ranking = Json::array(), notes = Json::array();
   for (const TargetReport& report : result.now) now.push_back(now_json(report));
-  for (const MotionForecast& motion : result.motions) {
+  for (std::size_t i = 0; i < result.motions.size(); ++i) {
     Json targets = Json::array();
-    for (const TargetForecast& forecast : motion.targets)
+    for (const TargetForecast& forecast : result.forecasts[i])
       targets.push_back(target_json(forecast, result.cameras));
-    motions.push_back(
-        {{"name", motion.name}, {"duration_s", motion.duration}, {"targets", std::move(targets)}});
+    motions.push_back({{"name", result.motions[i].name},
+                       {"duration_s", result.motions[i].trajectory.duration()},
+                       {"targets", std::move(targets)}});
   }
   for (const RankedMotion& each : result.ranking)
     ranking.push_back({{"motion", result.motions[each.trajectory].name},

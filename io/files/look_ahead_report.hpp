@@ -10,11 +10,10 @@
 
 namespace penumbra::io {
 
-/// What a motion will hide.
-struct MotionForecast {
+/// A motion of a file.
+struct NamedTrajectory {
   std::string name;
-  double duration = 0.0;  ///< seconds
-  std::vector<TargetForecast> targets;
+  Trajectory trajectory;
 };
 
 /// The result of `penumbra look-ahead`. Refers to its parts.
@@ -23,7 +22,8 @@ struct LookAheadResult {
   std::size_t frame = 0;  ///< in which the motions begin
   std::span<const ForecastCamera> cameras;
   std::span<const TargetReport> now;  ///< as the first camera measures them; empty without depth
-  std::span<const MotionForecast> motions;
+  std::span<const NamedTrajectory> motions;
+  std::span<const std::vector<TargetForecast>> forecasts;  ///< of each motion, by target
   std::span<const RankedMotion> ranking;
   std::span<const std::string> notes;
 };

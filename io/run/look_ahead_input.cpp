@@ -92,11 +92,7 @@ LookAheadInput read_look_ahead_input(const LookAheadOptions& options, const Line
           .robot = opened.robot, .frame = frame.index.value_or(0), .pose = frame.pose};
       const TargetsFile targets = open_planned_targets(options.input.path, options.targets, opened);
       frame.targets = targets.of_frame(static_cast<std::int64_t>(read->frame));
-      for (const Target& target : frame.targets)
-        if (target.fault.empty())
-          read->targets.push_back({.target = target});
-        else
-          read->notes.push_back("target '" + target.name + "': " + target.fault);
+      for (const Target& target : frame.targets) read->targets.push_back({.target = target});
       const ImageView<const Rgb8> color = frame.color.view;
       if (!color.empty()) {
         read->color = Image<Rgb8>(color.width, color.height);

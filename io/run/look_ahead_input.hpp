@@ -10,6 +10,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/scene/look_ahead.hpp>
 
+#include <io/files/look_ahead_report.hpp>
 #include <io/run/run_input.hpp>
 
 namespace penumbra::io {
@@ -20,12 +21,6 @@ struct LookAheadOptions {
   std::vector<std::filesystem::path> trajectories{};  ///< at least one
   std::optional<std::int64_t>
       from;  ///< frame in which the motion begins; null: the first with a pose
-};
-
-/// A motion of a file.
-struct NamedTrajectory {
-  std::string name;
-  Trajectory trajectory;
 };
 
 /// What is looked at ahead of a frame.

@@ -27,45 +27,19 @@ TargetsFile open_planned_targets(const std::filesystem::path& path,
 
 namespace {
 
-/// Places a shape that is given in the camera's frame.
-struct PlacedInRoot {
-  const Eigen::Isometry3d& T_root_camera;
-
-  void operator()(PointTarget& target) const {
-    if (is_elsewhere(target.frame)) return;
-    target.position = T_root_camera * target.position;
-    target.frame = ReferenceFrame::root();
-  }
-  void operator()(BoxTarget& target) const { place(target); }
-  void operator()(MeshTarget& target) const { place(target); }
-  void operator()(std::monostate) const {}
-  template <typename InPixels>
-  void operator()(const InPixels& /*target*/) const {
-    throw InputError(
-        "is given in pixels of the input's camera; other cameras need a point, box3d or mesh");
-  }
-
- private:
-  static bool is_elsewhere(const ReferenceFrame& frame) {
-    return frame.kind != ReferenceFrame::Kind::camera;
-  }
-  void place(auto& target) const {
-    if (is_elsewhere(target.frame)) return;
-    target.pose = T_root_camera * target.pose;
-    target.frame = ReferenceFrame::root();
-  }
-};
-
 std::vector<Target> placed(std::vector<Target> targets, const Eigen::Isometry3d& T_root_camera,
                            const std::filesystem::path& file) {
   for (Target& target : targets) {
     target.fault = {};  // its shape is then std::monostate: not found
     target.estimate.reset();
-    try {
-      std::visit(PlacedInRoot{T_root_camera}, target.shape);
-    } catch (const InputError& fault) {
-      throw InputError(file.string() + ": target '" + target.name + "' " + fault.what());
-    }
+    if (std::holds_alternative<std::monostate>(target.shape)) continue;
+    const auto at = placement_of(target.shape);
+    if (!at)
+      throw InputError(file.string() + ": target '" + target.name +
+                       "' is given in pixels of the input's camera; other cameras need a point, "
+                       "box3d or mesh");
+    if (at->frame.kind == ReferenceFrame::Kind::camera)
+      penumbra::place(target.shape, {T_root_camera * at->pose, ReferenceFrame::root()});
   }
   return targets;
 }

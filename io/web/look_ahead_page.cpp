@@ -23,21 +23,24 @@ std::string bar(const CameraForecast& forecast, double duration) {
   return verdict_bar(ranks);
 }
 
-std::string motion_section(const LookAheadResult& result, const MotionForecast& motion,
+std::string motion_section(const LookAheadResult& result, std::size_t index,
                            const std::vector<MomentPicture>& pictures) {
-  std::string html = "<h2>" + escaped(motion.name) + "</h2>\n<p>" + number(motion.duration, 2) +
-                     " s, from left to right." + verdict_key() + "</p>\n<table class=\"time\">\n";
+  const double duration = result.motions[index].trajectory.duration();
+  const std::vector<TargetForecast>& targets = result.forecasts[index];
+  std::string html = "<h2>" + escaped(result.motions[index].name) + "</h2>\n<p>" +
+                     number(duration, 2) + " s, from left to right." + verdict_key() +
+                     "</p>\n<table class=\"time\">\n";
   const bool has_several = result.cameras.size() > 1;
-  for (const TargetForecast& target : motion.targets) {
+  for (const TargetForecast& target : targets) {
     html += "<tr><th>" + escaped(target.name) + (has_several ? ", any camera" : "") + "</th><td>" +
-            bar(target.any, motion.duration) + "</td></tr>\n";
+            bar(target.any, duration) + "</td></tr>\n";
     for (std::size_t c = 0; has_several && c < result.cameras.size(); ++c)
       html += "<tr><th>&nbsp; " + escaped(result.cameras[c].name) + "</th><td>" +
-              bar(target.cameras[c], motion.duration) + "</td></tr>\n";
+              bar(target.cameras[c], duration) + "</td></tr>\n";
   }
   html += "</table>\n";
   Rows rows = {{"target", "from", "to", "is", "most hidden", "by", "reason"}};
-  for (const TargetForecast& target : motion.targets)
+  for (const TargetForecast& target : targets)
     for (const VerdictInterval& each : target.any.intervals)
       rows.push_back({target.name, number(each.begin, 2) + " s", number(each.end, 2) + " s",
                       verdict_styles[rank_of(each.verdict)].name,
@@ -79,7 +82,7 @@ std::string look_ahead_page(const LookAheadResult& result,
     html += "<h2>Now, as the camera measures</h2>\n" + table(rows);
   }
   for (std::size_t i = 0; i < result.motions.size(); ++i)
-    html += motion_section(result, result.motions[i], pictures[i]);
+    html += motion_section(result, i, pictures[i]);
   return html;
 }
 

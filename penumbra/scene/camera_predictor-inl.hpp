@@ -29,12 +29,10 @@ namespace penumbra::scene {
 
 /// A target in space at the start of a motion.
 struct AnchoredTarget {
-  Target target;  ///< its shape is not in the camera's frame
+  ForecastTarget start;  ///< its shape is not in the camera's frame
   /// Of a region or key point whose depth is known: its outline in the root's frame, metres.
   std::vector<Eigen::Vector3d> outline = {};
   Eigen::Isometry3d T_root_camera = Eigen::Isometry3d::Identity();  ///< of the first camera
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               ///< as ForecastTarget
-  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       ///< as ForecastTarget
 };
 
 /// Fixes a target in space as a camera on a given pose gives it.
@@ -55,6 +53,7 @@ struct Sample {
   std::vector<SeenBody> bodies;         ///< links, then attached bodies; empty if not known
 };
 
+/// Judges targets in one camera, from renders of the robot next to each.
 class CameraPredictor {
  public:
   /// Robot and targets must outlive this. `start`: what links carry, and links whose pose is not
@@ -69,10 +68,12 @@ class CameraPredictor {
   [[nodiscard]] double motion_of(std::size_t body, const Sample& a, const Sample& b) const;
 
  private:
+  /// A link or attached body.
   struct Part {
     std::string name;
     Eigen::AlignedBox3d bounds;  // in its frame; empty if it is not drawn
   };
+  /// A target in the image.
   struct Shown {
     TargetView view;
     double depth = 0.0;  // of its middle, metres; infinite: not known

@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -120,32 +119,16 @@ std::pair<Region, std::optional<double>> region_of(const TargetShape& shape, con
 AnchoredTarget anchored(const ForecastTarget& given, const Camera& camera,
                         const Eigen::Isometry3d& T_root_camera) {
   check_target(given.target);
-  AnchoredTarget anchored{.target = given.target,
-                          .T_root_camera = T_root_camera,
-                          .velocity = given.velocity,
-                          .angular_velocity = given.angular_velocity};
-  Target& target = anchored.target;
+  AnchoredTarget anchored{.start = given, .T_root_camera = T_root_camera};
+  Target& target = anchored.start.target;
   target.has_identity = false;  // each time is judged alone
   target.handling = {};
   target.estimate.reset();
   target.thresholds = without_measurements(target.thresholds);
-  const auto into_root = [&](auto& shape) {
-    using Shape = std::decay_t<decltype(shape)>;
-    if constexpr (std::is_same_v<Shape, PointTarget>) {
-      if (shape.frame.kind == ReferenceFrame::Kind::camera) {
-        shape.position = T_root_camera * shape.position;
-        shape.frame = ReferenceFrame::root();
-      }
-    } else if constexpr (std::is_same_v<Shape, BoxTarget> || std::is_same_v<Shape, MeshTarget>) {
-      if (shape.frame.kind == ReferenceFrame::Kind::camera) {
-        shape.pose = T_root_camera * shape.pose;
-        shape.frame = ReferenceFrame::root();
-      }
-    }
-  };
-  std::visit(into_root, target.shape);
-  if (placement_of(target.shape) || std::holds_alternative<std::monostate>(target.shape))
-    return anchored;
+  const auto at = placement_of(target.shape);
+  if (at && at->frame.kind == ReferenceFrame::Kind::camera)
+    place(target.shape, {T_root_camera * at->pose, ReferenceFrame::root()});
+  if (at || std::holds_alternative<std::monostate>(target.shape)) return anchored;
   const auto [region, depth] = region_of(target.shape, camera);
   if (!depth) return anchored;
   for (const Eigen::Vector2d& pixel : outline_of(region)) {
@@ -184,7 +167,7 @@ CameraPredictor::CameraPredictor(const Robot& robot, const ForecastCamera& camer
       seen_pixels_(uncovered_ ? uncovered_->mask() : ImageView<const std::uint8_t>{}),
       spans_(camera_.intrinsics.width(), camera_.intrinsics.height()),
       labels_(camera_.intrinsics.width(), camera_.intrinsics.height()) {
-  for (const AnchoredTarget& target : targets) targets_.push_back(target.target);
+  for (const AnchoredTarget& target : targets) targets_.push_back(target.start.target);
   for (const Body& body : bodies_with(robot, start.attached)) {
     Part& part = parts_.emplace_back(Part{std::string(body.name), {}});
     for (const PreparedMesh& mesh : body.meshes) part.bounds.extend(mesh.bounds);
@@ -232,24 +215,17 @@ void CameraPredictor::place_bodies(const PoseResult& poses, Sample& sample) {
 /// Moves a target that no link carries to where it is at a time.
 void CameraPredictor::move(std::size_t target, double time) {
   const AnchoredTarget& from = anchored_[target];
-  const Eigen::Vector3d way = time * from.velocity;
-  const double angle = time * from.angular_velocity.norm();
-  const Eigen::AngleAxisd turn(angle, angle == 0.0 ? Eigen::Vector3d::UnitX().eval()
-                                                   : from.angular_velocity.normalized().eval());
-  const auto moved = [&](auto& shape, const auto& start) {
-    if (start.frame.kind != ReferenceFrame::Kind::root) return;
-    shape.pose.linear() = turn * start.pose.linear();
-    shape.pose.translation() = start.pose.translation() + way;
-  };
-  TargetShape& shape = targets_[target].shape;
-  if (auto* point = std::get_if<PointTarget>(&shape)) {
-    const auto& start = std::get<PointTarget>(from.target.shape);
-    if (start.frame.kind == ReferenceFrame::Kind::root) point->position = start.position + way;
+  const Eigen::Vector3d way = time * from.start.velocity;
+  const Eigen::Vector3d& rate = from.start.angular_velocity;
+  const Eigen::AngleAxisd turn(time * rate.norm(), rate.isZero() ? Eigen::Vector3d::UnitX().eval()
+                                                                 : rate.normalized().eval());
+  const auto at = placement_of(from.start.target.shape);
+  if (at && at->frame.kind == ReferenceFrame::Kind::root) {
+    Eigen::Isometry3d pose = at->pose;
+    pose.linear() = turn * at->pose.linear();
+    pose.translation() += way;
+    place(targets_[target].shape, {pose, at->frame});
   }
-  if (auto* box = std::get_if<BoxTarget>(&shape))
-    moved(*box, std::get<BoxTarget>(from.target.shape));
-  if (auto* mesh = std::get_if<MeshTarget>(&shape))
-    moved(*mesh, std::get<MeshTarget>(from.target.shape));
   if (from.outline.empty()) return;
   const Eigen::Vector3d middle =
       std::accumulate(from.outline.begin(), from.outline.end(), Eigen::Vector3d(0, 0, 0)) /
@@ -262,6 +238,8 @@ void CameraPredictor::move(std::size_t target, double time) {
 /// Returns the target's view; null if it is outside of the camera's.
 std::optional<CameraPredictor::Shown> CameraPredictor::show(std::size_t target,
                                                             const PoseResult& poses, double time) {
+  const std::string& fault = anchored_[target].start.target.fault;
+  if (!fault.empty()) throw InputError(fault);
   move(target, time);
   const Eigen::Isometry3d T_camera_root = poses.T_root_camera.inverse();
   if (const auto placement = placement_of(targets_[target].shape)) {
@@ -279,10 +257,13 @@ std::optional<CameraPredictor::Shown> CameraPredictor::show(std::size_t target,
     PixelPolygon polygon;
     for (const Eigen::Vector3d& corner : outline_) {
       const Eigen::Vector3d p = T_camera_root * corner;
-      if (p.z() < DepthRenderer::near_plane) return std::nullopt;
+      if (p.z() < DepthRenderer::near_plane) continue;
       polygon.corners.push_back(camera_.intrinsics.project(p));
       shown.depth += p.z() / static_cast<double>(outline_.size());
     }
+    if (polygon.corners.empty()) return std::nullopt;
+    if (polygon.corners.size() < outline_.size())
+      throw InputError("it reaches the plane of the camera's lens");
     if (shown.depth < camera_.range.near || shown.depth > camera_.range.far) return std::nullopt;
     shown.view.region = std::move(polygon);
     shown.view.expected_depth = shown.depth;
@@ -420,13 +401,13 @@ double CameraPredictor::hidden_depth(const PixelRectangle& window) {
   for (int v = window.v0; v < window.v1; ++v) {
     const std::uint8_t* const blocked = &blocked_[index(window, window.u0, v)];
     std::int16_t* const row = row_of(v);
-    const std::int16_t* const above = row_of(std::max(v - 1, window.v0));
     if (v == window.v0)
-      for (int u = 0; u < width; ++u) row[u] = blocked[u] == 0 ? std::int16_t{0} : most;
+      for (int u = 0; u < width; ++u) row[u] = static_cast<std::int16_t>(most * blocked[u]);
     else
-      for (int u = 0; u < width; ++u)
-        row[u] = blocked[u] == 0 ? std::int16_t{0}
-                                 : std::min(most, static_cast<std::int16_t>(above[u] + 1));
+      for (int u = 0; u < width; ++u)  // without branches, to vectorise
+        row[u] = static_cast<std::int16_t>(
+            std::min<std::int16_t>(most, static_cast<std::int16_t>(row[u - width] + 1)) *
+            blocked[u]);
   }
   for (int v = window.v1 - 2; v >= window.v0; --v) {
     std::int16_t* const row = row_of(v);

@@ -11,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/robot/drawn_links-inl.hpp>
@@ -252,6 +253,21 @@ struct LookAhead::State {
     return *made;
   }
 
+  /// A detector's box of what it sees is the whole target only where the robot cuts nothing off.
+  void check_modal_targets() {
+    const Sample sample = judge(0, 0).at(0.0, start.positions);
+    const int margin = std::min(cameras.front().rule.edge_margin, config.clearance - 1);
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      Target& target = targets[i].start.target;
+      const auto* region = std::get_if<RegionTarget>(&target.shape);
+      if (region == nullptr || region->extent == Extent::amodal || !target.fault.empty()) continue;
+      if (!(sample.predictions[i].clearance > margin))
+        target.fault =
+            "the robot is next to it at the start, and may hide a part of it: give the "
+            "full extent as amodal";
+    }
+  }
+
   Robot robot;
   std::vector<ForecastCamera> cameras;
   LookAheadConfig config;
@@ -277,6 +293,7 @@ LookAhead::LookAhead(const Robot& robot, std::vector<ForecastCamera> cameras,
     state_->targets.push_back(scene::anchored(target, first.camera, T_root_camera));
   state_->judges.resize(state_->cameras.size() * static_cast<std::size_t>(config.threads));
   for (std::size_t i = 0; i < state_->cameras.size(); ++i) static_cast<void>(state_->judge(i, 0));
+  state_->check_modal_targets();
 }
 LookAhead::~LookAhead() = default;
 LookAhead::LookAhead(LookAhead&&) noexcept = default;
@@ -300,7 +317,7 @@ std::vector<TargetForecast> LookAhead::along(const Trajectory& trajectory) {
   std::vector<TargetForecast> forecasts;
   for (std::size_t t = 0; t < s.targets.size(); ++t) {
     TargetForecast& forecast = forecasts.emplace_back();
-    forecast.name = s.targets[t].target.name;
+    forecast.name = s.targets[t].start.target.name;
     forecast.cameras.resize(s.cameras.size());
     for (std::size_t i = 0; i < sampled.size(); ++i)
       for (Sample& sample : sampled[i]) {
@@ -343,17 +360,21 @@ std::vector<LookAhead::Seen> LookAhead::visibility(std::size_t camera,
   return seen;
 }
 
-std::vector<RankedMotion> rank(std::span<const std::vector<TargetForecast>> forecasts,
-                               std::span<const double> durations) {
+std::vector<RankedMotion> rank(std::span<const std::vector<TargetForecast>> forecasts) {
+  const auto duration_of = [&](std::size_t motion) {
+    return forecasts[motion].empty() ? 0.0 : forecasts[motion].front().any.intervals.back().end;
+  };
   std::vector<RankedMotion> ranked;
   for (std::size_t i = 0; i < forecasts.size(); ++i) {
     double seen = 0.0;
     for (const TargetForecast& forecast : forecasts[i])
       seen += forecast.any.seen_for() / static_cast<double>(forecasts[i].size());
-    ranked.push_back({i, durations[i] > 0.0 ? seen / durations[i] : 0.0, reason_of(forecasts[i])});
+    const double duration = duration_of(i);
+    ranked.push_back({i, duration > 0.0 ? seen / duration : 0.0, reason_of(forecasts[i])});
   }
   std::ranges::stable_sort(ranked, [&](const RankedMotion& a, const RankedMotion& b) {
-    return a.seen != b.seen ? a.seen > b.seen : durations[a.trajectory] < durations[b.trajectory];
+    return a.seen != b.seen ? a.seen > b.seen
+                            : duration_of(a.trajectory) < duration_of(b.trajectory);
   });
   return ranked;
 }

@@ -31,9 +31,10 @@ struct ForecastCamera {
 };
 
 /// A target, and how it moves unless a link carries it. A shape in the camera's frame or in pixels
-/// is the first camera's at the start of the motion. Regions are taken as whole targets. A box,
-/// polygon or key point with an expected depth, or a height, becomes a flat outline in space; other
-/// regions can be judged only in a camera whose pose is the first camera's at the start.
+/// is the first camera's at the start of the motion. A modal region is unknown if the robot is next
+/// to it then. A box, polygon or key point with an expected depth, or a height, becomes a flat
+/// outline in space; other regions can be judged only in a camera whose pose is the first camera's
+/// at the start.
 struct ForecastTarget {
   Target target;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< in the root's frame, m/s
@@ -134,8 +135,8 @@ struct RankedMotion {
 };
 
 /// Orders motions by the share of time for which their targets stay visible, the best first; equal
-/// ones by duration. `forecasts`: LookAhead::along() of each, `durations` in seconds.
-[[nodiscard]] std::vector<RankedMotion> rank(std::span<const std::vector<TargetForecast>> forecasts,
-                                             std::span<const double> durations);
+/// ones by duration. `forecasts`: LookAhead::along() of each.
+[[nodiscard]] std::vector<RankedMotion> rank(
+    std::span<const std::vector<TargetForecast>> forecasts);
 
 }  // namespace penumbra

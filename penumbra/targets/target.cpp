@@ -99,6 +99,20 @@ std::optional<ShapePlacement> placement_of(const TargetShape& shape) {
   return std::nullopt;
 }
 
+void place(TargetShape& shape, const ShapePlacement& at) {
+  if (auto* point = std::get_if<PointTarget>(&shape)) {
+    point->position = at.pose.translation();
+    point->frame = at.frame;
+  }
+  const auto set = [&](auto* solid) {
+    if (solid == nullptr) return;
+    solid->pose = at.pose;
+    solid->frame = at.frame;
+  };
+  set(std::get_if<BoxTarget>(&shape));
+  set(std::get_if<MeshTarget>(&shape));
+}
+
 bool is_rendered(const TargetShape& shape) {
   return std::holds_alternative<BoxTarget>(shape) || std::holds_alternative<MeshTarget>(shape);
 }

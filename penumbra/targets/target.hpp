@@ -128,6 +128,9 @@ struct ShapePlacement {
 /// Returns the place of a point, 3-D box or mesh; null for other shapes.
 [[nodiscard]] std::optional<ShapePlacement> placement_of(const TargetShape& shape);
 
+/// Sets the place of such a shape; others stay as they are.
+void place(TargetShape& shape, const ShapePlacement& at);
+
 /// Returns whether a shape is rendered alone.
 [[nodiscard]] bool is_rendered(const TargetShape& shape);
 

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Looking ahead in a cell whose depth a formula tells: targets in pixels, several cameras, carried
+// bodies, the clearance against all pairs of pixels, and the interpolation of trajectories.
+#include "../pipeline/slab_scene.hpp"
+#include "../support/errors.hpp"
+#include "../support/random.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/mesh/primitives.hpp>
+#include <penumbra/scene/look_ahead.hpp>
+
+namespace penumbra::test {
+namespace {
+
+const std::vector<std::string> slide_joint = {"slide"};
+
+ForecastCamera cell_camera(const Eigen::Vector3d& at = Eigen::Vector3d::Zero()) {
+  ForecastCamera camera{.name = "cell", .camera = slab_camera()};
+  camera.T_parent_camera.translation() = at;
+  return camera;
+}
+
+ForecastTarget box_target(const PixelBox& box, std::optional<double> depth, Extent extent) {
+  return {
+      .target = {.name = "box",
+                 .shape = RegionTarget{.region = box, .extent = extent, .expected_depth = depth}}};
+}
+
+ForecastTarget ball_target(const Eigen::Vector3d& at) {
+  return {.target = {.name = "ball", .shape = PointTarget{at, 0.03, ReferenceFrame::root()}}};
+}
+
+CameraForecast first_forecast(const std::vector<ForecastCamera>& cameras,
+                              const ForecastTarget& target,
+                              const RobotPose& start = {.positions = {0.0}}) {
+  const Trajectory trajectory(slab_robot(), slide_joint, {{.time = 0.0, .positions = {0.0}}},
+                              std::vector{0.0});
+  return LookAhead(slab_robot(), cameras, {target}, start).along(trajectory).front().any;
+}
+
+/// The pixels of the slab robot at slide 0.
+std::vector<Eigen::Vector2i> robot_pixels() {
+  const Intrinsics image = slab_camera().intrinsics;
+  std::vector<Eigen::Vector2i> pixels;
+  for (int v = 0; v < image.height(); ++v)
+    for (int u = 0; u < image.width(); ++u)
+      if (cast(image.ray(u, v), 0.0).link != 0) pixels.emplace_back(u, v);
+  return pixels;
+}
+
+TEST(LookAheadClearance, IsTheDistanceOfAllPairsOfPixels) {
+  const Intrinsics image = slab_camera().intrinsics;
+  const std::vector<Eigen::Vector2i> robot = robot_pixels();
+  const LookAheadConfig config{.clearance = 20};
+  std::mt19937_64 random = seeded_random(392);
+  std::size_t negative = 0, positive = 0;
+  for (int i = 0; i < 60; ++i) {
+    const auto whole = [&](int low, int high) {
+      return std::uniform_int_distribution(low, high)(random);
+    };
+    const PixelBox box{double(whole(0, image.width() - 12)), double(whole(0, image.height() - 12)),
+                       double(whole(3, 12)), double(whole(3, 12))};
+    LookAhead ahead(slab_robot(), {cell_camera()}, {box_target(box, 2.0, Extent::amodal)},
+                    {.positions = {0.0}}, config);
+    const float got = ahead.visibility(0, std::vector{0.0}).front().clearance;
+    const auto is_target = [&](const Eigen::Vector2i& p) {
+      return p.x() >= box.u && p.x() < box.u + box.width && p.y() >= box.v &&
+             p.y() < box.v + box.height;
+    };
+    double nearest = config.clearance + 1, deepest = 0.0;
+    for (const Eigen::Vector2i& p : robot) {
+      if (is_target(p)) {
+        double free = config.clearance;
+        for (int dv = -config.clearance; dv <= config.clearance; ++dv)
+          for (int du = -config.clearance; du <= config.clearance; ++du) {
+            const Eigen::Vector2i q = p + Eigen::Vector2i(du, dv);
+            const bool inside =
+                q.x() >= 0 && q.y() >= 0 && q.x() < image.width() && q.y() < image.height();
+            if (inside && cast(image.ray(q.x(), q.y()), 0.0).link == 0)
+              free = std::min(free, std::hypot(du, dv));
+          }
+        deepest = std::max(deepest, free);
+      }
+      for (double v = box.v; v < box.v + box.height; ++v)
+        for (double u = box.u; u < box.u + box.width; ++u)
+          nearest = std::min(nearest, std::hypot(u - p.x(), v - p.y()));
+    }
+    const double wanted = deepest > 0.0 ? -deepest : nearest - 1.0;
+    EXPECT_NEAR(got, wanted, 1e-5)
+        << box.u << ' ' << box.v << ' ' << box.width << ' ' << box.height;
+    ++(wanted < 0.0 ? negative : positive);
+  }
+  EXPECT_GT(negative, 5U);
+  EXPECT_GT(positive, 5U);
+}
+
+TEST(LookAheadCell, PixelsWithoutDepthAreUnknownBehindTheRobot) {
+  const PixelBox box{70, 54, 5, 5};  // behind the slab
+  EXPECT_EQ(
+      first_forecast({cell_camera()}, box_target(box, 2.0, Extent::amodal)).intervals[0].verdict,
+      Verdict::hidden);
+  for (const auto& target :
+       {box_target(box, std::nullopt, Extent::amodal), box_target(box, 2.0, Extent::modal)}) {
+    const CameraForecast seen = first_forecast({cell_camera()}, target);
+    EXPECT_EQ(seen.intervals[0].verdict, Verdict::unknown);
+    EXPECT_NE(seen.intervals[0].reason, "");
+  }
+}
+
+TEST(LookAheadCell, PixelsOfOneCameraAreUnknownInAnother) {
+  const ForecastTarget corner = box_target({1, 1, 4, 4}, std::nullopt, Extent::amodal);
+  const Trajectory still(slab_robot(), slide_joint, {{.time = 0.0, .positions = {0.0}}},
+                         std::vector{0.0});
+  const auto forecast = LookAhead(slab_robot(), {cell_camera(), cell_camera({0.5, 0.0, 0.0})},
+                                  {corner}, {.positions = {0.0}})
+                            .along(still)
+                            .front();
+  EXPECT_EQ(forecast.cameras[0].intervals[0].verdict, Verdict::visible);
+  EXPECT_EQ(forecast.cameras[1].intervals[0].verdict, Verdict::unknown);
+}
+
+TEST(LookAheadCell, OneCameraThatSeesItIsEnough) {
+  const ForecastTarget behind = ball_target({0.05, 0.02, 1.6});
+  EXPECT_EQ(first_forecast({cell_camera()}, behind).intervals[0].verdict, Verdict::hidden);
+  EXPECT_EQ(
+      first_forecast({cell_camera(), cell_camera({0.0, 0.0, 1.3})}, behind).intervals[0].verdict,
+      Verdict::visible);
+}
+
+TEST(LookAheadCell, WhatIsCarriedHidesAndIsHeld) {
+  const ForecastTarget ball = ball_target({-0.6, -0.3, 1.4});
+  EXPECT_EQ(first_forecast({cell_camera()}, ball).intervals[0].verdict, Verdict::visible);
+  RobotPose carrying{.positions = {0.0}};
+  carrying.attached = {
+      {.name = "part",
+       .link = "slab",
+       .mesh = std::make_shared<PreparedMesh>(make_box(Eigen::Vector3d(3.0, 3.0, 0.05)))}};
+  const CameraForecast hidden = first_forecast({cell_camera()}, ball, carrying);
+  EXPECT_EQ(hidden.intervals[0].verdict, Verdict::hidden);
+  EXPECT_EQ(hidden.intervals[0].by, "part");
+  carrying.attached[0].name = "ball";
+  EXPECT_EQ(first_forecast({cell_camera()}, ball, carrying).intervals[0].verdict, Verdict::held);
+  carrying.attached[0].name = "part";
+  carrying.attached[0].mesh = nullptr;
+  EXPECT_EQ(first_forecast({cell_camera()}, ball, carrying).intervals[0].verdict, Verdict::unknown);
+}
+
+TEST(LookAheadCell, ATargetMovesOutOfTheShadow) {
+  ForecastTarget ball = ball_target({0.05, 0.02, 1.6});
+  ball.velocity = {-1.0, -0.5, 0.0};
+  const Trajectory rest(slab_robot(), slide_joint,
+                        {{.time = 0.0, .positions = {0.0}}, {.time = 0.8, .positions = {0.0}}},
+                        std::vector{0.0});
+  const auto seen =
+      LookAhead(slab_robot(), {cell_camera()}, {ball}, {.positions = {0.0}}).along(rest).front();
+  EXPECT_EQ(seen.any.hidden_at(), 0.0);
+  EXPECT_TRUE(seen.any.seen_again_at().has_value());
+}
+
+/// A polynomial's value and derivatives.
+struct Moment {
+  double position, velocity, acceleration;
+};
+
+TEST(Trajectory, FollowsPolynomialsOfItsDegree) {
+  const auto value = [](const std::vector<double>& c, double t) {
+    Moment m{0, 0, 0};
+    for (std::size_t i = 0; i < c.size(); ++i) {
+      const auto n = static_cast<double>(i);
+      m.position += c[i] * std::pow(t, n);
+      if (i > 0) m.velocity += n * c[i] * std::pow(t, n - 1);
+      if (i > 1) m.acceleration += n * (n - 1) * c[i] * std::pow(t, n - 2);
+    }
+    return m;
+  };
+  const std::vector<std::vector<double>> polynomials = {
+      {0.1, 0.3}, {0.1, 0.3, -0.2, 0.15}, {0.1, 0.3, -0.2, 0.15, 0.05, -0.02}};
+  for (const std::vector<double>& c : polynomials) {
+    std::vector<TrajectoryPoint> points;
+    for (const double t : {0.0, 0.7, 1.5}) {
+      const Moment m = value(c, t);
+      points.push_back({.time = t, .positions = {m.position}});
+      if (c.size() > 2) points.back().velocities = {m.velocity};
+      if (c.size() > 4) points.back().accelerations = {m.acceleration};
+    }
+    const Trajectory trajectory(slab_robot(), slide_joint, points, std::vector{0.1});
+    for (double t = 0.0; t <= 1.5; t += 0.05) {
+      std::vector<double> positions(1);
+      trajectory.at(t, positions);
+      EXPECT_NEAR(positions[0], value(c, t).position, 1e-12) << t;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::test
