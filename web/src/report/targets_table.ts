@@ -4,6 +4,7 @@ import { percent } from '../model/format';
 import { verdictNames, verdictOf, verdicts } from '../model/labels';
 import {
   hiddenFraction,
+  hiddenText,
   hidersOf,
   mostHidden,
   onsets,
@@ -77,11 +78,11 @@ function onsetButtons(track: Track, { numberOf, seek }: Frames): (Node | string)
 /** Lists what each target is, and behind which links, from frame to frame; closed at first. */
 export function verdictList(tracks: readonly Track[], frames: Frames): HTMLElement {
   const head = element('tr', '', element('th', '', 'frames'));
-  for (const title of ['verdict', 'max hidden', 'by']) head.append(element('th', 'text', title));
+  for (const title of ['verdict', 'hidden']) head.append(element('th', 'text', title));
   const lists = tracks.map((track) => {
     const table = element('table', '', head.cloneNode(true));
     for (const { from, to } of runsOf(track.samples.map(stateOf))) {
-      const sample = track.samples.slice(from, to).reduce(worse, null);
+      const sample = track.samples.slice(from, to).reduce(worse);
       if (!sample) continue;
       const button = element('button', 'small', spanOf(from, to, frames));
       button.addEventListener('click', () => frames.seek(from));
@@ -91,8 +92,7 @@ export function verdictList(tracks: readonly Track[], frames: Frames): HTMLEleme
           '',
           element('td', '', button),
           element('td', 'text', verdictIcon(verdictOf(sample)), verdictNames[verdictOf(sample)]),
-          element('td', 'text', percent(hiddenFraction(sample))),
-          element('td', 'text', hidersOf(sample).join(', ')),
+          element('td', 'text', hiddenText(sample)),
         ),
       );
     }

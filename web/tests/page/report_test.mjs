@@ -105,6 +105,12 @@ test('the first cards of a report are the targets, and its buttons fit a finger'
     assert.ok(tiles[index].includes(`${visible} of ${frames.length}`), tiles[index]);
   }
   assert.match(await page.locator('.report-details .card').first().textContent(), /^Targets/);
+  for (const list of await page.locator('details').all()) {
+    const rows = await list.locator('tr button').allTextContents();
+    const ranges = rows.map((row) => row.split(' to ').map(Number));
+    const listed = ranges.reduce((sum, range) => sum + range.at(-1) - range[0] + 1, 0);
+    assert.equal(listed, frames.length, await list.textContent());
+  }
   assert.deepEqual(await smallButtons(page), []);
   await close();
 });
