@@ -19,8 +19,8 @@ namespace penumbra {
 /// moves with its link: what stands still next to a link is left out.
 class MissingParts {
  public:
-  /// A link is named if in half of the frames, two or more, over `most` of the fringe pixels next to
-  /// it are farther from the outline than `far` times the fringe's reach. On a real recording
+  /// A link is named if in half of the frames, two or more, over `most` of the fringe pixels next
+  /// to it are farther from the outline than `far` times the fringe's reach. On a real recording
   /// complete links exceed `most` in at most one frame; where a part of 10 cm is missing, in half.
   static constexpr double far = 0.6;
   static constexpr double most = 0.15;

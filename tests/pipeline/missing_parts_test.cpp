@@ -17,7 +17,7 @@ std::vector<std::string> said_of_a_box(double share) {
   config.rule.fringe_reach = 40;
   Pipeline pipeline(slab_robot(), camera, config);
   MissingParts parts(pipeline.robot(), config.rule.fringe_reach);
-  for (const double slide : {0.0, 0.3, 0.5, 0.4}) {
+  for (const double slide : {0.0, 0.1, 0.3, 0.2}) {
     const SlabBox box{{-0.35, 0.0, 1.0 + share * slide}, {0.3, 0.2, 0.1}, 0};
     const Image<float> depth = scene_depth(camera, slide, {box});
     parts.add(pipeline.process({.depth = depth.view(), .pose = {.positions = {slide}}}));
