@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,10 +23,13 @@
 #include <penumbra/scene/look_ahead.hpp>
 #include <penumbra/targets/object_renderers-inl.hpp>
 #include <penumbra/targets/region_spans-inl.hpp>
-#include <penumbra/targets/target_judge.hpp>
 #include <penumbra/targets/target_views-inl.hpp>
+#include <penumbra/targets/target_visibility-inl.hpp>
 
 namespace penumbra::scene {
+
+/// Pixels; sums of two of their squares are 16-bit numbers.
+inline constexpr int max_clearance = 127;
 
 /// A target in space at the start of a motion.
 struct AnchoredTarget {
@@ -73,34 +77,44 @@ class CameraPredictor {
     std::string name;
     Eigen::AlignedBox3d bounds;  // in its frame; empty if it is not drawn
   };
-  /// A target in the image.
+  /// A target in the image, kept until it moves there.
   struct Shown {
-    TargetView view;
-    double depth = 0.0;  // of its middle, metres; infinite: not known
+    Eigen::Isometry3d T_camera_frame =
+        Eigen::Isometry3d::Identity();  // that it was made for: of its reference frame
+    double time = std::numeric_limits<double>::quiet_NaN();  // of a target that moves; else 0
+    std::string fault = {};                  // why it is unknown; empty: it is known
+    std::vector<RowSpan> spans = {};         // none: it is not in view
+    PixelRectangle region = {};              // around them
+    std::vector<float> near = {}, far = {};  // metres, by pixel: robot before `near` hides it
+    float before = 0.0F;                     // metres: robot nearer than that is before its middle
+    Visibility whole = {};                   // without the robot
   };
 
   void place_bodies(const PoseResult& poses, Sample& sample);
-  [[nodiscard]] Prediction judge(std::size_t target, const PoseResult& poses, Sample& sample);
-  [[nodiscard]] std::optional<Shown> show(std::size_t target, const PoseResult& poses, double time);
+  const Shown& show(std::size_t target, const PoseResult& poses, double time);
+  void fill(std::size_t target, const PoseResult& poses, Shown& shown);
+  void set_limits(const TargetView& view, double depth, Shown& shown);
   void move(std::size_t target, double time);
-  void draw(bool is_near, const PixelRectangle& window, const PixelRectangle& region);
+  [[nodiscard]] Prediction judge(std::size_t target, bool is_near);
+  [[nodiscard]] Visibility tally(const Shown& shown);
   [[nodiscard]] static std::size_t index(const PixelRectangle& window, int u, int v) {
     return static_cast<std::size_t>(v - window.v0) * static_cast<std::size_t>(window.width()) +
            static_cast<std::size_t>(u - window.u0);
   }
-  [[nodiscard]] double clearance(const Shown& shown, const PixelRectangle& window);
+  [[nodiscard]] double clearance(const Shown& shown, bool is_hidden);
   void mark_blocked(const Shown& shown, const PixelRectangle& window);
-  [[nodiscard]] double free_distance(const PixelRectangle& window) const;
-  [[nodiscard]] double hidden_depth(const PixelRectangle& window);
+  [[nodiscard]] double free_distance(const Shown& shown, const PixelRectangle& window,
+                                     int most) const;
+  [[nodiscard]] double hidden_depth(const Shown& shown, const PixelRectangle& window, int most);
 
   const Robot& robot_;
   std::span<const AnchoredTarget> anchored_;
   std::vector<Target> targets_;           // at the sample's time
   std::vector<Eigen::Vector3d> outline_;  // of the target that was moved last
   std::optional<Rectification> rectification_;
-  std::optional<UncoveredPixels> uncovered_;
   Camera camera_;  // of the rectified images
   int clearance_;
+  double free_;  // the clearance of a target that nothing is near to
   LabelRule rule_;
   labelling::Rule label_rule_;
   RobotPose pose_;
@@ -113,13 +127,14 @@ class CameraPredictor {
   std::string always_unknown_;
   ObjectRenderers objects_;
   TargetViews views_;
-  TargetJudge judge_;
   SeenPixels seen_pixels_;
   RegionSpans spans_;
+  std::vector<Shown> shown_;  // by target
   VirtualDepthView drawn_;
-  Image<std::uint8_t> labels_;
+  LinkCounts links_;
   std::vector<std::uint8_t> blocked_;  // of a window: the robot could hide the target there
   std::vector<std::int16_t> columns_;  // of a window: rows to the nearest pixel that is not blocked
+  std::vector<std::int16_t> squares_, nearest_;  // of a row: squared distances
 };
 
 }  // namespace penumbra::scene

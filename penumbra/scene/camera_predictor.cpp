@@ -150,6 +150,7 @@ CameraPredictor::CameraPredictor(const Robot& robot, const ForecastCamera& camer
       rectification_(rectification_of(camera.camera.check())),
       camera_(rectified(camera.camera, rectification_)),
       clearance_(clearance),
+      free_(clearance > 0 ? clearance : std::numeric_limits<double>::quiet_NaN()),
       rule_(within_range(camera.rule)),
       label_rule_(rule_),
       poses_(robot, camera.parent, camera.T_parent_camera, {}),
@@ -159,14 +160,12 @@ CameraPredictor::CameraPredictor(const Robot& robot, const ForecastCamera& camer
       always_unknown_(why_parts_lack(robot, start.attached)),
       objects_(camera_.intrinsics, Backend::cpu, {}, nullptr, camera_),
       views_(robot, camera_, objects_, rule_, nullptr),
-      judge_([&] {
-        if (rectification_) uncovered_.emplace(rectification_->pinhole_to_raw());
-        return TargetJudge(camera_, rule_, robot.links().size() + max_attached,
-                           uncovered_ ? uncovered_->mask() : ImageView<const std::uint8_t>{});
-      }()),
-      seen_pixels_(uncovered_ ? uncovered_->mask() : ImageView<const std::uint8_t>{}),
+      seen_pixels_(rectification_ ? UncoveredPixels(rectification_->pinhole_to_raw()).mask()
+                                  : ImageView<const std::uint8_t>{}),
       spans_(camera_.intrinsics.width(), camera_.intrinsics.height()),
-      labels_(camera_.intrinsics.width(), camera_.intrinsics.height()) {
+      shown_(targets.size()),
+      links_(robot.links().size() + max_attached) {
+  rule_.check();
   for (const AnchoredTarget& target : targets) targets_.push_back(target.start.target);
   for (const Body& body : bodies_with(robot, start.attached)) {
     Part& part = parts_.emplace_back(Part{std::string(body.name), {}});
@@ -183,17 +182,29 @@ Sample CameraPredictor::at(double time, std::span<const double> positions) {
   Sample sample;
   sample.time = time;
   sample.targets.resize(targets_.size());
+  sample.predictions.resize(targets_.size());
   // One on a link of unknown pose is not placed.
-  const bool is_known = poses.known() && poses.attached.size() == pose_.attached.size();
-  if (is_known) place_bodies(poses, sample);
+  if (!poses.known() || poses.attached.size() != pose_.attached.size()) {
+    for (Prediction& prediction : sample.predictions) prediction.reason = poses.message;
+    return sample;
+  }
+  place_bodies(poses, sample);
+  PixelRectangle drawn;  // where the robot matters
+  std::vector<bool> is_near(targets_.size());
   for (std::size_t i = 0; i < targets_.size(); ++i) {
-    const auto is_carried = [&](const AttachedBody& body) { return body.name == targets_[i].name; };
-    if (!is_known)
-      sample.predictions.push_back({.reason = poses.message});
-    else if (std::ranges::any_of(pose_.attached, is_carried))
-      sample.predictions.push_back({.verdict = Verdict::held, .clearance = double(clearance_)});
-    else
-      sample.predictions.push_back(judge(i, poses, sample));
+    const PixelRectangle& region = sample.targets[i] = show(i, poses, time).region;
+    if (region.empty()) continue;
+    const PixelRectangle window = grown(region, clearance_, camera_.intrinsics);
+    is_near[i] = std::ranges::any_of(
+        sample.bodies, [&](const SeenBody& body) { return !overlap(body.pixels, window).empty(); });
+    if (is_near[i]) drawn = drawn.empty() ? window : drawn.united(window);
+  }
+  if (!drawn.empty()) drawn_ = renderer_->render(T_camera_body_, drawn);
+  for (std::size_t i = 0; i < targets_.size(); ++i) {
+    const auto is_target = [&](const AttachedBody& body) { return body.name == targets_[i].name; };
+    sample.predictions[i] = std::ranges::any_of(pose_.attached, is_target)
+                                ? Prediction{.verdict = Verdict::held, .clearance = free_}
+                                : judge(i, is_near[i]);
   }
   return sample;
 }
@@ -235,80 +246,114 @@ void CameraPredictor::move(std::size_t target, double time) {
     outline_.emplace_back(middle + way + turn * (corner - middle));
 }
 
-/// Returns the target's view; null if it is outside of the camera's.
-std::optional<CameraPredictor::Shown> CameraPredictor::show(std::size_t target,
-                                                            const PoseResult& poses, double time) {
-  const std::string& fault = anchored_[target].start.target.fault;
-  if (!fault.empty()) throw InputError(fault);
-  move(target, time);
-  const Eigen::Isometry3d T_camera_root = poses.T_root_camera.inverse();
-  if (const auto placement = placement_of(targets_[target].shape)) {
-    const Eigen::Isometry3d T_root_frame = pose_of(placement->frame, poses, robot_);
-    const double depth = (T_camera_root * (T_root_frame * placement->pose.translation())).z();
-    if (depth < camera_.range.near || depth > camera_.range.far) return std::nullopt;
-    const auto view = views_.view(targets_[target], {}, poses);
-    if (!view) return std::nullopt;
-    return Shown{*view, depth};
+/// Makes the target's view again if it has moved in the image.
+const CameraPredictor::Shown& CameraPredictor::show(std::size_t target, const PoseResult& poses,
+                                                    double time) {
+  Shown& shown = shown_[target];
+  const ForecastTarget& start = anchored_[target].start;
+  const bool is_at_rest = start.velocity.isZero(0.0) && start.angular_velocity.isZero(0.0);
+  try {
+    if (!start.target.fault.empty()) throw InputError(start.target.fault);
+    Eigen::Isometry3d T_camera_frame = poses.T_root_camera.inverse();
+    if (const auto at = placement_of(start.target.shape))
+      T_camera_frame = T_camera_frame * pose_of(at->frame, poses, robot_);
+    if (is_at_rest) time = 0.0;
+    if (shown.time == time && shown.T_camera_frame.matrix() == T_camera_frame.matrix())
+      return shown;
+    shown = {.T_camera_frame = T_camera_frame, .time = time};
+    move(target, time);
+    fill(target, poses, shown);
+  } catch (const InputError& error) {
+    shown = {.fault = error.what()};
   }
-  Shown shown;
-  shown.view.thresholds = targets_[target].thresholds;
-  shown.view.depth_margin = targets_[target].depth_margin;
-  if (!anchored_[target].outline.empty()) {
-    PixelPolygon polygon;
-    for (const Eigen::Vector3d& corner : outline_) {
-      const Eigen::Vector3d p = T_camera_root * corner;
-      if (p.z() < DepthRenderer::near_plane) continue;
-      polygon.corners.push_back(camera_.intrinsics.project(p));
-      shown.depth += p.z() / static_cast<double>(outline_.size());
-    }
-    if (polygon.corners.empty()) return std::nullopt;
-    if (polygon.corners.size() < outline_.size())
-      throw InputError("it reaches the plane of the camera's lens");
-    if (shown.depth < camera_.range.near || shown.depth > camera_.range.far) return std::nullopt;
-    shown.view.region = std::move(polygon);
-    shown.view.expected_depth = shown.depth;
-    return shown;
-  }
-  if (rectification_ || !poses.T_root_camera.isApprox(anchored_[target].T_root_camera))
-    throw InputError(
-        "its pixels cannot be followed in another camera, one that moves, or one whose lens bends: "
-        "give a box or polygon and its expected_depth");
-  const auto view = views_.view(targets_[target], {}, poses);
-  if (!view) return std::nullopt;
-  shown.view = *view;
-  shown.view.extent = Extent::amodal;
-  shown.depth = view->expected_depth.value_or(std::numeric_limits<double>::infinity());
   return shown;
 }
 
-Prediction CameraPredictor::judge(std::size_t target, const PoseResult& poses, Sample& sample) {
-  Prediction prediction{.verdict = Verdict::out_of_view, .clearance = double(clearance_)};
-  try {
-    auto shown = show(target, poses, sample.time);
-    if (!shown) return prediction;
-    shown->view.wants_point = false;
-    spans_.fill(shown->view.region);
-    spans_.keep(seen_pixels_);
-    if (spans_.spans().empty()) return prediction;
-    const PixelRectangle region = rectangle_of(spans_.spans());
-    const PixelRectangle window = grown(region, clearance_, camera_.intrinsics);
-    sample.targets[target] = region;
-    const bool is_near = std::ranges::any_of(
-        sample.bodies, [&](const SeenBody& body) { return !overlap(body.pixels, window).empty(); });
-    draw(is_near, window, region);
-    LabelledImages images;
-    images.labels.labels = labels_.view();
-    images.virtual_depth = drawn_;
-    judge_.begin(images);
-    const Judgement judgement = judge_.judge(shown->view);
-    prediction.verdict = judgement.verdict;
-    prediction.hidden = judgement.occluded;
-    prediction.reason = judgement.reason;
-    if (!judgement.blame.empty()) prediction.by = parts_[judgement.blame.front().link].name;
-    if (is_near) prediction.clearance = clearance(*shown, window);
-  } catch (const InputError& error) {
-    return {.reason = error.what()};
+void CameraPredictor::fill(std::size_t target, const PoseResult& poses, Shown& shown) {
+  const auto is_in_range = [&](double depth) {
+    return depth >= camera_.range.near && depth <= camera_.range.far;
+  };
+  const std::vector<Eigen::Vector3d>& outline = anchored_[target].outline;
+  if (!outline.empty()) {
+    TargetView view;
+    view.depth_margin = targets_[target].depth_margin;
+    view.thresholds = targets_[target].thresholds;
+    PixelPolygon polygon;
+    double depth = 0.0;
+    for (const Eigen::Vector3d& corner : outline_) {
+      const Eigen::Vector3d p = shown.T_camera_frame * corner;
+      if (p.z() < DepthRenderer::near_plane) continue;
+      polygon.corners.push_back(camera_.intrinsics.project(p));
+      depth += p.z() / static_cast<double>(outline_.size());
+    }
+    if (polygon.corners.empty()) return;
+    if (polygon.corners.size() < outline_.size())
+      throw InputError("it reaches the plane of the camera's lens");
+    view.region = std::move(polygon);
+    view.expected_depth = depth;
+    if (is_in_range(depth)) set_limits(view, depth, shown);
+    return;
   }
+  const auto placement = placement_of(targets_[target].shape);
+  double depth = std::numeric_limits<double>::infinity();
+  if (placement) {
+    depth = (shown.T_camera_frame * placement->pose.translation()).z();
+    if (!is_in_range(depth)) return;
+  } else if (rectification_ || !poses.T_root_camera.isApprox(anchored_[target].T_root_camera)) {
+    throw InputError(
+        "its pixels cannot be followed in another camera, one that moves, or one whose lens bends: "
+        "give a box or polygon and its expected_depth");
+  }
+  if (const auto view = views_.view(targets_[target], {}, poses))
+    set_limits(*view, placement ? depth : view->expected_depth.value_or(depth), shown);
+}
+
+/// Fills in the pixels of the target's region, and how near the robot must be there to hide it.
+/// `depth`: of its middle, metres; infinite: not known.
+void CameraPredictor::set_limits(const TargetView& view, double depth, Shown& shown) {
+  check_view(view);
+  spans_.fill(view.region);
+  spans_.keep(seen_pixels_);
+  shown.spans.assign(spans_.spans().begin(), spans_.spans().end());
+  if (shown.spans.empty()) return;
+  shown.region = rectangle_of(shown.spans);
+  shown.whole = {.covered = spans_.covered(), .inside = spans_.inside()};
+  shown.whole.pixels[PixelState::clear] = spans_.inside();
+  shown.whole.is_expected = std::isfinite(depth);
+  const LimitRule rule(label_rule_, view.depth_margin);
+  constexpr float anywhere = std::numeric_limits<float>::infinity();
+  shown.before = shown.whole.is_expected ? rule.at(static_cast<float>(depth)).near : anywhere;
+  const auto* const rendered = std::get_if<RenderedRegion>(&view.region);
+  for (const RowSpan& span : shown.spans)
+    for (int u = span.u0; u < span.u1; ++u) {
+      const DepthLimits limits =
+          rule.at(rendered != nullptr ? rendered->depth.view(u, span.v)
+                                      : static_cast<float>(view.expected_depth.value_or(anywhere)));
+      shown.near.push_back(shown.whole.is_expected ? limits.near : anywhere);
+      shown.far.push_back(shown.whole.is_expected ? limits.far : anywhere);
+    }
+}
+
+Prediction CameraPredictor::judge(std::size_t target, bool is_near) {
+  const Shown& shown = shown_[target];
+  if (!shown.fault.empty()) return {.reason = shown.fault};
+  Prediction prediction{.verdict = Verdict::out_of_view, .clearance = free_};
+  if (shown.spans.empty()) return prediction;
+  links_.clear();
+  const Visibility visibility = is_near ? tally(shown) : shown.whole;
+  TargetMemory none;
+  prediction.verdict = decide(visibility, targets_[target].thresholds, none);
+  prediction.hidden = visibility.fraction(PixelState::occluded);
+  if (prediction.hidden > 0.0)
+    prediction.by = parts_[links_.blame(visibility.inside).front().link].name;
+  if (prediction.verdict == Verdict::unknown)
+    prediction.reason =
+        visibility.is_expected
+            ? "too much of it is at the robot's own depth"
+            : "the robot is before or behind it: give its expected_depth, or its height";
+  const PixelState blocked = visibility.is_expected ? PixelState::occluded : PixelState::unknown;
+  if (is_near && clearance_ > 0)
+    prediction.clearance = clearance(shown, visibility.pixels[blocked] > 0);
   if (!unknown_reason_.empty() &&
       (prediction.verdict == Verdict::visible || prediction.verdict == Verdict::partial)) {
     prediction.verdict = Verdict::unknown;
@@ -317,60 +362,77 @@ Prediction CameraPredictor::judge(std::size_t target, const PoseResult& poses, S
   return prediction;
 }
 
-/// Draws the robot in a window, and labels it in the region: nothing is measured, so that the judge
-/// compares the robot's depth with the target's.
-void CameraPredictor::draw(bool is_near, const PixelRectangle& window,
-                           const PixelRectangle& region) {
-  if (is_near || drawn_.depth.empty()) drawn_ = renderer_->render(T_camera_body_, window);
-  for (int v = region.v0; v < region.v1; ++v) {
-    const float* const depth = drawn_.depth.row(v);
-    for (int u = region.u0; u < region.u1; ++u)
-      labels_(u, v) =
-          static_cast<std::uint8_t>(is_near && depth[u] > 0.0F ? Label::unknown : Label::clear);
+/// Counts the target's pixels, and the links that hide them.
+Visibility CameraPredictor::tally(const Shown& shown) {
+  Visibility visibility = shown.whole;
+  std::size_t first = 0;  // of the span's pixels
+  std::size_t before = 0, beside = 0;
+  for (const RowSpan& span : shown.spans) {
+    const auto pixels = static_cast<std::size_t>(span.u1 - span.u0);
+    const float* const robot = drawn_.depth.row(span.v) + span.u0;
+    const std::uint16_t* const links = drawn_.links.row(span.v) + span.u0;
+    const float *const near = &shown.near[first], *const far = &shown.far[first];
+    std::int32_t hidden = 0, unknown = 0;  // as wide as a depth, to vectorise
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const bool is_robot = robot[i] > 0.0F, hides = robot[i] < near[i];
+      hidden += is_robot & hides;
+      unknown += is_robot & !hides & (robot[i] <= far[i]);
+    }
+    for (std::size_t i = 0; i < pixels && hidden > 0; ++i)
+      if (robot[i] > 0.0F && robot[i] < near[i]) links_.add(links[i], 1);
+    before += static_cast<std::size_t>(hidden);
+    beside += static_cast<std::size_t>(unknown);
+    first += pixels;
   }
+  visibility.pixels[PixelState::occluded] = visibility.is_expected ? before : 0;
+  visibility.pixels[PixelState::unknown] = visibility.is_expected ? beside : before;
+  visibility.pixels[PixelState::clear] = visibility.inside - before - beside;
+  return visibility;
 }
 
-double CameraPredictor::clearance(const Shown& shown, const PixelRectangle& window) {
-  mark_blocked(shown, window);
-  const auto is_blocked = [&](const RowSpan& span) {
-    const auto* row = &blocked_[index(window, span.u0, span.v)];
-    return std::find(row, row + (span.u1 - span.u0), 1) != row + (span.u1 - span.u0);
-  };
-  return std::ranges::any_of(spans_.spans(), is_blocked) ? -hidden_depth(window)
-                                                         : free_distance(window);
+/// Measures it in a narrow window first.
+double CameraPredictor::clearance(const Shown& shown, bool is_hidden) {
+  constexpr int narrow = 16;  // pixels
+  for (int most = std::min(narrow, clearance_);; most = clearance_) {
+    const PixelRectangle window = grown(shown.region, most, camera_.intrinsics);
+    mark_blocked(shown, window);
+    const double found =
+        is_hidden ? -hidden_depth(shown, window, most) : free_distance(shown, window, most);
+    if (std::abs(found) < most || most == clearance_) return found;
+  }
 }
 
 /// Marks the pixels of the robot that are before the target; outside of the target's region, before
 /// its middle.
 void CameraPredictor::mark_blocked(const Shown& shown, const PixelRectangle& window) {
-  const LimitRule rule(label_rule_, shown.view.depth_margin);
-  const bool is_known = std::isfinite(shown.depth);
-  const float near = is_known ? rule.at(static_cast<float>(shown.depth)).near
-                              : std::numeric_limits<float>::infinity();
-  blocked_.resize(static_cast<std::size_t>(window.width()) *
-                  static_cast<std::size_t>(window.height()));
-  for (int v = window.v0; v < window.v1; ++v) {
-    const float* const depth = drawn_.depth.row(v) + window.u0;
-    std::uint8_t* const row = &blocked_[index(window, window.u0, v)];
-    const int width = window.width();
-    for (int u = 0; u < width; ++u)  // without branches, to vectorise
-      row[u] = static_cast<std::uint8_t>((depth[u] > 0.0F) & (depth[u] < near));
-  }
-  const auto* const rendered = std::get_if<RenderedRegion>(&shown.view.region);
-  if (rendered == nullptr) return;
-  for (const RowSpan& span : spans_.spans()) {
-    const float* const depth = drawn_.depth.row(span.v);
-    const float* const expected = rendered->depth.view.row(span.v);
-    for (int u = span.u0; u < span.u1; ++u)
-      blocked_[index(window, u, span.v)] =
-          depth[u] > 0.0F && depth[u] < rule.at(expected[u]).near ? 1 : 0;
+  blocked_.assign(
+      static_cast<std::size_t>(window.width()) * static_cast<std::size_t>(window.height()), 0);
+  drawn_.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
+    const PixelRectangle part = overlap({u0, v0, u1, v1}, window);
+    for (int v = part.v0; v < part.v1; ++v) {
+      const float* const depth = drawn_.depth.row(v) + part.u0;
+      std::uint8_t* const row = &blocked_[index(window, part.u0, v)];
+      const int width = part.width();
+      for (int u = 0; u < width; ++u)  // without branches, to vectorise
+        row[u] = static_cast<std::uint8_t>((depth[u] > 0.0F) & (depth[u] < shown.before));
+    }
+  });
+  const float* near = shown.near.data();
+  for (const RowSpan& span : shown.spans) {
+    const float* const depth = drawn_.depth.row(span.v) + span.u0;
+    std::uint8_t* const row = &blocked_[index(window, span.u0, span.v)];
+    const int width = span.u1 - span.u0;
+    for (int u = 0; u < width; ++u)
+      row[u] = static_cast<std::uint8_t>((depth[u] > 0.0F) & (depth[u] < near[u]));
+    near += width;
   }
 }
 
-/// Returns the distance from the target's region to the nearest blocked pixel; 0 where they touch.
-double CameraPredictor::free_distance(const PixelRectangle& window) const {
-  const int most = clearance_ + 1;
-  int best = most * most;  // squared
+/// Returns the distance from the target's region to the nearest blocked pixel, `most` at most; 0
+/// where they touch.
+double CameraPredictor::free_distance(const Shown& shown, const PixelRectangle& window,
+                                      int most) const {
+  int best = (most + 1) * (most + 1);  // squared
   for (int v = window.v0; v < window.v1; ++v) {
     const std::uint8_t* const row = &blocked_[index(window, window.u0, v)];
     const std::uint8_t* const end = row + window.width();
@@ -378,7 +440,7 @@ double CameraPredictor::free_distance(const PixelRectangle& window) const {
       const std::uint8_t* const run_end = std::find(run, end, 0);
       const int u0 = window.u0 + static_cast<int>(run - row);
       const int u1 = window.u0 + static_cast<int>(run_end - row);
-      for (const RowSpan& span : spans_.spans()) {
+      for (const RowSpan& span : shown.spans) {
         const int dv = span.v - v;
         if (dv * dv >= best) continue;
         const int du = std::max({0, u0 - (span.u1 - 1), span.u0 - (u1 - 1)});
@@ -387,47 +449,56 @@ double CameraPredictor::free_distance(const PixelRectangle& window) const {
       run = std::find(run_end, end, 1);
     }
   }
-  return std::min(std::sqrt(best) - 1.0, static_cast<double>(clearance_));
+  return std::min(std::sqrt(best) - 1.0, static_cast<double>(most));
 }
 
-/// Returns how far the innermost blocked pixel of the target's region is from one that is free: the
-/// exact distance transform, rows first (Felzenszwalb and Huttenlocher, "Distance transforms of
-/// sampled functions"), where it can still grow.
-double CameraPredictor::hidden_depth(const PixelRectangle& window) {
-  const int width = window.width();
-  const auto most = static_cast<std::int16_t>(clearance_);
+/// Returns how far the innermost blocked pixel of the target's region is from one that is free,
+/// `most` at most: the exact distance transform, columns first (Felzenszwalb and Huttenlocher,
+/// "Distance transforms of sampled functions"), in the rows where it can still grow. Its loops
+/// vectorise.
+double CameraPredictor::hidden_depth(const Shown& shown, const PixelRectangle& window, int most) {
+  using Pixels = std::int16_t;  // also squared: max_clearance
+  const auto width = static_cast<std::size_t>(window.width());
+  const auto cap = static_cast<Pixels>(most);
   columns_.resize(blocked_.size());
-  const auto row_of = [&](int v) { return &columns_[index(window, window.u0, v)]; };
-  for (int v = window.v0; v < window.v1; ++v) {
-    const std::uint8_t* const blocked = &blocked_[index(window, window.u0, v)];
-    std::int16_t* const row = row_of(v);
-    if (v == window.v0)
-      for (int u = 0; u < width; ++u) row[u] = static_cast<std::int16_t>(most * blocked[u]);
-    else
-      for (int u = 0; u < width; ++u)  // without branches, to vectorise
-        row[u] = static_cast<std::int16_t>(
-            std::min<std::int16_t>(most, static_cast<std::int16_t>(row[u - width] + 1)) *
-            blocked[u]);
+  for (std::size_t i = 0; i < width; ++i) columns_[i] = static_cast<Pixels>(cap * blocked_[i]);
+  for (std::size_t i = width; i < columns_.size(); ++i) {
+    const auto next = static_cast<Pixels>(columns_[i - width] + 1);
+    columns_[i] = static_cast<Pixels>(std::min(cap, next) * blocked_[i]);
   }
-  for (int v = window.v1 - 2; v >= window.v0; --v) {
-    std::int16_t* const row = row_of(v);
-    const std::int16_t* const below = row_of(v + 1);
-    for (int u = 0; u < width; ++u)
-      row[u] = std::min(row[u], static_cast<std::int16_t>(below[u] + 1));
+  for (std::size_t row = columns_.size() - width; row > 0;) {
+    row -= width;
+    for (std::size_t i = row; i < row + width; ++i)
+      columns_[i] = std::min(columns_[i], static_cast<Pixels>(columns_[i + width] + 1));
   }
   int deepest = 0;  // squared
-  for (const RowSpan& span : spans_.spans()) {
-    const std::int16_t* const row = row_of(span.v);
-    for (int u = span.u0 - window.u0; u < span.u1 - window.u0;) {
-      int nearest = row[u] * row[u];
-      for (int du = 1; du * du < nearest && nearest > deepest; ++du) {
-        if (u - du >= 0) nearest = std::min(nearest, du * du + row[u - du] * row[u - du]);
-        if (u + du < width) nearest = std::min(nearest, du * du + row[u + du] * row[u + du]);
+  const auto most_of = [](std::span<const Pixels> row) { return int{std::ranges::max(row)}; };
+  for (const RowSpan& span : shown.spans) {
+    const Pixels* const columns = &columns_[index(window, span.u0, span.v)];
+    const auto pixels = static_cast<std::size_t>(span.u1 - span.u0);
+    nearest_.resize(pixels);
+    for (std::size_t i = 0; i < pixels; ++i)
+      nearest_[i] = static_cast<Pixels>(columns[i] * columns[i]);
+    int row = most_of(nearest_);
+    if (row <= deepest) continue;
+    // The squares of all columns that matter, beyond the image the largest.
+    const int left = std::min(most, span.u0 - window.u0),
+              right = std::min(most, window.u1 - span.u1);
+    squares_.assign(pixels + 2 * static_cast<std::size_t>(most), static_cast<Pixels>(cap * cap));
+    Pixels* const squares = &squares_[static_cast<std::size_t>(most)];
+    for (int i = -left; i < static_cast<int>(pixels) + right; ++i)
+      squares[i] = static_cast<Pixels>(columns[i] * columns[i]);
+    for (int du = 1; du < most && row > std::max(deepest, du * du); ++du) {
+      const auto square = static_cast<Pixels>(du * du);
+      const Pixels *const left_of = squares - du, *const right_of = squares + du;
+      Pixels* const nearest = nearest_.data();
+      for (std::size_t i = 0; i < pixels; ++i) {
+        const auto next = static_cast<Pixels>(square + std::min(left_of[i], right_of[i]));
+        nearest[i] = std::min(nearest[i], next);
       }
-      deepest = std::max(deepest, nearest);
-      // From one pixel to the next the distance grows by 1 at most.
-      u += 1 + static_cast<int>(std::sqrt(deepest) - std::sqrt(nearest));
+      if (du % 4 == 0) row = most_of(nearest_);
     }
+    deepest = std::max(deepest, most_of(nearest_));
   }
   return std::sqrt(deepest);
 }

@@ -36,8 +36,9 @@ void check(const LookAheadConfig& config) {
        {std::pair("step", config.step), {"motion", config.motion}, {"border", config.border}})
     if (!(std::isfinite(value) && value >= least_step))
       fault(std::string(name) + " is " + std::to_string(value) + "; expected 0.001 or more");
-  if (config.clearance < 1 || config.clearance > 1000)
-    fault("clearance is " + std::to_string(config.clearance) + " pixels; expected 1 to 1000");
+  if (config.clearance < 0 || config.clearance > scene::max_clearance)
+    fault("clearance is " + std::to_string(config.clearance) + " pixels; expected 0 to " +
+          std::to_string(scene::max_clearance));
 }
 
 /// Calls work(thread, index) for each index below `count`, on some threads.
@@ -255,8 +256,9 @@ struct LookAhead::State {
 
   /// A detector's box of what it sees is the whole target only where the robot cuts nothing off.
   void check_modal_targets() {
-    const Sample sample = judge(0, 0).at(0.0, start.positions);
-    const int margin = std::min(cameras.front().rule.edge_margin, config.clearance - 1);
+    const int margin = std::min(cameras.front().rule.edge_margin, scene::max_clearance - 1);
+    const Sample sample = CameraPredictor(robot, cameras.front(), targets, start, margin + 1)
+                              .at(0.0, start.positions);
     for (std::size_t i = 0; i < targets.size(); ++i) {
       Target& target = targets[i].start.target;
       const auto* region = std::get_if<RegionTarget>(&target.shape);

@@ -48,7 +48,7 @@ struct Prediction {
   /// Pixels between the target and the nearest part of the robot that could hide it, 0 where they
   /// touch; below 0: how far the innermost hidden pixel of the target is from one that is not
   /// hidden. Never beyond +-LookAheadConfig::clearance.
-  double clearance = std::numeric_limits<double>::quiet_NaN();  ///< NaN: unknown
+  double clearance = std::numeric_limits<double>::quiet_NaN();  ///< NaN: unknown, not measured
   std::string by = {};      ///< the link, or attached body, that hides most of it; else empty
   std::string reason = {};  ///< one line if the verdict is unknown, else empty
 };
@@ -89,7 +89,8 @@ struct LookAheadConfig {
   /// itself, moves at most between two samples, unless they are 1 ms apart.
   double motion = 0.25;
   double border = 0.005;  ///< seconds by which an interval's begin and end may be off
-  int clearance = 64;     ///< pixels up to which Prediction::clearance is measured, 1 to 1000
+  /// Pixels up to which Prediction::clearance is measured, to 127; 0: it is not, which saves time.
+  int clearance = 64;
 };
 
 /// Says what a motion of the robot will hide, when, for how long, and by which link, if nothing

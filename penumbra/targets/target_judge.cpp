@@ -21,27 +21,6 @@ LabelRule checked_rule(const LabelRule& rule) {
   return rule;
 }
 
-void check_target(const TargetView& target) {
-  const bool rendered = std::holds_alternative<RenderedRegion>(target.region);
-  const std::optional<double>& depth = target.expected_depth;
-  const double most = static_cast<double>(RenderedRegion::max_depth);
-  if (rendered && target.extent == Extent::modal)
-    region_fault("a rendered region is the full extent: amodal");
-  if (rendered && depth) region_fault("a rendered region has its own expected depth: give none");
-  if (rendered && target.thresholds.min_inside > 0)
-    region_fault("min_inside ", target.thresholds.min_inside,
-                 ": what of a rendered region lies outside of the image is not known: must be 0");
-  if (depth && !(*depth > 0 && *depth <= most))
-    region_fault("expected depth ", *depth, " m: must be above 0 and up to ", most);
-  if (!(target.depth_margin >= 0 && target.depth_margin <= most))
-    region_fault("depth margin ", target.depth_margin, " m: must be 0 to ", most);
-  if (target.point_pixel && !target.point_pixel->allFinite())
-    region_fault("point pixel: must be numbers");
-  if (target.motion && !(target.motion->cwiseAbs().maxCoeff() <= max_coordinate))
-    region_fault("motion: must be numbers up to ", max_coordinate, " pixels");
-  target.thresholds.check();
-}
-
 ExpectedDepth expected_of(const TargetView& target) {
   ExpectedDepth expected;
   expected.margin = target.depth_margin;
@@ -87,6 +66,27 @@ std::string_view reason_for_unknown(const Visibility& visibility,
 }
 
 }  // namespace
+
+void check_view(const TargetView& target) {
+  const bool rendered = std::holds_alternative<RenderedRegion>(target.region);
+  const std::optional<double>& depth = target.expected_depth;
+  const double most = static_cast<double>(RenderedRegion::max_depth);
+  if (rendered && target.extent == Extent::modal)
+    region_fault("a rendered region is the full extent: amodal");
+  if (rendered && depth) region_fault("a rendered region has its own expected depth: give none");
+  if (rendered && target.thresholds.min_inside > 0)
+    region_fault("min_inside ", target.thresholds.min_inside,
+                 ": what of a rendered region lies outside of the image is not known: must be 0");
+  if (depth && !(*depth > 0 && *depth <= most))
+    region_fault("expected depth ", *depth, " m: must be above 0 and up to ", most);
+  if (!(target.depth_margin >= 0 && target.depth_margin <= most))
+    region_fault("depth margin ", target.depth_margin, " m: must be 0 to ", most);
+  if (target.point_pixel && !target.point_pixel->allFinite())
+    region_fault("point pixel: must be numbers");
+  if (target.motion && !(target.motion->cwiseAbs().maxCoeff() <= max_coordinate))
+    region_fault("motion: must be numbers up to ", max_coordinate, " pixels");
+  target.thresholds.check();
+}
 
 void TargetThresholds::check() const {
   check_settings(*this);
@@ -160,7 +160,7 @@ Judgement TargetJudge::judge(const TargetView& target) {
 }
 
 Judgement TargetJudge::State::judge(const TargetView& target, TargetMemory& memory) {
-  check_target(target);
+  check_view(target);
   if (!target.height || target.expected_depth) return judge_at_depth(target, memory);
   observer.fill(target.region);
   TargetView placed = target;

@@ -15,6 +15,9 @@
 
 namespace penumbra {
 
+/// Throws InputError for numbers out of range, and for what a rendered region cannot have.
+void check_view(const TargetView& target);
+
 /// The visibility of an extent.
 struct Visibility {
   [[nodiscard]] double fraction(PixelState state) const;
