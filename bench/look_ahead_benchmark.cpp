@@ -50,12 +50,12 @@ struct Cell {
     trajectory.emplace(robot, names, std::move(points), start);
   }
 
-  [[nodiscard]] LookAhead ahead(std::size_t count, int threads) const {
+  [[nodiscard]] LookAhead ahead(std::size_t count, int threads, int clearance) const {
     return {robot,
             {camera},
             {targets.begin(), targets.begin() + static_cast<std::ptrdiff_t>(count)},
             {.positions = start},
-            {.threads = threads}};
+            {.threads = threads, .clearance = clearance}};
   }
 
   Robot robot;
@@ -65,8 +65,8 @@ struct Cell {
   std::optional<Trajectory> trajectory;
 };
 
-void look_ahead(benchmark::State& state, const Cell& cell, int threads) {
-  LookAhead ahead = cell.ahead(10, threads);
+void look_ahead(benchmark::State& state, const Cell& cell, int threads, int clearance) {
+  LookAhead ahead = cell.ahead(10, threads, clearance);
   std::size_t samples = 0;
   for (auto _ : state) {
     const auto forecasts = ahead.along(*cell.trajectory);
@@ -75,8 +75,8 @@ void look_ahead(benchmark::State& state, const Cell& cell, int threads) {
   state.counters["samples"] = static_cast<double>(samples);
 }
 
-void visibility(benchmark::State& state, const Cell& cell, int threads) {
-  LookAhead ahead = cell.ahead(1, threads);
+void visibility(benchmark::State& state, const Cell& cell, int threads, int clearance) {
+  LookAhead ahead = cell.ahead(1, threads, clearance);
   for (auto _ : state) benchmark::DoNotOptimize(ahead.visibility(0, cell.positions));
   state.counters["configurations/s"] = benchmark::Counter(
       static_cast<double>(waypoints * state.iterations()), benchmark::Counter::kIsRate);
@@ -128,13 +128,15 @@ void add_cell(const std::string& name, const Cell& cell) {
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
   };
-  for (const int threads : {1, 2}) {
-    const std::string with = "/threads:" + std::to_string(threads);
-    add("look_ahead, 1000 waypoints, 10 targets" + with,
-        [&cell, threads](benchmark::State& state) { look_ahead(state, cell, threads); });
-    add("visibility, 1000 configurations, 1 target" + with,
-        [&cell, threads](benchmark::State& state) { visibility(state, cell, threads); });
-  }
+  for (const int threads : {1, 2})
+    for (const int clearance : {0, 64}) {
+      const std::string with =
+          "/clearance:" + std::to_string(clearance) + "/threads:" + std::to_string(threads);
+      add("look_ahead, 1000 waypoints, 10 targets" + with,
+          [=, &cell](benchmark::State& state) { look_ahead(state, cell, threads, clearance); });
+      add("visibility, 1000 configurations, 1 target" + with,
+          [=, &cell](benchmark::State& state) { visibility(state, cell, threads, clearance); });
+    }
   add("whole images, 1000", [&cell](benchmark::State& state) { render(state, cell); });
   add("cone against spheres, 1000, 10 targets",
       [&cell](benchmark::State& state) { cone(state, cell); });

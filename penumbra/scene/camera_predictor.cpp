@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -435,18 +436,22 @@ double CameraPredictor::free_distance(const Shown& shown, const PixelRectangle& 
   int best = (most + 1) * (most + 1);  // squared
   for (int v = window.v0; v < window.v1; ++v) {
     const std::uint8_t* const row = &blocked_[index(window, window.u0, v)];
-    const std::uint8_t* const end = row + window.width();
-    for (const std::uint8_t* run = std::find(row, end, 1); run != end;) {
-      const std::uint8_t* const run_end = std::find(run, end, 0);
-      const int u0 = window.u0 + static_cast<int>(run - row);
-      const int u1 = window.u0 + static_cast<int>(run_end - row);
+    const auto find = [&](int u, int value) {
+      const void* const found =
+          std::memchr(row + u, value, static_cast<std::size_t>(window.width() - u));
+      return found == nullptr ? window.width()
+                              : static_cast<int>(static_cast<const std::uint8_t*>(found) - row);
+    };
+    for (int first = find(0, 1); first < window.width();) {
+      const int end = find(first, 0);
       for (const RowSpan& span : shown.spans) {
         const int dv = span.v - v;
         if (dv * dv >= best) continue;
-        const int du = std::max({0, u0 - (span.u1 - 1), span.u0 - (u1 - 1)});
+        const int du =
+            std::max({0, window.u0 + first - (span.u1 - 1), span.u0 - (window.u0 + end - 1)});
         best = std::min(best, du * du + dv * dv);
       }
-      run = std::find(run_end, end, 1);
+      first = find(end, 1);
     }
   }
   return std::min(std::sqrt(best) - 1.0, static_cast<double>(most));
