@@ -41,6 +41,7 @@ void bind_frame(py::module_& m);
 void bind_report(py::module_& m);
 void bind_pipeline(py::module_& m);
 void bind_target_fusion(py::module_& m);
+void bind_look_ahead(py::module_& m);
 void bind_recording(py::module_& m);
 void bind_input(py::module_& m);
 void bind_calibration(py::module_& m);

@@ -24,6 +24,7 @@ PYBIND11_MODULE(_core, m) {
   bind_calibration(m);
   bind_pipeline(m);
   bind_target_fusion(m);
+  bind_look_ahead(m);
   bind_recording(m);
   bind_input(m);
 }

@@ -39,8 +39,13 @@ def check_batch(out):
     assert out.endswith("arm_over_table done 12\n")
 
 
+def check_look_ahead(out):
+    assert re.search(r"^lid \d\.\d\d s to \d\.\d\d s: hidden \w+$", out, re.MULTILINE)
+
+
 # What the programs of a document print, read once more.
-SAID = {"batch.md": check_batch, "targets.md": check_detector, "python.md": check_manual}
+SAID = {"batch.md": check_batch, "look_ahead.md": check_look_ahead, "targets.md": check_detector,
+        "python.md": check_manual}
 
 
 @pytest.mark.parametrize("document", [d for d in DOCUMENTS

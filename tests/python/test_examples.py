@@ -92,3 +92,18 @@ def test_pick_and_place_holds_the_part_where_it_is():
     for i in (3, 4, 5):
         assert told[i] == [f"frame {15 * i}: held it is attached to link 'gripper'", "predicted", "0.000 mm off"]
     assert told[-1][0].startswith("frame 105: visible") and told[-1][1] == "measured"
+
+
+def test_ways_to_a_grasp_are_ranked(tmp_path):
+    told = run("rank_grasps.py", tmp_path / "ways.png").splitlines()
+    assert told[0].startswith("over the top") and "100 % seen" in told[0]
+    assert told[-1].startswith("straight") and "behind" in told[-1]
+    assert (tmp_path / "ways.png").stat().st_size > 10_000
+
+
+def test_a_planner_keeps_the_target_in_view():
+    words = [line.split() for line in run("plan_in_view.py").splitlines()]
+    length = [float(line[3]) for line in words]
+    seen = [float(line[-2]) for line in words]
+    assert seen[0] < 80 and seen[-1] > 98  # the shortest path passes before the target
+    assert length[0] <= min(length[1:]) and length[-1] < 1.2 * length[0]
