@@ -25,7 +25,7 @@ HEADERS = {
                             "targets/target_judge.hpp"],
     "Tracking": ["tracking/trackers.hpp"],
     "Calibration": ["calibration/calibration.hpp"],
-    "Planning": ["scene/look_ahead.hpp", "scene/trajectory.hpp", "scene/view_planning.hpp"],
+    "Planning": ["scene/look_ahead.hpp", "robot/trajectory.hpp", "scene/view_planning.hpp"],
     "Images, meshes, errors": ["base/image.hpp", "mesh/triangle_mesh.hpp",
                                "mesh/prepared_mesh.hpp", "base/error.hpp"],
 }

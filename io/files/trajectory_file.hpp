@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/scene/trajectory.hpp>
+#include <penumbra/robot/trajectory.hpp>
 
 namespace penumbra::io {
 

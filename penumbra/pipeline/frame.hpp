@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/poses/robot_pose.hpp>
+#include <penumbra/robot/trajectory.hpp>
 #include <penumbra/targets/target.hpp>
 
 namespace penumbra {
@@ -24,6 +26,9 @@ struct Frame {
   SharedDepth depth = {};                  ///< of the camera's size; empty: missing_depth
   RobotPose pose = {};                     ///< at the stamp
   std::vector<Target> targets = {};
+  /// The motion that the robot follows, or waits to follow; null: none is known. Session tells what
+  /// it will hide.
+  std::shared_ptr<const Trajectory> plan = {};
   SharedColor color = {};          ///< for pictures; empty: none
   std::string color_message = {};  ///< why a recorded colour image is not usable; empty if it is
   /// A fault of the depth image that the source reports, and one line about it. The pipeline adds

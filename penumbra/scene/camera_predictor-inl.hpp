@@ -65,6 +65,9 @@ class CameraPredictor {
   CameraPredictor(const Robot& robot, const ForecastCamera& camera,
                   std::span<const AnchoredTarget> targets, const RobotPose& start, int clearance);
 
+  /// Begins anew with other targets. Returns false, and does nothing, if other things are carried.
+  [[nodiscard]] bool set(std::span<const AnchoredTarget> targets, const RobotPose& start);
+
   /// Judges all targets at a time of the motion, with the robot at `positions`.
   [[nodiscard]] Sample at(double time, std::span<const double> positions);
 
@@ -118,6 +121,7 @@ class CameraPredictor {
   LabelRule rule_;
   labelling::Rule label_rule_;
   RobotPose pose_;
+  std::vector<AttachedBody> carried_;
   PoseStage poses_;
   std::vector<Part> parts_;
   std::unique_ptr<DepthRenderer> renderer_;

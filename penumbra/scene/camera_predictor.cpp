@@ -147,7 +147,6 @@ CameraPredictor::CameraPredictor(const Robot& robot, const ForecastCamera& camer
                                  std::span<const AnchoredTarget> targets, const RobotPose& start,
                                  int clearance)
     : robot_(robot),
-      anchored_(targets),
       rectification_(rectification_of(camera.camera.check())),
       camera_(rectified(camera.camera, rectification_)),
       clearance_(clearance),
@@ -164,17 +163,31 @@ CameraPredictor::CameraPredictor(const Robot& robot, const ForecastCamera& camer
       seen_pixels_(rectification_ ? UncoveredPixels(rectification_->pinhole_to_raw()).mask()
                                   : ImageView<const std::uint8_t>{}),
       spans_(camera_.intrinsics.width(), camera_.intrinsics.height()),
-      shown_(targets.size()),
       links_(robot.links().size() + max_attached) {
   rule_.check();
-  for (const AnchoredTarget& target : targets) targets_.push_back(target.start.target);
   for (const Body& body : bodies_with(robot, start.attached)) {
     Part& part = parts_.emplace_back(Part{std::string(body.name), {}});
     for (const PreparedMesh& mesh : body.meshes) part.bounds.extend(mesh.bounds);
   }
+  carried_ = start.attached;
+  std::ranges::copy_if(carried_, std::back_inserter(pose_.attached), is_drawn);
+  static_cast<void>(set(targets, start));
+}
+
+bool CameraPredictor::set(std::span<const AnchoredTarget> targets, const RobotPose& start) {
+  const auto is_same = [](const AttachedBody& a, const AttachedBody& b) {
+    return a.name == b.name && a.link == b.link && a.mesh == b.mesh &&
+           a.T_link_body.matrix() == b.T_link_body.matrix();
+  };
+  if (!std::ranges::equal(carried_, start.attached, is_same)) return false;
   pose_.uncertain_links = start.uncertain_links;
   pose_.uncertain_reason = start.uncertain_reason;
-  std::ranges::copy_if(start.attached, std::back_inserter(pose_.attached), is_drawn);
+  pose_.T_parent_camera = start.T_parent_camera;
+  anchored_ = targets;
+  targets_.clear();
+  for (const AnchoredTarget& target : targets) targets_.push_back(target.start.target);
+  shown_.assign(targets.size(), {});
+  return true;
 }
 
 Sample CameraPredictor::at(double time, std::span<const double> positions) {

@@ -62,17 +62,11 @@ class Sampler {
           std::size_t variables)
       : judge_(judge), trajectory_(trajectory), config_(config), positions_(variables) {}
 
-  /// Returns samples from step `first` to `last` of the motion's `steps`, both included, as close
-  /// as the motion asks.
-  std::vector<Sample> between(std::size_t first, std::size_t last, std::size_t steps) {
-    const auto time = [&](std::size_t step) {
-      return steps == 0
-                 ? 0.0
-                 : trajectory_.duration() * static_cast<double>(step) / static_cast<double>(steps);
-    };
-    samples_.push_back(at(time(first)));
-    for (std::size_t i = first + 1; i <= last; ++i) {
-      Sample next = at(time(i));
+  /// Returns samples at these times, which rise, and between them, as close as the motion asks.
+  std::vector<Sample> at_least(std::span<const double> times) {
+    samples_.push_back(at(times.front()));
+    for (const double time : times.subspan(1)) {
+      Sample next = at(time);
       const Sample before = samples_.back();
       refine(before, next);
       samples_.push_back(std::move(next));
@@ -165,7 +159,8 @@ std::vector<VerdictInterval> intervals_of(const CameraForecast& forecast) {
   for (std::size_t i = 0; i < forecast.times.size(); ++i) {
     const Prediction& prediction = forecast.predictions[i];
     const bool is_last = i + 1 == forecast.times.size();
-    const double begin = i == 0 ? 0.0 : 0.5 * (forecast.times[i - 1] + forecast.times[i]);
+    const double begin =
+        i == 0 ? forecast.times[i] : 0.5 * (forecast.times[i - 1] + forecast.times[i]);
     const double end =
         is_last ? forecast.times[i] : 0.5 * (forecast.times[i] + forecast.times[i + 1]);
     const double seen =
@@ -249,20 +244,50 @@ struct LookAhead::State {
     std::unique_ptr<CameraPredictor>& made =
         judges[camera * static_cast<std::size_t>(config.threads) + thread];
     if (made == nullptr)
-      made = std::make_unique<CameraPredictor>(robot, cameras[camera], targets, start,
+      made = std::make_unique<CameraPredictor>(robot, cameras[camera], targets, start_of(camera),
                                                config.clearance);
     return *made;
   }
 
+  /// The start, with the first camera's pose only.
+  [[nodiscard]] RobotPose start_of(std::size_t camera) const {
+    RobotPose of = start;
+    if (camera > 0) of.T_parent_camera.reset();
+    return of;
+  }
+
+  void set(const std::vector<ForecastTarget>& given, RobotPose at) {
+    start = std::move(at);
+    const ForecastCamera& first = cameras.front();
+    std::vector<Eigen::Isometry3d> T_root_link(robot.links().size());
+    robot.forward_kinematics(start.positions, T_root_link);
+    const Eigen::Isometry3d T_root_camera = T_root_link[find_camera_parent(robot, first.parent)] *
+                                            start.T_parent_camera.value_or(first.T_parent_camera);
+    targets.clear();
+    for (const ForecastTarget& target : given)
+      targets.push_back(scene::anchored(target, first.camera, T_root_camera));
+    for (std::size_t i = 0; i < judges.size(); ++i)
+      if (judges[i] &&
+          !judges[i]->set(targets, start_of(i / static_cast<std::size_t>(config.threads))))
+        judges[i].reset();
+    check_modal_targets();
+  }
+
   /// A detector's box of what it sees is the whole target only where the robot cuts nothing off.
   void check_modal_targets() {
+    const auto is_modal = [](const AnchoredTarget& target) {
+      const auto* region = std::get_if<RegionTarget>(&target.start.target.shape);
+      return region != nullptr && region->extent == Extent::modal;
+    };
+    if (std::ranges::none_of(targets, is_modal)) return;
     const int margin = std::min(cameras.front().rule.edge_margin, scene::max_clearance - 1);
-    const Sample sample = CameraPredictor(robot, cameras.front(), targets, start, margin + 1)
-                              .at(0.0, start.positions);
+    if (!modal_judge || !modal_judge->set(targets, start))
+      modal_judge =
+          std::make_unique<CameraPredictor>(robot, cameras.front(), targets, start, margin + 1);
+    const Sample sample = modal_judge->at(0.0, start.positions);
     for (std::size_t i = 0; i < targets.size(); ++i) {
       Target& target = targets[i].start.target;
-      const auto* region = std::get_if<RegionTarget>(&target.shape);
-      if (region == nullptr || region->extent == Extent::amodal || !target.fault.empty()) continue;
+      if (!is_modal(targets[i]) || !target.fault.empty()) continue;
       if (!(sample.predictions[i].clearance > margin))
         target.fault =
             "the robot is next to it at the start, and may hide a part of it: give the "
@@ -276,35 +301,39 @@ struct LookAhead::State {
   RobotPose start;
   std::vector<AnchoredTarget> targets;
   std::vector<std::unique_ptr<CameraPredictor>> judges;  // made when first used
+  std::unique_ptr<CameraPredictor> modal_judge;          // likewise; measures clearances
 };
 
 LookAhead::LookAhead(const Robot& robot, std::vector<ForecastCamera> cameras,
                      const std::vector<ForecastTarget>& targets, RobotPose start,
                      const LookAheadConfig& config)
-    : state_(std::make_unique<State>(
-          State{robot, std::move(cameras), config, std::move(start), {}, {}})) {
+    : state_(std::make_unique<State>(State{robot, std::move(cameras), config, {}, {}, {}, {}})) {
   check(config);
   check_is_drawn(robot);
   if (state_->cameras.empty()) throw InputError("look-ahead: no camera is given");
-  const ForecastCamera& first = state_->cameras.front();
-  std::vector<Eigen::Isometry3d> T_root_link(robot.links().size());
-  robot.forward_kinematics(state_->start.positions, T_root_link);
-  const Eigen::Isometry3d T_root_camera =
-      T_root_link[find_camera_parent(robot, first.parent)] * first.T_parent_camera;
-  for (const ForecastTarget& target : targets)
-    state_->targets.push_back(scene::anchored(target, first.camera, T_root_camera));
+  state_->set(targets, std::move(start));
   state_->judges.resize(state_->cameras.size() * static_cast<std::size_t>(config.threads));
   for (std::size_t i = 0; i < state_->cameras.size(); ++i) static_cast<void>(state_->judge(i, 0));
-  state_->check_modal_targets();
 }
 LookAhead::~LookAhead() = default;
 LookAhead::LookAhead(LookAhead&&) noexcept = default;
 LookAhead& LookAhead::operator=(LookAhead&&) noexcept = default;
 
-std::vector<TargetForecast> LookAhead::along(const Trajectory& trajectory) {
+void LookAhead::set(const std::vector<ForecastTarget>& targets, RobotPose start) {
+  state_->set(targets, std::move(start));
+}
+
+std::vector<TargetForecast> LookAhead::along(const Trajectory& trajectory, double from,
+                                             double until) {
   State& s = *state_;
   const auto threads = static_cast<std::size_t>(s.config.threads);
-  const auto steps = static_cast<std::size_t>(std::ceil(trajectory.duration() / s.config.step));
+  from = std::clamp(from, 0.0, trajectory.duration());
+  until = std::clamp(until, from, trajectory.duration());
+  const auto steps = static_cast<std::size_t>(std::ceil((until - from) / s.config.step));
+  std::vector<double> times;
+  for (std::size_t i = 0; i <= steps; ++i)
+    times.push_back(std::lerp(
+        from, until, steps == 0 ? 0.0 : static_cast<double>(i) / static_cast<double>(steps)));
   // Pieces of equal length, several for each thread, since their cost differs.
   constexpr std::size_t pieces_of_thread = 4;
   const std::size_t pieces =
@@ -313,7 +342,7 @@ std::vector<TargetForecast> LookAhead::along(const Trajectory& trajectory) {
   parallel_for(s.config.threads, sampled.size(), [&](std::size_t thread, std::size_t i) {
     const std::size_t first = i % pieces * steps / pieces, last = (i % pieces + 1) * steps / pieces;
     Sampler sampler(s.judge(i / pieces, thread), trajectory, s.config, s.robot.variables().size());
-    sampled[i] = sampler.between(first, last, steps);
+    sampled[i] = sampler.at_least(std::span(times).subspan(first, last - first + 1));
     if (i % pieces > 0) sampled[i].erase(sampled[i].begin());  // the last piece's last
   });
   std::vector<TargetForecast> forecasts;

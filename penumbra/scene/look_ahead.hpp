@@ -16,7 +16,7 @@
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/poses/robot_pose.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/scene/trajectory.hpp>
+#include <penumbra/robot/trajectory.hpp>
 #include <penumbra/targets/target.hpp>
 
 namespace penumbra {
@@ -53,19 +53,9 @@ struct Prediction {
   std::string reason = {};  ///< one line if the verdict is unknown, else empty
 };
 
-/// Neighbouring times of one verdict.
-struct VerdictInterval {
-  double begin = 0.0, end = 0.0;  ///< seconds from the start of the motion
-  Verdict verdict = Verdict::unknown;
-  double hidden = 0.0;  ///< largest share
-  double seen = 0.0;    ///< seconds for which it is seen or held, by the share that is not hidden
-  std::string by = {};  ///< what hides most of it then
-  std::string reason = {};  ///< of the first unknown verdict
-};
-
 /// What a camera, or all of them together, will see of a target.
 struct CameraForecast {
-  std::vector<VerdictInterval> intervals;  ///< from 0 to the end of the motion, without gaps
+  std::vector<VerdictInterval> intervals;  ///< of all of the motion, without gaps
   std::vector<double> times;               ///< of `predictions`; empty for all cameras together
   std::vector<Prediction> predictions;
 
@@ -99,10 +89,10 @@ struct LookAheadConfig {
 class LookAhead {
  public:
   /// `start`: the robot in which shapes in a camera's frame are given, by its positions, what its
-  /// links carry, and links whose pose is not known. A target with the name of what is carried is
-  /// held. Throws InputError for no cameras, an unknown parent, cameras that Pipeline would refuse,
-  /// targets that are invalid in every frame, and settings out of range; and std::invalid_argument
-  /// for another number of positions than Robot::variables().
+  /// links carry, links whose pose is not known, and, if given, the first camera's pose. A target
+  /// with the name of what is carried is held. Throws InputError for no cameras, an unknown parent,
+  /// cameras that Pipeline would refuse, targets that are invalid in every frame, and settings out
+  /// of range; and std::invalid_argument for another number of positions than Robot::variables().
   LookAhead(const Robot& robot, std::vector<ForecastCamera> cameras,
             const std::vector<ForecastTarget>& targets, RobotPose start,
             const LookAheadConfig& config = {});
@@ -110,8 +100,16 @@ class LookAhead {
   LookAhead(LookAhead&&) noexcept;
   LookAhead& operator=(LookAhead&&) noexcept;
 
-  /// Returns a forecast for each target. The motion need not begin at `start`.
-  [[nodiscard]] std::vector<TargetForecast> along(const Trajectory& trajectory);
+  /// Begins anew with other targets, and another start. Quick where the same is carried. Throws as
+  /// the constructor.
+  void set(const std::vector<ForecastTarget>& targets, RobotPose start);
+
+  /// Returns a forecast for each target, in times of the motion. It need not begin at `start`.
+  /// `from`, `until`: the part of the motion, seconds; targets are where they are at the start
+  /// then.
+  [[nodiscard]] std::vector<TargetForecast> along(
+      const Trajectory& trajectory, double from = 0.0,
+      double until = std::numeric_limits<double>::infinity());
 
   /// What planners ask.
   struct Seen {

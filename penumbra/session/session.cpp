@@ -11,13 +11,19 @@ Session::Session(Robot robot, const Camera& camera, const PipelineConfig& config
       config_(config),
       limits_(limits),
       warnings_(pipeline_, config_),
-      watch_(pipeline_.report_camera(), limits_) {}
+      watch_(pipeline_.report_camera(), limits_),
+      forecast_(pipeline_.robot(), pipeline_.report_camera(), config_) {}
 
 const FrameReport& Session::process(const Frame& frame) {
   const FrameReport& report = pipeline_.process(frame);
   warnings_.add(report, frame.pose.positions);
   watch_.add(report);
-  return report;
+  if (!frame.plan) return report;
+  targets_.assign(report.targets.begin(), report.targets.end());
+  forecast_.add(frame, targets_);
+  report_ = report;
+  report_.targets = targets_;
+  return report_;
 }
 
 std::vector<std::string> Session::warnings() const {

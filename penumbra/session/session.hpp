@@ -6,13 +6,14 @@
 
 #include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/session/plan_forecast.hpp>
 #include <penumbra/session/warnings.hpp>
 
 namespace penumbra {
 
-/// A pipeline that watches the frames that it judges: for mistakes in the setup, and for a camera
-/// that moves. The command line, live topics, the ROS 2 node and Python all judge by this class.
-/// Serves one thread at a time.
+/// A pipeline that watches the frames that it judges: for mistakes in the setup, for a camera that
+/// moves, and for what a planned motion will hide. The command line, live topics, the ROS 2 node
+/// and Python all judge by this class. Serves one thread at a time.
 class Session {
  public:
   /// Throws InputError as Pipeline does.
@@ -49,6 +50,9 @@ class Session {
   DriftLimits limits_;
   Warnings warnings_;
   CalibrationWatch watch_;
+  PlanForecast forecast_;
+  FrameReport report_;  // with forecasts
+  std::vector<TargetReport> targets_;
 };
 
 }  // namespace penumbra

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -154,6 +155,16 @@ struct HandledTarget {
   double sigma = 0;  ///< metres, along the position's most uncertain direction
 };
 
+/// Neighbouring times of one verdict.
+struct VerdictInterval {
+  double begin = 0.0, end = 0.0;  ///< seconds from the start of the motion
+  Verdict verdict = Verdict::unknown;
+  double hidden = 0.0;  ///< largest share
+  double seen = 0.0;    ///< seconds for which it is seen or held, by the share that is not hidden
+  std::string by = {};  ///< what hides most of it then
+  std::string reason = {};  ///< of the first unknown verdict
+};
+
 /// The result for one target.
 struct TargetReport {
   std::string name;
@@ -168,7 +179,10 @@ struct TargetReport {
   std::optional<HandledTarget> handled;  ///< null without handling, or without stamps
   std::optional<Outcome> estimate;       ///< whether the target's estimate was accepted, or why
                                          ///< not; null without an estimate
-  bool wants_stamp = false;              ///< not handled because the frame has no stamp
+  /// What the rest of Frame::plan will hide of it, seconds from the frame on, without gaps. Empty:
+  /// there is no plan, or it has ended.
+  std::vector<VerdictInterval> forecast;
+  bool wants_stamp = false;  ///< not handled because the frame has no stamp
 };
 
 }  // namespace penumbra

@@ -158,18 +158,42 @@ struct Tally {
   }
 };
 
-/// The times at which a series is hidden, as [begin, end).
+constexpr double short_time = 0.03;  // seconds: what is shorter need not be found
+
+/// The times at which a series is hidden, as [begin, end). Those at most `gap` seconds apart are
+/// one.
 std::vector<std::pair<double, double>> hidden_times(const std::vector<Truth>& truth,
-                                                    double threshold) {
+                                                    double threshold, double gap = 0.0) {
   std::vector<std::pair<double, double>> times;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (truth[i].hidden <= threshold) continue;
     const double time = static_cast<double>(i) * truth_step;
-    if (times.empty() || time - times.back().second > 0.5 * truth_step)
+    if (times.empty() || time - times.back().second > gap + 0.5 * truth_step)
       times.emplace_back(time, time);
     times.back().second = time + truth_step;
   }
   return times;
+}
+
+/// Compares where hidden intervals begin and end. What is seen between two for a short time need
+/// not be found, and makes no border.
+void compare_borders(const CameraForecast& forecast,
+                     const std::vector<std::pair<double, double>>& truth, double duration,
+                     Tally& tally) {
+  std::vector<std::pair<double, double>> said;
+  for (const VerdictInterval& each : forecast.intervals) {
+    if (each.verdict != Verdict::hidden) continue;
+    if (said.empty() || each.begin - said.back().second > short_time)
+      said.emplace_back(each.begin, each.begin);
+    said.back().second = each.end;
+  }
+  for (const auto& [begin, end] : truth)
+    for (const auto& found : said) {
+      if (!(found.first < end && begin < found.second)) continue;
+      if (begin > 0.0) tally.borders.push_back(std::abs(found.first - begin));
+      if (end < duration) tally.borders.push_back(std::abs(found.second - end));
+      break;
+    }
 }
 
 void compare(const CameraForecast& forecast, const std::vector<Truth>& truth, const Robot& robot,
@@ -189,15 +213,12 @@ void compare(const CameraForecast& forecast, const std::vector<Truth>& truth, co
     const VerdictInterval* found = nullptr;
     for (const VerdictInterval* each : hidden)
       if (each->begin < end && begin < each->end) found = each;
-    if (end - begin >= 0.03) {
-      ++tally.intervals;
-      tally.lost += found == nullptr ? 1 : 0;
-    }
-    if (found == nullptr) continue;
-    if (begin > 0.0) tally.borders.push_back(std::abs(found->begin - begin));
-    if (end < static_cast<double>(truth.size() - 1) * truth_step)
-      tally.borders.push_back(std::abs(found->end - end));
+    if (end - begin < short_time) continue;
+    ++tally.intervals;
+    tally.lost += found == nullptr ? 1 : 0;
   }
+  compare_borders(forecast, hidden_times(truth, thresholds.hidden_enter, short_time),
+                  static_cast<double>(truth.size() - 1) * truth_step, tally);
   for (std::size_t i = 0; i < forecast.times.size(); ++i) {
     const Truth& at = truth[std::min(
         truth.size() - 1, static_cast<std::size_t>(std::lround(forecast.times[i] / truth_step)))];

@@ -38,6 +38,9 @@ class Trajectory {
   [[nodiscard]] double duration() const { return points_.back().time; }  ///< seconds
   [[nodiscard]] std::span<const TrajectoryPoint> points() const { return points_; }
 
+  /// Sets where variables are that it does not move; of all, in the order of Robot::variables().
+  void set_others(std::span<const double> positions);
+
   /// Writes the positions of all variables at a time; those of the nearest end outside of the
   /// motion. Allocates nothing.
   void at(double time, std::span<double> positions) const;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/scene/trajectory.hpp>
+#include <penumbra/robot/trajectory.hpp>
 
 namespace penumbra {
 namespace {
@@ -96,6 +96,10 @@ Trajectory::Trajectory(const Robot& robot, std::span<const std::string> variable
     const double by = std::abs(points_.front().positions[i] - first.positions[i]);
     if (variables_[i] && by > jump_.by) jump_ = {*variables_[i], by};
   }
+}
+
+void Trajectory::set_others(std::span<const double> positions) {
+  std::ranges::copy(positions, start_.begin());
 }
 
 void Trajectory::at(double time, std::span<double> positions) const {

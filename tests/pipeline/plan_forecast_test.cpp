@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Forecasts of a planned motion in the reports of frames, in a scene whose depth a formula tells.
+#include "slab_scene.hpp"
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/session/session.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr double expected_depth = 2.0;  // metres: behind the slab, before the wall
+constexpr double plan_length = 3.0;     // seconds
+constexpr double far_slide = 0.9, near_slide = 0.0;
+const PixelBox beside{89, 54, 6, 6};  // free while the slab is far
+
+double planned_slide(double time) { return std::lerp(far_slide, near_slide, time / plan_length); }
+
+std::shared_ptr<const Trajectory> slab_plan() {
+  const std::vector<std::string> joints = {"slide"};
+  return std::make_shared<const Trajectory>(
+      slab_robot(), joints,
+      std::vector<TrajectoryPoint>{{.time = 0.0, .positions = {far_slide}},
+                                   {.time = plan_length, .positions = {near_slide}}},
+      std::vector{far_slide});
+}
+
+/// The share of the box before which the slab is.
+double hidden_share(double slide) {
+  int hidden = 0, all = 0;
+  for (double v = beside.v; v < beside.v + beside.height; ++v)
+    for (double u = beside.u; u < beside.u + beside.width; ++u, ++all) {
+      const Seen seen = cast(slab_camera().intrinsics.ray(u, v), slide);
+      hidden += seen.link != 0 && seen.depth < expected_depth ? 1 : 0;
+    }
+  return static_cast<double>(hidden) / all;
+}
+
+/// When on the plan the box gets hidden, to a millisecond.
+double hidden_from() {
+  double time = 0.0;
+  while (hidden_share(planned_slide(time)) <= TargetThresholds{}.hidden_enter) time += 0.001;
+  return time;
+}
+
+class PlanForecasts : public testing::Test {
+ protected:
+  const TargetReport& judge(double slide, std::shared_ptr<const Trajectory> plan) {
+    depth = scene_depth(slab_camera(), slide);
+    Frame frame{.depth = std::as_const(depth).view(),
+                .pose = {.positions = {slide}},
+                .plan = std::move(plan)};
+    frame.targets = {
+        {.name = "box",
+         .shape = RegionTarget{
+             .region = beside, .extent = Extent::amodal, .expected_depth = expected_depth}}};
+    return session.process(frame).targets[0];
+  }
+
+  Session session{slab_robot(), slab_camera(), plain_config()};
+  Image<float> depth;
+};
+
+std::optional<double> seconds_until_hidden(const TargetReport& report) {
+  for (const VerdictInterval& each : report.forecast)
+    if (each.verdict == Verdict::hidden) return each.begin;
+  return std::nullopt;
+}
+
+TEST_F(PlanForecasts, FollowTheRobotOnItsPlan) {
+  constexpr double tolerance = 0.012;  // seconds: LookAheadConfig::border, and steps of 10 ms
+  const auto plan = slab_plan();
+  const double truth = hidden_from();
+  ASSERT_GT(truth, 1.0);
+  ASSERT_LT(truth, 2.9);
+  int told = 0;
+  for (double time = -0.5; time < truth - 0.05; time += 0.07) {  // it waits for half a second
+    const double on_plan = std::max(time, 0.0);
+    const TargetReport& report = judge(planned_slide(on_plan), plan);
+    ASSERT_FALSE(report.forecast.empty());
+    EXPECT_EQ(report.forecast.front().begin, 0.0);
+    EXPECT_NEAR(report.forecast.back().end, std::min(PlanForecast::horizon, plan_length - on_plan),
+                tolerance);
+    const std::optional<double> until = seconds_until_hidden(report);
+    if (truth - on_plan > PlanForecast::horizon + tolerance) {
+      EXPECT_FALSE(until);
+    } else if (truth - on_plan < PlanForecast::horizon - tolerance) {
+      ASSERT_TRUE(until) << on_plan;
+      EXPECT_NEAR(*until, truth - on_plan, tolerance);
+      EXPECT_EQ(report.forecast.back().by, "slab");
+      ++told;
+    }
+  }
+  EXPECT_GT(told, 5);
+}
+
+TEST_F(PlanForecasts, EndWithThePlan) {
+  const auto plan = slab_plan();
+  for (double time = 0.0; time < plan_length; time += 0.3)
+    static_cast<void>(judge(planned_slide(time), plan));
+  EXPECT_TRUE(judge(near_slide, plan).forecast.empty());
+  EXPECT_TRUE(judge(far_slide, plan).forecast.empty());
+  EXPECT_FALSE(judge(far_slide, slab_plan()).forecast.empty());
+  EXPECT_TRUE(judge(far_slide, nullptr).forecast.empty());
+}
+
+TEST_F(PlanForecasts, AreUnknownOffThePlan) {
+  const auto plan = slab_plan();
+  const TargetReport& report = judge(far_slide + 0.2, plan);
+  ASSERT_EQ(report.forecast.size(), 1U);
+  EXPECT_EQ(report.forecast[0].verdict, Verdict::unknown);
+  EXPECT_NE(report.forecast[0].reason.find("'slide' is off by 0.2"), std::string::npos)
+      << report.forecast[0].reason;
+  EXPECT_EQ(judge(far_slide, plan).forecast.front().verdict, Verdict::visible);
+}
+
+}  // namespace
+}  // namespace penumbra::test
