@@ -120,7 +120,8 @@ link, if nothing else moves. INPUT gives robot, cameras and targets; the motion 
 frames. Joints that the motion does not name stay where they are. FILE is a table with the header
 time,JOINT,... (seconds, rad and m); or a message of JointTrajectory, RobotTrajectory or
 DisplayTrajectory as `ros2 topic echo` prints it. Between points the robot moves as
-joint_trajectory_controller moves it. Several motions are ranked by how long targets stay visible.
+joint_trajectory_controller moves it. Without FILE the motion is the one that a bag's topic
+display_planned_path, or --plan-topic, has at that frame. Several motions are ranked by how long targets stay visible.
 OUT gets look_ahead.json (all numbers) and report.html: timelines, and pictures of the moments when
 targets are hidden.
 

@@ -62,6 +62,9 @@ io::LiveOptions live_options(const LiveArguments& arguments, const io::NameResol
   options.static_transform_topic = names.resolve("/tf_static");
   options.planning_scene_topics = {names.resolve("monitored_planning_scene")};
   options.attached_topics = {names.resolve("attached_collision_object")};
+  options.plan_topic = names.resolve("display_planned_path");
+  for (const std::string& name : topics.plan_topics)
+    options.motion_topics.push_back(names.resolve(name));
   options.joint_topics = {names.resolve("joint_states")};
   if (!topics.robot_namespaces.empty())
     io::set_robots(options, topics.robot_namespaces,

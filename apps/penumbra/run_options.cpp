@@ -162,6 +162,10 @@ void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
            "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge; may be given "
            "several times",
            "TOPIC", [&](const std::string& text) { bag.target_topics.push_back(text); });
+  add_list(app, "--plan-topic",
+           "JointTrajectory that the robot follows; default: MoveIt's display_planned_path; may be "
+           "given several times",
+           "TOPIC", [&](const std::string& text) { bag.plan_topics.push_back(text); });
   add_choice<PoseSource>(
       app, "--poses",
       "where the links' poses come from: joints, tf, or both, which must agree; default: " +
@@ -296,14 +300,14 @@ void add_look_ahead(CLI::App& app, LookAheadArguments& ahead) {
   add_list(
       app, "--trajectory",
       "a planned motion: *.csv with time,JOINT,..., or a message in YAML or JSON; may be given "
-      "several times: they are ranked",
-      "FILE", [&](const std::string& file) { ahead.input.trajectories.emplace_back(file); })
-      ->required();
+      "several times: they are ranked; default: the bag's plan",
+      "FILE", [&](const std::string& file) { ahead.input.trajectories.emplace_back(file); });
   add_text(app, "--targets", "what to keep in view; default: the recording's", "YAML",
            ahead.input.targets);
-  add_number<std::int64_t>(app, "--from",
-                           "frame in which the motion begins; default: the first with joints", "N",
-                           ahead.input.from, 0, std::numeric_limits<std::int64_t>::max() - 1);
+  add_number<std::int64_t>(
+      app, "--from",
+      "frame in which the motion begins; default: the first with joints and a motion", "N",
+      ahead.input.from, 0, std::numeric_limits<std::int64_t>::max() - 1);
   add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", ahead.output);
   add_number(app, "--threads", "default: one per core; results do not depend on it", "N",
              ahead.threads, 1, RendererOptions::max_threads);

@@ -16,7 +16,7 @@ namespace penumbra::io {
 struct BagOptions {
   std::optional<std::string> depth_topic, camera_info_topic;
   std::optional<std::string> color_topic;  ///< depth is judged in its image
-  std::vector<std::string> joint_topics, target_topics;
+  std::vector<std::string> joint_topics, target_topics, plan_topics;
   std::optional<PoseSource> poses;             ///< nothing: joints, or tf where there are none
   std::optional<std::filesystem::path> robot;  ///< in place of /robot_description
   std::map<std::string, std::filesystem::path> packages;

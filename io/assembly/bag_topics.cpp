@@ -25,6 +25,8 @@ constexpr std::string_view joints_type = "sensor_msgs/msg/JointState";
 constexpr std::string_view transforms_type = "tf2_msgs/msg/TFMessage";
 constexpr std::string_view scene_type = "moveit_msgs/msg/PlanningScene";
 constexpr std::string_view attached_type = "moveit_msgs/msg/AttachedCollisionObject";
+constexpr std::string_view plan_type = "moveit_msgs/msg/DisplayTrajectory";
+constexpr std::string_view motion_type = "trajectory_msgs/msg/JointTrajectory";
 constexpr std::string_view text_type = "std_msgs/msg/String";
 
 using TopicTypes = std::span<const std::string_view>;
@@ -282,7 +284,7 @@ std::vector<TopicUse> BagTopics::all() const {
   std::vector<TopicUse> uses = {depth, camera_info};
   for (const auto* one : {&color, &color_info})
     if (*one) uses.push_back(**one);
-  for (const auto* several : {&descriptions, &joints, &transforms, &targets, &attached})
+  for (const auto* several : {&descriptions, &joints, &transforms, &targets, &attached, &plans})
     uses.insert(uses.end(), several->begin(), several->end());
   return uses;
 }
@@ -302,6 +304,7 @@ std::optional<TopicRole> BagTopics::role_of(const BagTopic& topic) const {
   if (is_one_of(joints)) return TopicRole::joints;
   if (is_one_of(targets)) return TopicRole::targets;
   if (is_one_of(attached)) return TopicRole::attached;
+  if (is_one_of(plans)) return TopicRole::plan;
   if (!is_one_of(transforms)) return std::nullopt;
   return topic.name.ends_with("static") ? TopicRole::static_transforms : TopicRole::transforms;
 }
@@ -340,6 +343,13 @@ BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics
     if (auto found = usual(chooser, "attached", type, name,
                            "only recordings of one planning scene can be read"))
       chosen.attached.push_back(std::move(*found));
+  for (const std::string& name : options.plan_topics)
+    chosen.plans.push_back(
+        chooser.named("planned motions", "--plan-topic", name, std::array{motion_type, plan_type}));
+  if (options.plan_topics.empty())
+    if (auto found = usual(chooser, "planned motions", plan_type, "display_planned_path",
+                           "choose one with --plan-topic"))
+      chosen.plans.push_back(std::move(*found));
   for (const std::string& name : options.target_topics)
     chosen.targets.push_back(chooser.named("targets", "--target-topic", name, target_types));
   if (options.robot) return chosen;

@@ -32,7 +32,7 @@ struct BagTopics {
   TopicUse depth, camera_info;
   std::optional<TopicUse> color;
   std::optional<TopicUse> color_info;  ///< if depth is registered to the color camera
-  std::vector<TopicUse> joints, transforms, targets, attached, descriptions;
+  std::vector<TopicUse> joints, transforms, targets, attached, plans, descriptions;
 
   /// Returns all topics, in the order in which they are printed.
   [[nodiscard]] std::vector<TopicUse> all() const;

@@ -263,6 +263,7 @@ bool CameraInput::next(std::int64_t now, bool with_color, AssembledFrame& next) 
   next.setup = setup_;
   next.source_message = fault_of(next);
   next.targets = setup_->targets.take();
+  next.plan = robot_.plan();
   const std::int64_t stamp = next.stamp.value_or(0);
   if (setup_->cameras.depth && has_pose(next.pose.status))
     setup_->posed->history.transforms().at(setup_->queue.pose_stamp(stamp),

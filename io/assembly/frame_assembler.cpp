@@ -129,6 +129,10 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
       return from.type == message_type<PlanningSceneMessage>()
                  ? handler_of_attached<PlanningSceneMessage>(topic)
                  : handler_of_attached<AttachedObjectMessage>(topic);
+    case TopicRole::plan:
+      return from.type == message_type<DisplayTrajectoryMessage>()
+                 ? handler_of_plans<DisplayTrajectoryMessage>(topic)
+                 : handler_of_plans<JointTrajectoryMessage>(topic);
   }
   return {};
 }
@@ -137,6 +141,14 @@ template <typename M>
 MessageHandler FrameAssembler::handler_of_attached(std::size_t topic) {
   return handler<M>(topic, [this, topic](const M& message, const auto&, std::int64_t now) {
     const std::string fault = robot_.take_attached(message, topics_[topic].robot);
+    if (!fault.empty()) add_fault(topics_[topic].name, now, fault);
+  });
+}
+
+template <typename M>
+MessageHandler FrameAssembler::handler_of_plans(std::size_t topic) {
+  return handler<M>(topic, [this, topic](const M& message, const auto&, std::int64_t now) {
+    const std::string fault = robot_.take_plan(message, topics_[topic].robot);
     if (!fault.empty()) add_fault(topics_[topic].name, now, fault);
   });
 }

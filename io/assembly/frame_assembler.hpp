@@ -107,6 +107,8 @@ class FrameAssembler {
   [[nodiscard]] MessageHandler handler_of_targets_as(std::size_t topic);
   template <typename M>
   [[nodiscard]] MessageHandler handler_of_attached(std::size_t topic);
+  template <typename M>
+  [[nodiscard]] MessageHandler handler_of_plans(std::size_t topic);
   void take_image(std::size_t topic, KeptImage image, std::int64_t now);
   void take_info(std::size_t topic, const CameraInfoMessage& info, std::int64_t now);
   void follow_robot();

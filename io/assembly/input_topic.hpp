@@ -17,7 +17,8 @@ enum class TopicRole {
   color,
   color_info,
   targets,
-  attached  ///< what MoveIt attaches to the robot
+  attached,  ///< what MoveIt attaches to the robot
+  plan       ///< motions that the robot will follow
 };
 
 /// A topic whose messages FrameAssembler takes.

@@ -142,6 +142,7 @@ RobotInput::RobotInput(RobotInputOptions options) : options_(std::move(options))
 
 void RobotInput::replace(std::shared_ptr<PosedRobot> robot) {
   posed_ = std::move(robot);
+  plan_ = {};
   posed_->history.attachments() = attachments_;
   last_used_joints_.reset();
   unused_joints_.clear();

@@ -18,6 +18,7 @@
 
 #include <io/assembly/attached_input.hpp>
 #include <io/assembly/frame_tree.hpp>
+#include <io/assembly/plan_input.hpp>
 #include <io/ros/messages.hpp>
 
 namespace penumbra::io {
@@ -121,6 +122,19 @@ class RobotInput {
     return fault;
   }
 
+  /// Receives a motion (`M`: JointTrajectoryMessage, DisplayTrajectoryMessage). Returns why it
+  /// cannot be used, one line, or nothing. `robot`: its name among several.
+  template <typename M>
+  std::string take_plan(const M& message, const std::string& robot) {
+    if (!posed_) return "the robot is not known yet";
+    JointAnswer now;
+    posed_->history.joints().at(last_stamp_, now);
+    for (const JointGap& gap : now.gaps)
+      now.positions[gap.variable] = posed_->robot.rest_positions()[gap.variable];
+    return plan_.take(message, robot, posed_->robot, now.positions);
+  }
+  [[nodiscard]] const std::shared_ptr<const Trajectory>& plan() const { return plan_.plan(); }
+
   /// Returns the robot, or null if there is none; fault() says why.
   [[nodiscard]] const std::shared_ptr<PosedRobot>& posed() const { return posed_; }
   /// Returns why the received robot could not be made; empty if it was made or none was received.
@@ -156,6 +170,7 @@ class RobotInput {
   std::uint64_t frames_revision_ = 0;
   std::map<std::string, TransformMessage> static_transforms_;  // by child; published only once
   AttachedInput attached_;
+  PlanInput plan_;
   Attachments attachments_;      // of this and of later robots
   std::int64_t last_stamp_ = 0;  // of joint states and moving transforms
   std::size_t robots_ = 0;

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include <penumbra/calibration/watch.hpp>
 #include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/targets/target.hpp>
 
 namespace penumbra::io {
 
@@ -30,5 +32,8 @@ inline std::string json_text(const Json& json) {
 
 /// Returns "calibration" of reports and summaries; null while nothing is known.
 [[nodiscard]] Json drift_json(const Drift& drift);
+
+/// Returns what a motion will do to a target, in seconds from its begin.
+[[nodiscard]] Json intervals_json(std::span<const VerdictInterval> intervals);
 
 }  // namespace penumbra::io

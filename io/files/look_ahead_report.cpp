@@ -7,21 +7,26 @@
 #include <io/files/look_ahead_report.hpp>
 
 namespace penumbra::io {
+
+Json intervals_json(std::span<const VerdictInterval> intervals) {
+  Json all = Json::array();
+  for (const VerdictInterval& each : intervals)
+    all.push_back({{"begin_s", each.begin},
+                   {"end_s", each.end},
+                   {"verdict", to_string(each.verdict)},
+                   {"hidden", each.hidden},
+                   {"by", or_null(each.by)},
+                   {"reason", or_null(each.reason)}});
+  return all;
+}
+
 namespace {
 
 Json forecast_json(const CameraForecast& forecast) {
-  Json intervals = Json::array();
-  for (const VerdictInterval& each : forecast.intervals)
-    intervals.push_back({{"begin_s", each.begin},
-                         {"end_s", each.end},
-                         {"verdict", to_string(each.verdict)},
-                         {"hidden", each.hidden},
-                         {"by", or_null(each.by)},
-                         {"reason", or_null(each.reason)}});
   return {{"hidden_at_s", or_null(forecast.hidden_at())},
           {"seen_again_at_s", or_null(forecast.seen_again_at())},
           {"seen_for_s", forecast.seen_for()},
-          {"intervals", std::move(intervals)}};
+          {"intervals", intervals_json(forecast.intervals)}};
 }
 
 Json camera_json(const CameraForecast& forecast, const std::string& name) {

@@ -89,6 +89,7 @@ Json target_json(const TargetReport& target) {
           {"point_pixels", target.point ? Json(judged.point_pixels) : Json(nullptr)},
           {"point_spread_m", target.point ? Json(judged.point_spread) : Json(nullptr)},
           {"handled", handled_json(target.handled)},
+          {"forecast", target.forecast.empty() ? Json(nullptr) : intervals_json(target.forecast)},
           {"estimate", target.estimate ? Json(to_string(*target.estimate)) : Json(nullptr)},
           {"stamp_ns", or_null(target.stamp)},
           {"reason", or_null(target.reason)}};

@@ -68,6 +68,12 @@ void LiveInbox::add_topics_of_robot() {
                .name = options_.attached_topics[i],
                .type = message_type<AttachedObjectMessage>()});
   }
+  add_topic({.role = TopicRole::plan,
+             .name = options_.plan_topic,
+             .type = message_type<DisplayTrajectoryMessage>()});
+  for (const std::string& name : options_.motion_topics)
+    add_topic(
+        {.role = TopicRole::plan, .name = name, .type = message_type<JointTrajectoryMessage>()});
   for (const std::string& name : options_.target_topics)
     add_topic({.role = TopicRole::targets, .name = name});
 }

@@ -33,6 +33,8 @@ struct LiveOptions {
   /// MoveIt's: of all robots, then, of several robots, one for each.
   std::vector<std::string> planning_scene_topics = {"/monitored_planning_scene"};
   std::vector<std::string> attached_topics = {"/attached_collision_object"};  ///< likewise
+  std::string plan_topic = "/display_planned_path";                           ///< MoveIt's
+  std::vector<std::string> motion_topics = {};  ///< of trajectory_msgs/JointTrajectory
   std::vector<std::string> target_topics = {};
   std::vector<CameraInputOptions> cameras = {};
   DriftLimits drift = {};  ///< beyond which a camera's motion is a warning

@@ -123,5 +123,7 @@ template class Decoder<TargetsMessage>;
 template class Decoder<TargetViewsMessage>;
 template class Decoder<AttachedObjectMessage>;
 template class Decoder<PlanningSceneMessage>;
+template class Decoder<JointTrajectoryMessage>;
+template class Decoder<DisplayTrajectoryMessage>;
 
 }  // namespace penumbra::io

@@ -73,5 +73,7 @@ template void encode(const TargetsMessage&, std::vector<std::byte>&);
 template void encode(const TargetViewsMessage&, std::vector<std::byte>&);
 template void encode(const AttachedObjectMessage&, std::vector<std::byte>&);
 template void encode(const PlanningSceneMessage&, std::vector<std::byte>&);
+template void encode(const JointTrajectoryMessage&, std::vector<std::byte>&);
+template void encode(const DisplayTrajectoryMessage&, std::vector<std::byte>&);
 
 }  // namespace penumbra::io

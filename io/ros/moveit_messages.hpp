@@ -185,6 +185,42 @@ struct RobotStateMessage {
   bool is_diff = false;
 };
 
+/// MoveIt's message of a planned motion, whose parts follow one another.
+struct DisplayTrajectoryMessage {
+  static constexpr std::string_view ros_type = "moveit_msgs/DisplayTrajectory";
+  static auto layout(auto& m) { return fields_of(m.model_id, m.parts, m.start); }
+
+  struct Floating {
+    static constexpr std::string_view ros_type = "trajectory_msgs/MultiDOFJointTrajectory";
+    static auto layout(auto& m) { return fields_of(m.header, m.joint_names, m.points); }
+
+    struct Point {
+      static constexpr std::string_view ros_type = "trajectory_msgs/MultiDOFJointTrajectoryPoint";
+      static auto layout(auto& m) {
+        return fields_of(m.transforms, m.velocities, m.accelerations, m.time_from_start);
+      }
+
+      std::vector<MultiDofJointStateMessage::Transform> transforms = {};
+      std::vector<MultiDofJointStateMessage::Twist> velocities = {}, accelerations = {};
+      JointTrajectoryMessage::Duration time_from_start = {};
+    };
+    MessageHeader header = {};
+    std::vector<std::string> joint_names = {};
+    std::vector<Point> points = {};
+  };
+  struct Part {
+    static constexpr std::string_view ros_type = "moveit_msgs/RobotTrajectory";
+    static auto layout(auto& m) { return fields_of(m.joints, m.floating); }
+
+    JointTrajectoryMessage joints = {};
+    Floating floating = {};
+  };
+
+  std::string model_id = {};
+  std::vector<Part> parts = {};
+  RobotStateMessage start = {};
+};
+
 struct AllowedCollisionMatrixMessage {
   static constexpr std::string_view ros_type = "moveit_msgs/AllowedCollisionMatrix";
   static auto layout(auto& m) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include <io/ros/target_messages.hpp>
 
@@ -44,6 +46,20 @@ void put_handled(const HandledTarget& handled, TargetMessage& message) {
   if (handled.orientation) message.pose.orientation = handled.orientation->coeffs();
 }
 
+void put_forecast(std::span<const VerdictInterval> forecast, TargetMessage& message) {
+  const auto unknown = std::ranges::find(forecast, Verdict::unknown, &VerdictInterval::verdict);
+  const auto hidden = std::ranges::find(forecast, Verdict::hidden, &VerdictInterval::verdict);
+  message.forecast_seconds = forecast.back().end;
+  if (unknown != forecast.end()) message.forecast_reason = unknown->reason;
+  if (unknown < hidden) return;  // it may be hidden before
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const bool is_hidden = hidden != forecast.end();
+  message.hidden_in = is_hidden ? hidden->begin : never;
+  message.hidden_for =
+      is_hidden && hidden + 1 != forecast.end() ? hidden->end - hidden->begin : never;
+  if (is_hidden) message.hidden_by = hidden->by;
+}
+
 TargetMessage target_message(const TargetReport& target) {
   TargetMessage message{.name = target.name};
   message.has_stamp = target.stamp.has_value();
@@ -59,6 +75,7 @@ TargetMessage target_message(const TargetReport& target) {
     }
   }
   if (target.handled) put_handled(*target.handled, message);
+  if (!target.forecast.empty()) put_forecast(target.forecast, message);
   if (target.estimate) message.estimate = value_of(*target.estimate, estimate_values);
   return message;
 }

@@ -14,18 +14,25 @@ namespace {
 
 constexpr double least_jump = 0.01;  // rad or m: what a robot at rest may differ by
 
-/// The first frame whose joint positions are known, or the given one.
+/// The first frame whose joint positions are known, and which has a plan where no file gives one;
+/// or the given one.
 Frame find_frame(FrameSource& source, const Robot& robot, const LookAheadOptions& options) {
   Frame frame;
   std::string fault;
+  bool is_known = false;
   while (source.next(frame)) {
-    if (has_pose(frame.pose.status) && frame.pose.positions.size() == robot.variables().size())
-      return frame;
-    if (!fault.empty()) continue;
+    is_known =
+        has_pose(frame.pose.status) && frame.pose.positions.size() == robot.variables().size();
+    if (is_known && (frame.plan || !options.trajectories.empty())) return frame;
+    if (is_known || !fault.empty()) continue;
     fault = "; frame " + std::to_string(frame.index.value_or(0)) + ": " +
             (frame.pose.message.empty() && !frame.pose.T_root_link.empty() ? "poses come from TF"
                                                                            : frame.pose.message);
   }
+  if (is_known)
+    throw InputError(options.input.path.string() + ": has no planned motion" +
+                     (options.from ? " in or before this frame" : "") +
+                     "; give one with --trajectory, or its topic with --plan-topic");
   throw InputError(options.input.path.string() + ": " +
                    (options.from ? "the robot's joint positions are not known in frame " +
                                        std::to_string(*options.from)
@@ -51,23 +58,24 @@ std::vector<TargetReport> judged(const RunInput& input, const Robot& robot, Fram
   return {report.targets.begin(), report.targets.end()};
 }
 
+void add(NamedTrajectory motion, LookAheadInput& to) {
+  if (const Trajectory::Jump jump = motion.trajectory.jump(); jump.by > least_jump) {
+    std::ostringstream note;
+    note << motion.name << ": begins " << jump.by << " rad or m from where '"
+         << to.robot.variables()[jump.variable] << "' is in frame " << to.frame
+         << ": the robot is elsewhere than the plan assumes";
+    to.notes.push_back(note.str());
+  }
+  for (const std::string& line : motion.trajectory.beyond_limits(to.robot))
+    to.notes.push_back(motion.name + ": " + line);
+  to.trajectories.push_back(std::move(motion));
+}
+
 void add_trajectories(const std::filesystem::path& file, LookAheadInput& to) {
   for (FileTrajectory& read : read_trajectories(file)) try {
-      const Trajectory& trajectory =
-          to.trajectories
-              .emplace_back(NamedTrajectory{
-                  read.name,
-                  Trajectory(to.robot, read.variables, std::move(read.points), to.pose.positions)})
-              .trajectory;
-      if (const Trajectory::Jump jump = trajectory.jump(); jump.by > least_jump) {
-        std::ostringstream note;
-        note << read.name << ": begins " << jump.by << " rad or m from where '"
-             << to.robot.variables()[jump.variable] << "' is in frame " << to.frame
-             << ": the robot is elsewhere than the plan assumes";
-        to.notes.push_back(note.str());
-      }
-      for (const std::string& line : trajectory.beyond_limits(to.robot))
-        to.notes.push_back(read.name + ": " + line);
+      add({read.name,
+           Trajectory(to.robot, read.variables, std::move(read.points), to.pose.positions)},
+          to);
     } catch (const InputError& fault) {
       throw InputError(file.string() + ": " + fault.what());
     }
@@ -90,6 +98,8 @@ LookAheadInput read_look_ahead_input(const LookAheadOptions& options, const Line
     if (!read) {
       read = LookAheadInput{
           .robot = opened.robot, .frame = frame.index.value_or(0), .pose = frame.pose};
+      if (frame.plan && options.trajectories.empty())
+        add({"the planned motion", *frame.plan}, *read);
       const TargetsFile targets = open_planned_targets(options.input.path, options.targets, opened);
       frame.targets = targets.of_frame(static_cast<std::int64_t>(read->frame));
       for (const Target& target : frame.targets) read->targets.push_back({.target = target});

@@ -18,9 +18,9 @@ namespace penumbra::io {
 struct LookAheadOptions {
   InputOptions input;
   std::optional<std::filesystem::path> targets;       ///< in place of the recording's
-  std::vector<std::filesystem::path> trajectories{};  ///< at least one
-  std::optional<std::int64_t>
-      from;  ///< frame in which the motion begins; null: the first with a pose
+  std::vector<std::filesystem::path> trajectories{};  ///< none: the plan in a bag's topic
+  /// Frame in which the motion begins; null: the first with a pose and a motion.
+  std::optional<std::int64_t> from;
 };
 
 /// What is looked at ahead of a frame.

@@ -30,6 +30,82 @@ TEST(LiveTargets, ComeWithTheNextImage) {
   EXPECT_EQ(targets[0].verdict, io::TargetMessage::visible);
 }
 
+/// A planned motion of the board by a quarter of a turn in a second.
+io::JointTrajectoryMessage quarter_turn() {
+  io::JointTrajectoryMessage motion{.joint_names = {"spin"}};
+  motion.points.push_back({.positions = {spin_at(start)}});
+  motion.points.push_back(
+      {.positions = {spin_at(start) + 0.5 * std::numbers::pi}, .time_from_start = {.sec = 1}});
+  return motion;
+}
+
+/// What is said at `start` of a ball above the board, behind it, once the board is a quarter
+/// turned.
+io::TargetMessage forecast_of_a_ball(LiveBench& bench) {
+  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
+    if (bench.inbox.topics()[i].role == io::TopicRole::targets)
+      bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
+  bench.tell_depth(start - seconds);
+  io::PoseStampedMessage ball{.header = {start, "optical"}};
+  ball.pose.translation() = Eigen::Vector3d(0.0, 0.3, 2.0);
+  bench.publish("/ball", encoded(ball));
+  bench.tell_joints(start);
+  bench.tell_depth(start);
+  EXPECT_EQ(bench.work(), 1U);
+  return bench.results.last<io::TargetsMessage>(io::Result::targets).targets.at(0);
+}
+
+io::LiveOptions with_a_ball() {
+  io::LiveOptions options = LiveBench::one_camera();
+  options.target_topics = {"/ball"};
+  options.motion_topics = {"/joint_trajectory"};
+  return options;
+}
+
+TEST(LivePlans, AreForecast) {
+  // The ray to the ball's middle meets the board's near face 0.95 m away, 0.1425 m from its axis;
+  // the board's edge is 0.1 m from it.
+  const double begin = std::acos(0.1 / 0.1425) / (0.5 * std::numbers::pi);
+  constexpr double radius = 0.06;  // seconds in which the edge passes half of the ball
+  io::DisplayTrajectoryMessage planned{.model_id = "tiny", .parts = {{.joints = quarter_turn()}}};
+  for (const bool is_planned : {true, false}) {
+    LiveBench bench(with_a_ball());
+    bench.tell_all();
+    if (is_planned)
+      bench.publish("/display_planned_path", encoded(planned));
+    else
+      bench.publish("/joint_trajectory", encoded(quarter_turn()));
+    const io::TargetMessage ball = forecast_of_a_ball(bench);
+    EXPECT_NEAR(ball.forecast_seconds, 1.0, 1e-9);
+    EXPECT_GT(ball.hidden_in, begin);
+    EXPECT_LT(ball.hidden_in, begin + radius);
+    EXPECT_EQ(ball.hidden_for, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(ball.hidden_by, "board");
+    EXPECT_EQ(ball.forecast_reason, "");
+  }
+}
+
+TEST(LivePlans, WithoutOneNothingIsForecast) {
+  LiveBench bench(with_a_ball());
+  bench.tell_all();
+  bench.publish("/joint_trajectory", encoded(quarter_turn()));
+  bench.publish("/joint_trajectory", encoded(io::JointTrajectoryMessage()));  // stops the motion
+  const io::TargetMessage ball = forecast_of_a_ball(bench);
+  EXPECT_TRUE(std::isnan(ball.forecast_seconds) && std::isnan(ball.hidden_in));
+  EXPECT_EQ(bench.inbox.faults().all().size(), 0U);
+}
+
+TEST(LivePlans, OfAnotherRobotAreFaults) {
+  LiveBench bench(with_a_ball());
+  bench.tell_all();
+  io::JointTrajectoryMessage other = quarter_turn();
+  other.joint_names = {"elbow"};
+  bench.publish("/joint_trajectory", encoded(other));
+  const io::TargetMessage ball = forecast_of_a_ball(bench);
+  EXPECT_TRUE(std::isnan(ball.hidden_in));
+  EXPECT_EQ(bench.inbox.faults().all().size(), 1U);
+}
+
 TEST(LiveTargets, GoToTheCamerasThatKnowTheirFrame) {
   io::LiveOptions options;
   for (const char* name : {"/left", "/right"})

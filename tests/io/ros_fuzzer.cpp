@@ -64,7 +64,8 @@ constexpr std::array readers = {parse_definition,
                                 decode_as<KeypointsMessage>,
                                 decode_as<TargetsMessage>,
                                 decode_as<AttachedObjectMessage>,
-                                decode_as<PlanningSceneMessage>};
+                                decode_as<PlanningSceneMessage>,
+                                decode_as<DisplayTrajectoryMessage>};
 
 }  // namespace
 }  // namespace penumbra::io

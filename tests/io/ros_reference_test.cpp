@@ -91,6 +91,11 @@ Json target_json(const char* name) {
            {{"position", {{"x", "NaN"}, {"y", "NaN"}, {"z", "NaN"}}},
             {"orientation", {{"x", "NaN"}, {"y", "NaN"}, {"z", "NaN"}, {"w", "NaN"}}}}},
           {"sigma", "NaN"},
+          {"forecast_seconds", "NaN"},
+          {"hidden_in", "NaN"},
+          {"hidden_for", "NaN"},
+          {"hidden_by", ""},
+          {"forecast_reason", ""},
           {"estimate", 0}};
 }
 
@@ -115,6 +120,10 @@ Json targets_json() {
                {"source", 2},
                {"age", 0.5},
                {"sigma", 0.01},
+               {"forecast_seconds", 2},
+               {"hidden_in", 1.25},
+               {"hidden_for", "Infinity"},
+               {"hidden_by", "forearm"},
                {"estimate", 3}});
   part["pose"]["position"] = {{"x", 4}, {"y", 5}, {"z", 6}};
   return {{"header", header_json()},
@@ -351,6 +360,37 @@ TEST(RosReference, ItsPlanningScenesAreFollowed) {
   ASSERT_FALSE(Decoder<AttachedObjectMessage>().decode(whole, object));
   EXPECT_EQ(object.weight, 2.5);
   EXPECT_EQ(object.object.subframe_names, std::vector<std::string>{"tip"});
+}
+
+TEST(RosReference, ItsPlansAreRead) {
+  PENUMBRA_REQUIRE_NODE_SCRIPTS();
+  Json joints{{"header", {{"frame_id", "base"}}}, {"joint_names", {"a", "b"}}};
+  joints["points"] = {
+      {{"positions", {1, 2}}, {"velocities", {3, 4}}, {"accelerations", {5, 6}}},
+      {{"positions", {7, 8}}, {"time_from_start", {{"sec", 2}, {"nanosec", 500000000}}}}};
+  Json floating{{"joint_names", {"base"}}};
+  floating["points"] = {{{"transforms", {{{"rotation", {{"w", 1}}}}}},
+                         {"velocities", {{{"linear", {{"x", 1}}}}}},
+                         {"time_from_start", {{"sec", 1}}}}};
+  Json plan{{"model_id", "arm"}};
+  plan["trajectory"] = {{{"joint_trajectory", joints}, {"multi_dof_joint_trajectory", floating}}};
+  plan["trajectory_start"]["joint_state"] = {{"name", {"a"}}, {"position", {0.25}}};
+  Exchange exchange;
+  const auto payload = exchange.encoded("moveit_msgs/msg/DisplayTrajectory", plan);
+  DisplayTrajectoryMessage message;
+  const auto fault = Decoder<DisplayTrajectoryMessage>().decode(payload, message);
+  ASSERT_FALSE(fault) << *fault;
+  EXPECT_EQ(message.model_id, "arm");
+  ASSERT_EQ(message.parts.size(), 1U);
+  const JointTrajectoryMessage& read = message.parts[0].joints;
+  EXPECT_EQ(read.joint_names, (std::vector<std::string>{"a", "b"}));
+  ASSERT_EQ(read.points.size(), 2U);
+  EXPECT_EQ(read.points[0].accelerations, (std::vector{5.0, 6.0}));
+  EXPECT_EQ(read.points[1].positions, (std::vector{7.0, 8.0}));
+  EXPECT_EQ(read.points[1].time_from_start.nanosec, 500'000'000U);
+  ASSERT_EQ(message.parts[0].floating.points.size(), 1U);
+  EXPECT_EQ(message.parts[0].floating.points[0].time_from_start.sec, 1);
+  EXPECT_EQ(message.start.joints.positions, std::vector{0.25});
 }
 
 // But for vision_msgs and our own, which it does not have.

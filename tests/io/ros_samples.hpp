@@ -130,6 +130,10 @@ inline io::TargetsMessage sample() {
   target.age = 0.5;
   target.pose.position = {4, 5, 6};
   target.sigma = 0.01;
+  target.forecast_seconds = 2.0;
+  target.hidden_in = 1.25;
+  target.hidden_for = std::numeric_limits<double>::infinity();
+  target.hidden_by = "forearm";
   target.estimate = io::TargetMessage::refused_gate;
   io::TargetMessage unknown{.name = "wrist", .reason = "joint states are stale"};
   unknown.age = INFINITY;

@@ -92,7 +92,8 @@ void Inputs::follow(bool with_color, bool with_depth) {
     find_publishers(i);
     Link& link = links_[i];
     const TopicRole role = link.topic.role;
-    const bool is_known = role != TopicRole::attached || link.has_publisher;
+    const bool is_generic = role == TopicRole::attached || role == TopicRole::plan;
+    const bool is_known = !is_generic || link.has_publisher;
     const bool is_wanted = !link.topic.type.empty() && is_known &&
                            (role != TopicRole::color || with_color) &&
                            (role != TopicRole::depth || with_depth);
@@ -173,7 +174,7 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_generic(std::size_t topic)
           runner_.receive(topic, {bytes_of(*message), message, 0});
         });
   } catch (const std::exception& error) {
-    RCLCPP_WARN_ONCE(node_.get_logger(), "attached objects are not known: %s: %s", of.name.c_str(),
+    RCLCPP_WARN_ONCE(node_.get_logger(), "its messages are not known: %s: %s", of.name.c_str(),
                      error.what());
     return nullptr;
   }
@@ -207,7 +208,7 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe(std::size_t topic) {
       {"geometry_msgs/msg/PoseStamped",
        &Inputs::subscribe_serialised<geometry_msgs::msg::PoseStamped>}};
   const penumbra::io::InputTopic& of = links_[topic].topic;
-  if (of.role == TopicRole::attached) return subscribe_generic(topic);
+  if (of.role == TopicRole::attached || of.role == TopicRole::plan) return subscribe_generic(topic);
   if (of.latched && of.type == "tf2_msgs/msg/TFMessage")
     return subscribe_latched<tf2_msgs::msg::TFMessage>(topic);
   return (this->*by_type.at(of.type))(topic);

@@ -173,6 +173,10 @@ void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::Live
   live.static_transform_topic = resolved(node, "/tf_static");
   live.planning_scene_topics = {resolved(node, "monitored_planning_scene")};
   live.attached_topics = {resolved(node, "attached_collision_object")};
+  live.plan_topic = resolved(node, "display_planned_path");
+  live.motion_topics =
+      resolved(node, declare("plan_topics", Texts{},
+                             "topics of trajectory_msgs/JointTrajectory that the robot follows"));
   live.joint_topics =
       resolved(node, declare("joint_topics", Texts{"joint_states"}, "topics of joint states"));
   const Texts robots =
