@@ -2,6 +2,8 @@
 // penumbra look-ahead on the tiny recording, whose board moves along the optical axis.
 #include "fixtures.hpp"
 
+#include <io/ros/moveit_messages.hpp>
+
 namespace penumbra::test {
 namespace {
 
@@ -72,6 +74,50 @@ TEST_F(LookAheadTest, ReadsMessagesAndBags) {
   const Outcome of_bag = look("plan.csv", {}, "tiny.mcap");
   ASSERT_EQ(of_bag.status, 0) << of_bag.err;
   EXPECT_EQ(intervals(), wanted);
+}
+
+TEST_F(LookAheadTest, TakesTheBagsPlan) {
+  ASSERT_EQ(look("plan.csv").status, 0);
+  const Json wanted = intervals();
+  io::JointTrajectoryMessage motion{.joint_names = {"slide"}};
+  motion.points.push_back({.positions = {0.0}});
+  motion.points.push_back({.positions = {1.0}, .time_from_start = {.sec = 1}});
+  const std::string bag = path("tiny.mcap");
+  bag_.write_mcap(bag);
+  const Words command = {"look-ahead", bag, "-o", out(), "--targets", path("targets.yaml")};
+  const Outcome without = penumbra(command);
+  EXPECT_EQ(without.status, 2);
+  expect_has(without.err, {"no planned motion", "--trajectory", "--plan-topic"});
+  bag_.add("/display_planned_path", tiny_stamp(0),
+           io::DisplayTrajectoryMessage{.parts = {{.joints = motion}}});
+  bag_.add("/controller/joint_trajectory", tiny_stamp(0), motion);
+  bag_.write_mcap(bag);
+  for (const bool is_named : {false, true}) {
+    Words with = command;
+    if (is_named) with.insert(with.end(), {"--plan-topic", "/controller/joint_trajectory"});
+    const Outcome outcome = penumbra(with);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(seen()["frame"], 0);
+    EXPECT_EQ(intervals(), wanted);
+  }
+}
+
+TEST_F(LookAheadTest, RunReportsForecastsOfTheBagsPlan) {
+  io::JointTrajectoryMessage motion{.joint_names = {"slide"}};
+  for (const int second : {0, 8})
+    motion.points.push_back(
+        {.positions = {tiny_speed * second}, .time_from_start = {.sec = second}});
+  bag_.add("/joint_trajectory", tiny_stamp(0), motion);
+  ASSERT_EQ(run({"--targets", path("targets.yaml"), "--plan-topic", "/joint_trajectory"}).status,
+            0);
+  // The board is on the motion: what it will do comes nearer from frame to frame.
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Json forecast = report()["frames"][i]["targets"][0]["forecast"];
+    ASSERT_TRUE(forecast.is_array()) << i;
+    EXPECT_EQ(forecast[0]["verdict"], "hidden");
+    EXPECT_EQ(forecast[0]["by"], "board");
+    EXPECT_NEAR(forecast.back()["end_s"], 2.0, 1e-6);
+  }
 }
 
 TEST_F(LookAheadTest, RanksMotions) {
