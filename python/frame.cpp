@@ -48,6 +48,7 @@ Frame OwnedFrame::view(const Robot& robot) const {
   pose.uncertain_reason = uncertain_reason;
   pose.attached = attached;
   frame.targets = targets;
+  if (plan) frame.plan = plan->trajectory;
   frame.source_status = source_status;
   frame.source_message = source_message;
   frame.index = index;
@@ -74,6 +75,10 @@ void bind_attached_body(py::module_& m) {
 
 void bind_frame(py::module_& m) {
   bind_attached_body(m);
+  py::class_<PlannedMotion>(
+      m, "Trajectory",
+      "A planned motion. Between two points it is linear, with velocities cubic, "
+      "with accelerations, too, quintic.");
   using F = OwnedFrame;
   py::class_<F> frame(m, "Frame",
                       "What goes into Pipeline.process. The depth image is read where it is: do "
@@ -103,7 +108,10 @@ void bind_frame(py::module_& m) {
             "targets in "
             "them are not judged."},
       Field{"uncertain_reason", &F::uncertain_reason, "The reason, one line."},
-      Field{"attached", &F::attached, "What the robot's links carry."});
+      Field{"attached", &F::attached, "What the robot's links carry."},
+      Field{"plan", &F::plan,
+            "The Trajectory that the robot follows, or waits to follow; None: none is known. Its "
+            "targets' reports then have forecasts."});
   bind_repr(frame, {"index", "stamp", "source_status"});
   frame.def(
       "positions",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -18,6 +19,12 @@ using NamedPositions = std::map<std::string, double>;
 /// Joint positions, by name or in order, an answer of a JointBuffer, or nothing: not known.
 using OwnedJoints = std::variant<std::monostate, JointAnswer, NamedPositions, Numbers>;
 
+/// A planned motion of a robot.
+struct PlannedMotion {
+  Robot robot;
+  std::shared_ptr<const Trajectory> trajectory;
+};
+
 /// A frame of Python's: it keeps what C++'s refers to.
 struct OwnedFrame {
   std::optional<DepthArgument<"depth">> depth;
@@ -33,6 +40,7 @@ struct OwnedFrame {
   std::vector<std::size_t> uncertain_links;
   std::string uncertain_reason;
   std::vector<AttachedBody> attached;
+  std::optional<PlannedMotion> plan = {};
 
   /// Refers to this. Raises KeyError for named positions that are not those of the robot's
   /// variables, and ValueError for another number of them.

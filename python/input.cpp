@@ -36,7 +36,10 @@ RecordedFrame next(const std::shared_ptr<Frames>& self) {
     found = self->source->next(frame);
   }
   if (!found) throw py::stop_iteration();
-  return recorded(std::move(frame));
+  const std::shared_ptr<const Trajectory> plan = frame.plan;
+  RecordedFrame read = recorded(std::move(frame));
+  if (plan) read.frame.plan = PlannedMotion{self->input->input.robot, plan};
+  return read;
 }
 
 std::size_t size_of(const std::shared_ptr<Input>& self) {
@@ -89,6 +92,8 @@ void bind_bag_options(py::module_& m) {
       Field{"color_topic", &B::color_topic, "If given, depth is judged in its image."},
       Field{"joint_topics", &B::joint_topics, "Joint states."},
       Field{"target_topics", &B::target_topics, "Detections, key points, poses."},
+      Field{"plan_topics", &B::plan_topics,
+            "JointTrajectory that the robot follows; none: MoveIt's display_planned_path."},
       Field{"poses", &B::poses, "None: joints, or transforms if there are no joint states."},
       Field{"robot", &B::robot, "URDF in place of /robot_description."},
       Field{"packages", &B::packages, "package://NAME to its folder."},

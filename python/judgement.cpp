@@ -56,12 +56,27 @@ void bind_reports(py::module_& m) {
       Field{"judgement", &R::judgement, "Of its pixels; None where none were judged."},
       Field{"point", &R::point, "Of trusted depths only; root link's frame, metres."},
       Field{"handled", &R::handled, "None without handling, or without stamps."},
-      Field{"estimate", &R::estimate, "What became of its estimate; None: there was none."});
+      Field{"estimate", &R::estimate, "What became of its estimate; None: there was none."},
+      Field{"forecast", &R::forecast,
+            "VerdictIntervals of what the rest of Frame.plan will hide, in seconds from the frame "
+            "on; empty: there is no plan, or it has ended."});
+}
+
+void bind_intervals(py::module_& m) {
+  using V = VerdictInterval;
+  py::class_<V> interval(m, "VerdictInterval", "Neighbouring times of one verdict.");
+  show_fields(interval, Field{"begin", &V::begin, "Seconds from the start of the motion."},
+              Field{"end", &V::end, "Seconds."}, Field{"verdict", &V::verdict, "In all of it."},
+              Field{"hidden", &V::hidden, "Largest hidden share."},
+              Field{"seen", &V::seen, "Seconds, by the share that is not hidden."},
+              Field{"by", &V::by, "The link that hides most of it then; empty: none."},
+              Field{"reason", &V::reason, "One line, of verdict unknown; else empty."});
 }
 
 }  // namespace
 
 void bind_judgement(py::module_& m) {
+  bind_intervals(m);
   bind_judgements(m);
   bind_reports(m);
 }

@@ -26,20 +26,14 @@ std::vector<double> positions_in(const OwnedFrame& start, const Robot& robot) {
   return positions;
 }
 
-/// A motion of a robot.
-struct Motion {
-  Robot robot;
-  Trajectory trajectory;
-
-  [[nodiscard]] py::array at(const Numbers& times) const {
-    const std::size_t variables = robot.variables().size();
-    std::vector<double> positions(times.values.size() * variables);
-    for (std::size_t i = 0; i < times.values.size(); ++i)
-      trajectory.at(times.values[i], std::span(positions).subspan(i * variables, variables));
-    return copied(positions, {static_cast<py::ssize_t>(times.values.size()),
-                              static_cast<py::ssize_t>(variables)});
-  }
-};
+Rows positions_at(const PlannedMotion& motion, const Numbers& times) {
+  const std::size_t variables = motion.robot.variables().size();
+  std::vector<double> positions(times.values.size() * variables);
+  for (std::size_t i = 0; i < times.values.size(); ++i)
+    motion.trajectory->at(times.values[i], std::span(positions).subspan(i * variables, variables));
+  return Rows(copied(positions, {static_cast<py::ssize_t>(times.values.size()),
+                                 static_cast<py::ssize_t>(variables)}));
+}
 
 std::vector<TrajectoryPoint> points_of(const Numbers& times, std::size_t joints,
                                        const Rows& positions, const std::optional<Rows>& velocities,
@@ -60,18 +54,18 @@ std::vector<TrajectoryPoint> points_of(const Numbers& times, std::size_t joints,
   return points;
 }
 
-void bind_trajectory(py::module_& m) {
-  py::class_<Motion> motion(m, "Trajectory",
-                            "A planned motion. Between two points it is linear, with velocities "
-                            "cubic, with accelerations, too, quintic.");
+void bind_trajectory() {
+  // Frames, which a start is, have a plan: the class is made before them.
+  auto motion = py::reinterpret_borrow<py::class_<PlannedMotion>>(py::type::of<PlannedMotion>());
   motion.def(
       py::init([](const Robot& robot, const std::vector<std::string>& variables,
                   const Numbers& times, const Rows& positions, const OwnedFrame& start,
                   const std::optional<Rows>& velocities, const std::optional<Rows>& accelerations) {
-        return Motion{robot, Trajectory(robot, variables,
-                                        points_of(times, variables.size(), positions, velocities,
-                                                  accelerations),
-                                        positions_in(start, robot))};
+        return PlannedMotion{
+            robot, std::make_shared<const Trajectory>(
+                       robot, variables,
+                       points_of(times, variables.size(), positions, velocities, accelerations),
+                       positions_in(start, robot))};
       }),
       py::arg("robot"), py::arg("variables"), py::arg("times"), py::arg("positions"),
       py::arg("start"), py::kw_only(), py::arg("velocities") = py::none(),
@@ -80,23 +74,23 @@ void bind_trajectory(py::module_& m) {
       "times: seconds from the start of the motion, (N,). positions, velocities, "
       "accelerations: (N, J), rad and m. Raises InputError for what no motion can be.");
   motion.def_property_readonly(
-      "duration", [](const Motion& self) { return self.trajectory.duration(); }, "Seconds.");
+      "duration", [](const PlannedMotion& self) { return self.trajectory->duration(); },
+      "Seconds.");
   motion.def_property_readonly(
       "jump",
-      [](const Motion& self) {
-        const Trajectory::Jump jump = self.trajectory.jump();
+      [](const PlannedMotion& self) {
+        const Trajectory::Jump jump = self.trajectory->jump();
         return std::pair(self.robot.variables()[jump.variable], jump.by);
       },
       "The variable that differs most from `start` where the motion begins, and by how much.");
   motion.def_property_readonly(
       "beyond_limits",
-      [](const Motion& self) {
-        return Frozen<std::string>{self.trajectory.beyond_limits(self.robot)};
+      [](const PlannedMotion& self) {
+        return Frozen<std::string>{self.trajectory->beyond_limits(self.robot)};
       },
       "One line for each joint that exceeds a limit of the URDF.");
-  motion.def(
-      "at", [](const Motion& self, const Numbers& times) { return Rows(self.at(times)); },
-      py::arg("times"), "Positions at times, (N,), seconds: rows in the order of Robot.variables.");
+  motion.def("at", &positions_at, py::arg("times"),
+             "Positions at times, (N,), seconds: rows in the order of Robot.variables.");
 }
 
 template <typename Get>
@@ -107,14 +101,6 @@ Numbers numbers_of_samples(const CameraForecast& of, Get get) {
 }
 
 void bind_forecasts(py::module_& m) {
-  using V = VerdictInterval;
-  py::class_<V> interval(m, "VerdictInterval", "Neighbouring times of one verdict.");
-  show_fields(interval, Field{"begin", &V::begin, "Seconds from the start of the motion."},
-              Field{"end", &V::end, "Seconds."}, Field{"verdict", &V::verdict, "In all of it."},
-              Field{"hidden", &V::hidden, "Largest hidden share."},
-              Field{"seen", &V::seen, "Seconds, by the share that is not hidden."},
-              Field{"by", &V::by, "The link that hides most of it then; empty: none."},
-              Field{"reason", &V::reason, "One line, of verdict unknown; else empty."});
   using C = CameraForecast;
   py::class_<C> camera(m, "CameraForecast",
                        "What a camera, or all of them together, will see of a target.");
@@ -239,7 +225,7 @@ std::unique_ptr<Ahead> make_ahead(const Robot& robot, std::vector<ForecastCamera
 }  // namespace
 
 void bind_look_ahead(py::module_& m) {
-  bind_trajectory(m);
+  bind_trajectory();
   bind_given(m);
   bind_forecasts(m);
   py::class_<Ahead>(m, "LookAhead",
@@ -251,10 +237,10 @@ void bind_look_ahead(py::module_& m) {
            "cameras, targets that are invalid in every frame and settings out of range.")
       .def(
           "along",
-          [](Ahead& self, const Motion& trajectory) {
+          [](Ahead& self, const PlannedMotion& trajectory) {
             const OneThread::Use use(self.one, "LookAhead");
             const py::gil_scoped_release others;
-            return Frozen<TargetForecast>{self.look.along(trajectory.trajectory)};
+            return Frozen<TargetForecast>{self.look.along(*trajectory.trajectory)};
           },
           py::arg("trajectory"), "A TargetForecast for each target.")
       .def("visibility", &Ahead::visibility, py::arg("positions"), py::arg("camera") = 0,

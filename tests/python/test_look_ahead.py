@@ -89,6 +89,22 @@ def test_a_target_moves_with_its_velocity(cell):
     assert forecast.any.intervals[-1].verdict is penumbra.Verdict.out_of_view
 
 
+def test_reports_of_frames_have_forecasts_of_their_plan(cell):
+    pipeline = penumbra.Pipeline(cell.given.robot, cell.given.camera, cell.given.config)
+    frame = cell.start.replace(targets=[cell.lid])
+    assert pipeline.process(frame).targets[0].forecast == ()
+    motion = cell.motion()
+    told = pipeline.process(frame.replace(plan=motion)).targets[0].forecast
+    (expected,) = cell.ahead(clearance=0, step=0.05).along(motion)
+    assert told[0].begin == 0 and told[-1].end == pytest.approx(2.0)  # it looks 2 s ahead
+    hidden = [each for each in told if each.verdict is penumbra.Verdict.hidden]
+    assert hidden[0].begin == pytest.approx(expected.any.hidden_at, abs=0.02)
+    off = frame.joints.copy()
+    off[1] += 0.5
+    (none,) = pipeline.process(frame.replace(plan=motion, joints=off)).targets[0].forecast
+    assert none.verdict is penumbra.Verdict.unknown and "not on the planned motion" in none.reason
+
+
 def test_a_trajectory_has_its_faults(cell):
     motion = cell.motion()
     assert motion.duration == 3 and motion.beyond_limits == ()
