@@ -44,7 +44,10 @@ void bind_reports(py::module_& m) {
               Field{"position", &H::position, "Metres; None if lost."},
               Field{"orientation", &H::orientation,
                     "Quaternion x, y, z, w; None if lost, or handled as a point."},
-              Field{"sigma", &H::sigma, "Metres: along the most uncertain direction."});
+              Field{"sigma", &H::sigma, "Metres: along the most uncertain direction."},
+              Field{"lost_in", &H::lost_in,
+                    "Seconds until it is lost, because the robot's plan hides it for longer than "
+                    "its timeout; None: it will not be, or there is no forecast."});
   py::class_<TargetReport> report(m, "TargetReport",
                                   "The verdict on a target, and what it is based on.");
   using R = TargetReport;

@@ -49,7 +49,8 @@ Json handled_json(const std::optional<HandledTarget>& handled) {
                {"age_s", finite_or_null(handled->age)},
                {"position", nullptr},
                {"orientation", nullptr},
-               {"sigma_m", finite_or_null(handled->sigma)}};
+               {"sigma_m", finite_or_null(handled->sigma)},
+               {"lost_in_s", or_null(handled->lost_in)}};
   if (handled->position) json["position"] = vector_json(*handled->position);
   if (handled->orientation) json["orientation"] = vector_json(handled->orientation->coeffs());
   return json;

@@ -365,7 +365,8 @@ struct TargetMessage {
                      m.unknown_fraction, m.hidden_by_other_fraction, m.measured_fraction,
                      m.seen_past_fraction, m.blame, as<PointWire>(m.point), m.point_pixels,
                      m.point_spread, m.source, m.age, m.pose, m.sigma, m.forecast_seconds,
-                     m.hidden_in, m.hidden_for, m.hidden_by, m.forecast_reason, m.estimate);
+                     m.hidden_in, m.hidden_for, m.lost_in, m.hidden_by, m.forecast_reason,
+                     m.estimate);
   }
 
   enum VerdictValue : std::uint8_t { unknown, visible, partial, hidden, out_of_view, held_by_link };
@@ -406,6 +407,7 @@ struct TargetMessage {
   double forecast_seconds = none;
   double hidden_in = none;
   double hidden_for = none;
+  double lost_in = none;
   std::string hidden_by = {};
   std::string forecast_reason = {};
   std::uint8_t estimate = no_estimate;

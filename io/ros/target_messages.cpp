@@ -42,6 +42,7 @@ void put_handled(const HandledTarget& handled, TargetMessage& message) {
   message.source = value_of(handled.source, source_values);
   message.age = handled.age;
   message.sigma = handled.sigma;
+  message.lost_in = handled.lost_in.value_or(TargetMessage::none);
   if (handled.position) message.pose.position = *handled.position;
   if (handled.orientation) message.pose.orientation = handled.orientation->coeffs();
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <variant>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/session/plan_forecast.hpp>
@@ -23,6 +24,23 @@ std::vector<VerdictInterval> cut(std::span<const VerdictInterval> intervals, dou
     cut.push_back(std::move(each));
   }
   return cut;
+}
+
+/// When a target will be lost that is hidden for longer than its timeout. At the end of a plan the
+/// robot stays where it is.
+std::optional<double> lost_in(const Target& target, const TargetReport& report) {
+  const double timeout = std::visit(
+      [](const auto& handling) {
+        if constexpr (requires { handling.timeout; }) return handling.timeout;
+        return std::numeric_limits<double>::infinity();
+      },
+      target.handling);
+  for (const VerdictInterval& each : report.forecast) {
+    if (each.verdict != Verdict::hidden) continue;
+    const double lost = timeout + (each.begin > 0.0 ? each.begin : -report.handled->age);
+    if (lost < each.end) return std::max(lost, 0.0);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -55,6 +73,9 @@ void PlanForecast::add(const Frame& frame, std::span<TargetReport> reports) {
           {.end = until - now_, .verdict = Verdict::unknown, .by = {}, .reason = reason}};
     else if (found != forecasts_.end())
       report.forecast = cut(found->any.intervals, now_, until);
+    const auto target = std::ranges::find(frame.targets, report.name, &Target::name);
+    if (report.handled && target != frame.targets.end())
+      report.handled->lost_in = lost_in(*target, report);
   }
 }
 

@@ -153,6 +153,9 @@ struct HandledTarget {
   std::optional<Eigen::Vector3d> position;        ///< metres; null if lost
   std::optional<Eigen::Quaterniond> orientation;  ///< null if lost, or handled as a point
   double sigma = 0;  ///< metres, along the position's most uncertain direction
+  /// Seconds until it is lost, because the robot's plan hides it for longer than its timeout; null:
+  /// it will not be, or there is no forecast.
+  std::optional<double> lost_in = {};
 };
 
 /// Neighbouring times of one verdict.

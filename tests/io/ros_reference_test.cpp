@@ -94,6 +94,7 @@ Json target_json(const char* name) {
           {"forecast_seconds", "NaN"},
           {"hidden_in", "NaN"},
           {"hidden_for", "NaN"},
+          {"lost_in", "NaN"},
           {"hidden_by", ""},
           {"forecast_reason", ""},
           {"estimate", 0}};
@@ -123,6 +124,7 @@ Json targets_json() {
                {"forecast_seconds", 2},
                {"hidden_in", 1.25},
                {"hidden_for", "Infinity"},
+               {"lost_in", 1.75},
                {"hidden_by", "forearm"},
                {"estimate", 3}});
   part["pose"]["position"] = {{"x", 4}, {"y", 5}, {"z", 6}};

@@ -133,6 +133,7 @@ inline io::TargetsMessage sample() {
   target.forecast_seconds = 2.0;
   target.hidden_in = 1.25;
   target.hidden_for = std::numeric_limits<double>::infinity();
+  target.lost_in = 1.75;
   target.hidden_by = "forearm";
   target.estimate = io::TargetMessage::refused_gate;
   io::TargetMessage unknown{.name = "wrist", .reason = "joint states are stale"};

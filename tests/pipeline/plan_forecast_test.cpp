@@ -20,14 +20,17 @@ const PixelBox beside{89, 54, 6, 6};  // free while the slab is far
 
 double planned_slide(double time) { return std::lerp(far_slide, near_slide, time / plan_length); }
 
-std::shared_ptr<const Trajectory> slab_plan() {
+/// The plan from a time on.
+std::shared_ptr<const Trajectory> plan_from(double time) {
   const std::vector<std::string> joints = {"slide"};
   return std::make_shared<const Trajectory>(
       slab_robot(), joints,
-      std::vector<TrajectoryPoint>{{.time = 0.0, .positions = {far_slide}},
-                                   {.time = plan_length, .positions = {near_slide}}},
+      std::vector<TrajectoryPoint>{{.time = 0.0, .positions = {planned_slide(time)}},
+                                   {.time = plan_length - time, .positions = {near_slide}}},
       std::vector{far_slide});
 }
+
+std::shared_ptr<const Trajectory> slab_plan() { return plan_from(0.0); }
 
 /// The share of the box before which the slab is.
 double hidden_share(double slide) {
@@ -106,6 +109,27 @@ TEST_F(PlanForecasts, EndWithThePlan) {
   EXPECT_TRUE(judge(far_slide, plan).forecast.empty());
   EXPECT_FALSE(judge(far_slide, slab_plan()).forecast.empty());
   EXPECT_TRUE(judge(far_slide, nullptr).forecast.empty());
+}
+
+TEST_F(PlanForecasts, TellThatATargetWillBeLost) {
+  constexpr double tolerance = 0.012;  // seconds
+  const auto lost_in = [&](double timeout) {
+    Session own(slab_robot(), slab_camera(), plain_config());
+    depth = scene_depth(slab_camera(), planned_slide(1.5));
+    Frame frame{.stamp = 1'000'000'000,
+                .depth = std::as_const(depth).view(),
+                .pose = {.positions = {planned_slide(1.5)}}};
+    frame.plan = plan_from(1.5);
+    const Eigen::Vector3d middle = slab_camera().intrinsics.ray(92, 57) * expected_depth;
+    frame.targets = {{.name = "ball",
+                      .shape = PointTarget{middle, 0.02, ReferenceFrame::root()},
+                      .handling = PointTrackerConfig{.timeout = timeout}}};
+    return own.process(frame).targets[0].handled->lost_in;
+  };
+  const auto soon = lost_in(0.2), later = lost_in(0.5);
+  ASSERT_TRUE(soon && later);
+  EXPECT_NEAR(*later - *soon, 0.3, tolerance);
+  EXPECT_FALSE(lost_in(5.0));
 }
 
 TEST_F(PlanForecasts, AreUnknownOffThePlan) {

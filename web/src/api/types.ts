@@ -9,6 +9,8 @@ export type Quaternion = readonly [number, number, number, number];
 export type Pose = readonly [number, number, number, number, number, number, number];
 
 export interface Handled {
+  /** Seconds until the robot's plan hides it for longer than its timeout. */
+  readonly lost_in_s?: number | null;
   readonly source: Source;
   readonly age_s: number | null;
   readonly position: Vec3 | null;
@@ -17,6 +19,15 @@ export interface Handled {
 }
 
 /** Fractions are of `inside`; null where they do not apply. Points are in the root link's frame. */
+/** What a planned motion will do to a target, seconds from the frame. */
+export interface ForecastInterval {
+  readonly begin_s: number;
+  readonly end_s: number;
+  readonly verdict: Verdict;
+  readonly by: string | null;
+  readonly reason: string | null;
+}
+
 export interface TargetReport {
   readonly name: string;
   readonly covered: number | null;
@@ -36,6 +47,8 @@ export interface TargetReport {
   readonly handled: Handled | null;
   readonly estimate?: string | null;
   readonly reason?: string | null;
+  /** Null or absent: there is no plan. */
+  readonly forecast?: readonly ForecastInterval[] | null;
 }
 
 export interface FrameReport {

@@ -2,6 +2,7 @@
 // The timeline's rows as SVG, with at most one column per pixel.
 import type { FrameReport, TargetReport, Verdict } from '../api/types';
 import { verdictOf } from '../model/labels';
+import type { ForecastSpan } from '../model/forecast';
 import { condense, hidersOf, larger, runsOf, worse, type Run, type Track } from '../model/timeline';
 import { svg } from '../view/dom';
 
@@ -100,6 +101,24 @@ function verdictStrip(samples: readonly (TargetReport | null)[], width: number):
     const middle = { x: at.x + at.width / 2, y: fractionHeight + stripHeight - 4 };
     return [shape, svg('text', { ...middle, 'text-anchor': 'middle', class: 'blame' }, text)];
   });
+}
+
+const forecastHeight = 5;
+
+/** Draws what was forecast at a frame, above what then happened. */
+export function forecastStrip(
+  spans: readonly ForecastSpan[],
+  count: number,
+  width: number,
+): SVGSVGElement {
+  const chart = rowSvg(width, forecastHeight, 'forecast');
+  chart.classList.add('forecast');
+  for (const { from, to, verdict } of spans) {
+    const at = span({ from, to, value: verdict }, count, width);
+    const box = { ...at, y: 0, height: forecastHeight, fill: verdictFills[verdict] };
+    chart.append(svg('rect', { ...box, class: `strip ${verdict}` }));
+  }
+  return chart;
 }
 
 /** Returns what hides most of a partial or hidden target. */

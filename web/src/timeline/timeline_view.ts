@@ -2,12 +2,20 @@
 // Rows of targets, frame status, stage times and joint ages over one axis of frames, with a playhead
 // and a tooltip at the pointer.
 import type { FrameReport } from '../api/types';
+import { forecastSpans } from '../model/forecast';
 import { milliseconds, seconds, unknownText } from '../model/format';
 import { verdictNames, verdictOf, verdicts } from '../model/labels';
 import { hiddenText, larger, secondsOf, tracksOf, type Track } from '../model/timeline';
 import { element, setText, swatch } from '../view/dom';
 import { verdictIcon } from '../view/verdict_icon';
-import { addPatterns, axisChart, seriesChart, statusChart, targetChart } from './charts';
+import {
+  addPatterns,
+  axisChart,
+  forecastStrip,
+  seriesChart,
+  statusChart,
+  targetChart,
+} from './charts';
 
 export interface TimelineHandlers {
   seek(frame: number): void;
@@ -85,6 +93,19 @@ export class TimelineView {
       const verdict = target ? verdictOf(target) : 'unknown';
       const icon = head.querySelector('svg');
       if (!icon?.classList.contains(verdict)) icon?.replaceWith(verdictIcon(verdict));
+    }
+    this.showForecasts();
+  }
+
+  /** Draws the current frame's forecasts ahead of the playhead. */
+  private showForecasts(): void {
+    for (const { head, chart } of this.rows) {
+      chart.querySelector('.forecast')?.remove();
+      const name = [...(this.heads ?? [])].find(([, one]) => one === head)?.[0];
+      const target = this.report?.targets.find((one) => one.name === name);
+      if (!target?.forecast?.length || this.width === 0) continue;
+      const spans = forecastSpans(target.forecast, this.times, this.current);
+      chart.append(forecastStrip(spans, this.frames.length, this.width));
     }
   }
 
@@ -189,6 +210,7 @@ export class TimelineView {
       chart.replaceChildren(draw(width));
       setText(head.lastElementChild as HTMLElement, scale());
     }
+    this.showForecasts();
   }
 
   private frameAt(clientX: number): number | null {

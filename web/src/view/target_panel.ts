@@ -2,6 +2,7 @@
 // The selected target's numbers, as in report.json.
 import type { FrameReport, Handled, TargetReport } from '../api/types';
 import { count, metres, percent, seconds, unknownText, vector } from '../model/format';
+import { forecastText } from '../model/forecast';
 import { verdictNames, verdictOf } from '../model/labels';
 import { hiddenText } from '../model/timeline';
 import { element, swatch, term } from './dom';
@@ -82,6 +83,10 @@ export function targetDetails(target: TargetReport): HTMLElement {
   if (verdict === 'unknown' && target.blame?.length)
     body.append(element('p', '', hiddenText(target)));
   if (target.reason) body.append(element('p', 'reason', target.reason));
+  if (target.forecast?.length) {
+    const text = element('p', 'forecast-text', forecastText(target.forecast));
+    body.append(element('h4', '', 'Will be hidden'), text);
+  }
   body.append(factList(coverageFacts(target)));
   if (target.blame?.length) body.append(element('h4', '', 'Hidden by'), blameBars(target));
   body.append(element('h4', '', 'Measured point'), factList(measuredFacts(target)));
@@ -122,6 +127,9 @@ const handledFacts = ({ estimate }: TargetReport, handled: Handled): Fact[] => [
   fact('position', 'x y z, m', handled.position, vector(handled.position)),
   fact('orientation', 'x y z w', handled.orientation, vector(handled.orientation)),
   fact('sigma_m', 'sigma', handled.sigma_m, metres(handled.sigma_m)),
+  ...(handled.lost_in_s == null
+    ? []
+    : [fact('lost_in_s', 'lost in', handled.lost_in_s, seconds(handled.lost_in_s, 2))]),
   fact('estimate', 'estimate', estimate, estimate ?? unknownText),
 ];
 
