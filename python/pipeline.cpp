@@ -17,6 +17,8 @@ void bind_pipeline_settings(py::module_& m) {
       Field{"renderer", &C::renderer, "How the backend draws."},
       Field{"rule", &C::rule, "Its range and the camera's both apply."},
       Field{"image", &C::image, "Which image results are given in."},
+      Field{"has_depth", &C::has_depth,
+            "False: the camera measures no depth. Verdicts come from the robot's model alone."},
       Field{"camera_parent", &C::camera_parent, "Link that the camera sits on; empty: the root."},
       Field{"T_parent_camera", &C::T_parent_camera,
             "Pose of the optical frame in that link's frame, metres."},

@@ -34,6 +34,7 @@ OUT gets report.json. --save adds for each frame, here 0:
   vdi/000000.npy       virtual depth in metres; 0: no robot, or the lens model does not reach
   labels/000000.png    0 clear, 1 front, 2 occluded, 3 unknown, 4 beyond, 5 fringe
   links/000000.png     link number in the report + 1; 0: none
+  robot_mask/000000.png  255 where the robot is drawn, else 0
   overlay/000000.png   labels and targets over the colour image
   filtered/000000.png  depth without the robot, millimetres
   points/000000.pcd    points without the robot; points/000000.ply is the same

@@ -94,14 +94,19 @@ void add_rule(CLI::App& app, io::RuleOptions& rule) {
 
 io::Saves to_saves(const std::string& text) {
   static const std::map<std::string, bool io::Saves::*> kinds{
-      {"vdi", &io::Saves::vdi},           {"labels", &io::Saves::labels},
-      {"links", &io::Saves::links},       {"overlay", &io::Saves::overlay},
-      {"filtered", &io::Saves::filtered}, {"points", &io::Saves::points}};
+      {"vdi", &io::Saves::vdi},
+      {"labels", &io::Saves::labels},
+      {"links", &io::Saves::links},
+      {"overlay", &io::Saves::overlay},
+      {"filtered", &io::Saves::filtered},
+      {"points", &io::Saves::points},
+      {"robot_mask", &io::Saves::robot_mask}};
   io::Saves saves;
   for (const std::string& part : split(text, ',')) {
     const auto kind = kinds.find(part);
     if (kind == kinds.end())
-      refuse_option("--save", part, "one of vdi, labels, links, overlay, filtered, points");
+      refuse_option("--save", part,
+                    "one of vdi, labels, links, robot_mask, overlay, filtered, points");
     saves.*kind->second = true;
   }
   return saves;
@@ -335,10 +340,11 @@ void add_run(CLI::App& app, RunArguments& run) {
   add_number(app, "--fps",
              "frames per second of a recording without stamps: frame i gets the stamp i / N s", "N",
              run.session.input.fps, 0.001, 1000.0);
-  add_option(app, "--save",
-             "what to write for each frame: of vdi,labels,links,overlay, and without the robot "
-             "filtered (depth) and points (PCD and PLY)",
-             "LIST", [&](const std::string& text) { run.output.saves = to_saves(text); });
+  add_option(
+      app, "--save",
+      "what to write for each frame: of vdi,labels,links,robot_mask,overlay, and without the robot "
+      "filtered (depth) and points (PCD and PLY)",
+      "LIST", [&](const std::string& text) { run.output.saves = to_saves(text); });
   add_option(app, "--points-frame", "link that points are given in; default: the camera's frame",
              "LINK", [&](const std::string& text) { run.output.points_frame = text; });
   app.add_flag("--report", run.output.report_page,
@@ -352,6 +358,7 @@ void add_run(CLI::App& app, RunArguments& run) {
 
 void check_tune(const CLI::App& app, TuneArguments& tune) {
   check_session(app, tune.session);
+  tune.session.input.needs_depth = true;
   tune.session.input.with_color = true;  // for the picture
   tune.session.no_targets = true;
   tune.session.image = ImageSpace::rectified;  // tuning takes a pinhole camera's images
@@ -361,6 +368,7 @@ void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate) {
   check_input(app, calibrate.input.input);
   if (calibrate.search && calibrate.initial)
     throw InputError("--search: --initial is given too; leave one of them out");
+  calibrate.input.input.needs_depth = true;
   calibrate.input.input.needs_camera_pose = !calibrate.search && !calibrate.initial;
 }
 

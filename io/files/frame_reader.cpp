@@ -51,9 +51,9 @@ std::shared_ptr<VideoFile<T>> video_of(const FramePattern* pattern, ImageSize si
   return video;
 }
 
-std::vector<std::int64_t> numbers_of(const FramePattern& depth,
-                                     const VideoFile<std::uint16_t>* video) {
-  if (video == nullptr) return depth.existing();
+template <typename T>
+std::vector<std::int64_t> numbers_of(const FramePattern& images, const VideoFile<T>* video) {
+  if (video == nullptr) return images.existing();
   std::vector<std::int64_t> numbers(video->frames());
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
@@ -105,15 +105,22 @@ FrameReader::FrameReader(const Recording& recording, const Robot& robot)
     : size_(size_of(recording.camera.camera)),
       files_(recording.frames),
       depth_video_(video_of<std::uint16_t>(
-          &files_.depth, recording.camera.depth ? size_of(*recording.camera.depth) : size_)),
+          files_.depth ? &*files_.depth : nullptr,
+          recording.camera.depth ? size_of(*recording.camera.depth) : size_)),
       color_video_(video_of<Rgb8>(files_.color ? &*files_.color : nullptr, size_)),
       depth_camera_(recording.camera.depth ? std::make_shared<DepthCamera>(recording.camera)
                                            : nullptr),
       depth_scale_(recording.camera.depth_scale),
-      rows_(with_gaps(read_joint_file(files_.joints, robot),
-                      numbers_of(files_.depth, depth_video_.get()), files_.joints)),
+      rows_(with_gaps(read_joint_file(files_.joints, robot), numbers_of_images(), files_.joints)),
       bodies_(recording.attached),
       parts_(robot.parts().begin(), robot.parts().end()) {}
+
+/// The numbers of the depth images; without any, of the colour images.
+std::vector<std::int64_t> FrameReader::numbers_of_images() const {
+  if (files_.depth) return numbers_of(*files_.depth, depth_video_.get());
+  if (files_.color) return numbers_of(*files_.color, color_video_.get());
+  return {};
+}
 
 Frame FrameReader::read(std::size_t i, bool with_color) const {
   const JointRow& row = rows_[i];
@@ -132,7 +139,8 @@ Frame FrameReader::read(std::size_t i, bool with_color) const {
   for (const RecordedBody& each : bodies_)
     if (each.first <= row.index && row.index < each.end) frame.pose.attached.push_back(each.body);
 
-  if (const FileResult depth = read_depth_image(row.index, frame.depth); !depth.ok()) {
+  const FileResult depth = files_.depth ? read_depth_image(row.index, frame.depth) : FileResult{};
+  if (!depth.ok()) {
     frame.source_status =
         depth.status == FileStatus::missing ? FrameStatus::missing_depth : FrameStatus::bad_depth;
     frame.source_message = depth.message;
@@ -150,7 +158,7 @@ FileResult FrameReader::read_depth_image(std::int64_t index, SharedDepth& depth)
     if (result.ok())
       depth = depth_scale_ ? shared_depth_of(*image, depth_scale_) : SharedDepth(image);
   } else {
-    result = read_depth(files_.depth.file(index), depth_camera_ ? depth_camera_->size() : size_,
+    result = read_depth(files_.depth->file(index), depth_camera_ ? depth_camera_->size() : size_,
                         depth_scale_, depth);
   }
   if (result.ok() && depth_camera_) depth = depth_camera_->warp(depth);

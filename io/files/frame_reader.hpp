@@ -29,13 +29,15 @@ class FrameReader {
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
   [[nodiscard]] std::int64_t index(std::size_t i) const { return rows_[i].index; }
 
-  /// Reads the i-th frame in the order of the joint file. Depth images without a row are frames
+  /// Reads the i-th frame in the order of the joint file. Depth images (without a depth camera:
+  /// colour images) without a row are frames
   /// with status missing_joints, before the first row of a later frame. The depth image is read
   /// even if the joints are missing. Images are owned by the frame. Several threads may call this.
   [[nodiscard]] Frame read(std::size_t i, bool with_color) const;
 
  private:
   class DepthCamera;
+  [[nodiscard]] std::vector<std::int64_t> numbers_of_images() const;
   [[nodiscard]] FileResult read_depth_image(std::int64_t index, SharedDepth& depth) const;
   [[nodiscard]] FileResult read_color_image(std::int64_t index, SharedColor& color) const;
 

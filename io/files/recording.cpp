@@ -181,7 +181,8 @@ RecordingFrames frames_of(const YamlNode& node, const YamlNode& images,
                           const std::filesystem::path& folder) {
   const YamlNode* const joints = images.find("joints");
   RecordingFrames frames{file_of(joints != nullptr ? *joints : node.at("joints"), folder),
-                         pattern_of(images.at("depth"), folder), std::nullopt};
+                         std::nullopt, std::nullopt};
+  if (const YamlNode* depth = images.find("depth")) frames.depth = pattern_of(*depth, folder);
   if (const YamlNode* color = images.find("color")) frames.color = pattern_of(*color, folder);
   return frames;
 }
@@ -335,6 +336,7 @@ PipelineConfig Recording::pipeline_config() const {
     throw InputError(file.string() +
                      ": camera: key 'pose' is missing; 'penumbra calibrate --search' finds it");
   PipelineConfig config;
+  config.has_depth = frames.depth.has_value();
   config.rule = camera.rule.applied_to(config.rule);
   config.camera_parent = camera.parent;
   config.T_parent_camera = *camera.T_parent_camera;

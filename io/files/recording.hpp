@@ -56,7 +56,7 @@ struct RecordingCamera {
 /// The files of the frames.
 struct RecordingFrames {
   std::filesystem::path joints;
-  FramePattern depth;
+  std::optional<FramePattern> depth;  ///< null: the camera measures no depth
   std::optional<FramePattern> color;
 };
 

@@ -27,9 +27,10 @@ struct ImageKind {
   const char *folder, *ending;
   bool Saves::*wanted;
 };
-constexpr std::array<ImageKind, 7> image_kinds{{{"vdi", ".npy", &Saves::vdi},
+constexpr std::array<ImageKind, 8> image_kinds{{{"vdi", ".npy", &Saves::vdi},
                                                 {"labels", ".png", &Saves::labels},
                                                 {"links", ".png", &Saves::links},
+                                                {"robot_mask", ".png", &Saves::robot_mask},
                                                 {"overlay", ".png", &Saves::overlay},
                                                 {"filtered", ".png", &Saves::filtered},
                                                 {"points", ".pcd", &Saves::points},
@@ -170,6 +171,10 @@ void OutputFolder::save(const FrameReport& report, const Frame& frame,
     write_later(file("vdi", index, ".npy"), virtual_depth.depth, plain_npy);
   if (options_.saves.links && !virtual_depth.links.empty())
     write_later(file("links", index, ".png"), virtual_depth.links, plain_png);
+  if (options_.saves.robot_mask && !virtual_depth.links.empty())
+    writers_->add([to = file("robot_mask", index, ".png"), mask = robot_mask(virtual_depth)] {
+      write_png(to, mask.view());
+    });
   if (options_.saves.labels)
     write_later(file("labels", index, ".png"), report.labels,
                 [](const auto& to, const auto& image) { write_png(to, image, label_palette()); });

@@ -20,8 +20,8 @@ namespace penumbra::io {
 
 /// The images that `run` writes next to the report.
 struct Saves {
-  bool vdi = false, labels = false, links = false, overlay = false, filtered = false,
-       points = false;
+  bool vdi = false, labels = false, links = false, robot_mask = false, overlay = false,
+       filtered = false, points = false;
   bool operator==(const Saves&) const = default;
 };
 

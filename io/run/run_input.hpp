@@ -35,6 +35,7 @@ struct InputOptions {
   bool allow_missing_meshes = false;  ///< likewise
   std::vector<ExtraMesh> extra;       ///< likewise
   bool needs_camera_pose = true;      ///< false: it may be unknown, and is then the identity
+  bool needs_depth = false;           ///< true: a recording without depth images is an error
   FrameRange frames;
   std::optional<double> fps;  ///< of a recording without stamps, 1/s
   int threads = 0;            ///< that decode images; 0: one per core; 1: none of their own

@@ -23,8 +23,9 @@ namespace penumbra {
 struct Frame {
   std::optional<std::size_t> index = {};   ///< in its source; null: the number of the call
   std::optional<std::int64_t> stamp = {};  ///< of the depth image, nanoseconds
-  SharedDepth depth = {};                  ///< of the camera's size; empty: missing_depth
-  RobotPose pose = {};                     ///< at the stamp
+  SharedDepth depth = {};  ///< of the camera's size; empty: missing_depth, unless the
+                           ///< camera has none (PipelineConfig::has_depth)
+  RobotPose pose = {};     ///< at the stamp
   std::vector<Target> targets = {};
   /// The motion that the robot follows, or waits to follow; null: none is known. Session tells what
   /// it will hide.

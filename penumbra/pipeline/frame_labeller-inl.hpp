@@ -63,6 +63,7 @@ class FrameLabeller {
   std::optional<RectifiedDepth> rectified_depth_;  // with distortion, ImageSpace::rectified
   std::optional<UncoveredPixels> uncovered_;       // with distortion
   Classifier classifier_;
+  bool has_depth_;
   Eigen::Vector2i depth_size_;  // of the camera's images, pixels
   labelling::Rule measured_;    // defines a measurement
   std::string message_;

@@ -52,6 +52,7 @@ FrameLabeller::FrameLabeller(const Robot& robot, const Camera& camera,
       attached_(render_intrinsics_, config.backend, config.renderer),
       classifier_(intrinsics_.width(), intrinsics_.height(), rule_of(camera, config),
                   config.renderer.isa),
+      has_depth_(config.has_depth),
       depth_size_(camera.intrinsics.width(), camera.intrinsics.height()),
       measured_(classifier_.rule()),
       no_depth_row_(static_cast<std::size_t>(intrinsics_.width())),
@@ -76,7 +77,7 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
     frame.uncovered = uncovered_ ? uncovered_->count() : 0;
     return frame;
   }
-  if (has_depth(frame.status)) frame.status = worse(frame.status, check(frame));
+  if (has_depth_ && has_depth(frame.status)) frame.status = worse(frame.status, check(frame));
   images.is_blind = !has_depth(frame.status);
   {
     const StageTimer timer(frame.render_ms);
@@ -84,7 +85,7 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
   }
   {
     const StageTimer timer(frame.classify_ms);
-    if (!images.is_blind)
+    if (has_depth_ && !images.is_blind)
       images.measured = rectified_depth_ ? rectified_depth_->rectify(depth) : depth;
     images.labels = classify(images.virtual_depth, images.measured);
     if (!poses.reaches.empty())

@@ -29,6 +29,10 @@ struct PipelineConfig {
   RendererOptions renderer;  ///< threads and SIMD target of the cpu backend, device of gl
   LabelRule rule;            ///< its range is cut to the camera's
   ImageSpace image = ImageSpace::raw;
+  /// False: the camera measures no depth. Frames without a depth image are then ok, the robot's
+  /// pixels are unknown, and verdicts come from the model alone: from what the robot hides of
+  /// targets whose depth is known.
+  bool has_depth = true;
   std::string camera_parent;  ///< link that carries the camera; empty: the root
   /// Pose of the optical frame in that link's frame, metres.
   Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();

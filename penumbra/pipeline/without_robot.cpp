@@ -88,4 +88,12 @@ std::optional<Eigen::Isometry3d> camera_in_link(const FrameReport& report, std::
   return report.T_root_link[index].inverse() * *report.T_root_camera;
 }
 
+Image<std::uint8_t> robot_mask(const VirtualDepthView& virtual_depth) {
+  const auto& depth = virtual_depth.depth;
+  Image<std::uint8_t> mask(depth.width, depth.height);
+  for (int v = 0; v < depth.height; ++v)
+    for (int u = 0; u < depth.width; ++u) mask(u, v) = depth(u, v) > 0.0F ? 255 : 0;
+  return mask;
+}
+
 }  // namespace penumbra

@@ -50,4 +50,8 @@ class CloudMaker {
 [[nodiscard]] std::optional<Eigen::Isometry3d> camera_in_link(const FrameReport& report,
                                                               std::string_view link);
 
+/// Returns 255 where the robot, or what it carries, is drawn, else 0: which pixels of a picture
+/// show it, if nothing stands before it.
+[[nodiscard]] Image<std::uint8_t> robot_mask(const VirtualDepthView& virtual_depth);
+
 }  // namespace penumbra

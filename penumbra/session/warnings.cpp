@@ -42,6 +42,8 @@ Warnings::Warnings(const Robot& robot)
 
 Warnings::Warnings(const Pipeline& pipeline, const PipelineConfig& config)
     : Warnings(pipeline.robot()) {
+  has_depth_ = config.has_depth;
+  if (!has_depth_) return;
   const std::size_t parent =
       config.camera_parent.empty() ? 0 : *robot_.find_link(config.camera_parent);
   sensor_.emplace(Sensor{.missing = MissingParts(robot_, pipeline.rule().fringe_reach),
@@ -97,6 +99,11 @@ void Warnings::add_targets(const FrameReport& report) {
 std::vector<std::string> Warnings::lines() const {
   static_assert(DepthRenderer::near_plane == 0.01, "the 1 cm below");
   std::vector<std::string> lines;
+  if (!has_depth_)
+    lines.emplace_back(
+        "no depth camera: verdicts come from the robot's model alone; what other things hide is "
+        "not "
+        "known");
   const Diagnosis& found = diagnosis();
   // Without a robot in view, or depth on it, no setup explains anything.
   const bool shows_robot =

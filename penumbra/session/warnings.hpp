@@ -71,6 +71,7 @@ class Warnings {
 
   Robot robot_;
   std::optional<Sensor> sensor_;
+  bool has_depth_ = true;                       // of the camera
   mutable std::optional<Diagnosis> diagnosis_;  // of the frames so far
   std::size_t posed_frames_ = 0;
   bool robot_seen_ = false;

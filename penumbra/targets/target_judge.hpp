@@ -24,7 +24,8 @@ namespace penumbra {
 struct LabelledImages {
   LabelView labels;
   VirtualDepthView virtual_depth;  ///< empty if the robot's pose is unknown: all is unknown
-  DepthView measured;              ///< empty: no points, and nothing is hidden by other objects
+  DepthView measured;              ///< empty: no points, nothing is hidden by other objects, and
+                                   ///< nothing need be measured
   bool is_blind = false;           ///< no usable depth: whatever the robot does not hide is unknown
 };
 

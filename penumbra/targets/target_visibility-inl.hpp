@@ -45,7 +45,7 @@ struct Visibility {
   std::size_t covered = 0, inside = 0;
   StateCounts pixels{};                ///< inside
   std::size_t measured = 0, past = 0;  ///< as in ExtentTally
-  std::size_t unmeasured = 0;          ///< clear or front, and not measured
+  std::size_t unmeasured = 0;          ///< clear or front, and not measured, though depth is
   bool is_expected = false;            ///< its depth is known
   const LinkCounts* links = nullptr;
   bool has_pose = true;

@@ -113,7 +113,7 @@ Visibility ExtentObserver::observe_extent(const TargetInFrame& at, const RegionS
                         .past = tally.past,
                         .is_expected = at.expected.known(),
                         .links = &tally.links};
-  visibility.unmeasured = visibility.seen() - visibility.measured;
+  if (at.frame.is_measured()) visibility.unmeasured = visibility.seen() - visibility.measured;
   if (at.frame.images.is_blind) visibility.mark_all_unknown();
   return visibility;
 }

@@ -97,7 +97,7 @@ TEST_F(RecordingFolder, OpensByFolderAndByFile) {
     EXPECT_EQ(recording.robots.at(0).urdf, file("arm.urdf"));
     EXPECT_EQ(recording.camera.camera.intrinsics, Intrinsics(8, 6, 9, 9, 3.5, 2.5));
     EXPECT_EQ(recording.camera.T_parent_camera->translation(), Eigen::Vector3d(0.5, 0, -1));
-    EXPECT_EQ(recording.frames.depth.file(5), file("depth_5.png"));
+    EXPECT_EQ(recording.frames.depth.value().file(5), file("depth_5.png"));
     EXPECT_EQ(recording.frames.color.value().file(5), file("color_5.png"));
   }
 }
@@ -145,7 +145,7 @@ TEST_F(RecordingFolder, ReadsEveryOptionalKey) {
   EXPECT_EQ(recording.camera.camera.range.near, 0.3);
   EXPECT_TRUE(recording.camera.rectified);
   EXPECT_EQ(recording.camera.beyond, BeyondMeans::visible);
-  EXPECT_EQ(recording.frames.depth.file(5), file("depth/0005.npy"));
+  EXPECT_EQ(recording.frames.depth.value().file(5), file("depth/0005.npy"));
   EXPECT_FALSE(recording.frames.color);
   EXPECT_EQ(open(with("  urdf", "  geometry: visual")).robots.at(0).options.geometry,
             Geometry::visual);

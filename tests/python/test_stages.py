@@ -280,3 +280,18 @@ def test_objects_tell_what_they_are(opened):
                         (opened.frames, "12 frames"), (penumbra.open_input(SHIPPED), "six_axis_arm"),
                         (report.points(), "points"), (penumbra.TargetEstimate([1, 2, 3]), "1., 2., 3.")):
         assert says in repr(thing) and len(repr(thing)) < 2000
+
+
+def test_without_depth_verdicts_come_from_the_model():
+    given = penumbra.open_input(SHIPPED)
+    config = given.config.replace(has_depth=False)
+    pipeline = penumbra.Pipeline(given.robot, given.camera, config)
+    lid = penumbra.Target("lid", penumbra.PointTarget([0.42, 0.56, 0.30], frame=""))
+    verdicts = []
+    for frame in given:
+        report = pipeline.process(penumbra.Frame(None, frame.frame.joints, targets=[lid]))
+        assert report.status == penumbra.FrameStatus.ok and report.robot_mask.any()
+        assert np.array_equal(report.robot_mask, report.labels == penumbra.Label.unknown)
+        verdicts.append(report.targets[0].verdict)
+    assert {penumbra.Verdict.visible, penumbra.Verdict.hidden} <= set(verdicts)
+    assert any("no depth camera" in note for note in pipeline.notes)

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Verdicts without a depth camera, in a scene whose depth a formula tells.
+#include "../support/random.hpp"
+#include "slab_scene.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/pipeline/without_robot.hpp>
+#include <penumbra/session/session.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr double clear_of_robot = 0.03;  // metres: over the tolerance of 0.02
+const auto robot_depth_at = [](int u, int v, double slide) {
+  return cast(slab_camera().intrinsics.ray(u, v), slide);
+};
+
+PipelineConfig without_depth() {
+  PipelineConfig config = plain_config();
+  config.has_depth = false;
+  return config;
+}
+
+/// A box of pixels at a depth, somewhere in the image.
+RegionTarget random_region(std::mt19937_64& random) {
+  const auto whole = [&](int low, int high) {
+    return static_cast<double>(std::uniform_int_distribution(low, high)(random));
+  };
+  return {.region = PixelBox{whole(0, 140), whole(0, 100), whole(4, 20), whole(4, 20)},
+          .extent = Extent::amodal,
+          .expected_depth = std::uniform_real_distribution(0.5, 2.8)(random)};
+}
+
+struct RegionTruth {
+  int inside = 0, hidden = 0, close = 0;  // pixels; the last: the robot is at the target's depth
+};
+
+RegionTruth truth_of(const RegionTarget& target, double slide) {
+  const auto& box = std::get<PixelBox>(target.region);
+  const Intrinsics& image = slab_camera().intrinsics;
+  RegionTruth truth;
+  for (double v = box.v; v < std::min(box.v + box.height, double(image.height())); ++v)
+    for (double u = box.u; u < std::min(box.u + box.width, double(image.width())); ++u) {
+      const Seen seen = robot_depth_at(static_cast<int>(u), static_cast<int>(v), slide);
+      ++truth.inside;
+      if (seen.link == 0) continue;
+      truth.close += std::abs(seen.depth - *target.expected_depth) < clear_of_robot ? 1 : 0;
+      truth.hidden += seen.depth < *target.expected_depth ? 1 : 0;
+    }
+  return truth;
+}
+
+TEST(WithoutDepth, VerdictsComeFromTheModel) {
+  Session session(slab_robot(), slab_camera(), without_depth());
+  std::mt19937_64 random = seeded_random(401);
+  std::size_t hidden = 0, partial = 0, visible = 0;
+  for (int i = 0; i < 400; ++i) {
+    const double slide = std::uniform_real_distribution(-0.3, 0.9)(random);
+    const RegionTarget region = random_region(random);
+    const RegionTruth truth = truth_of(region, slide);
+    if (truth.close > 0) continue;
+    Frame frame{.pose = {.positions = {slide}}};
+    frame.targets = {{.name = "region", .shape = region}};
+    const FrameReport& report = session.process(frame);
+    EXPECT_EQ(report.status, FrameStatus::ok);
+    const TargetReport& target = report.targets[0];
+    const double share = static_cast<double>(truth.hidden) / truth.inside;
+    ASSERT_TRUE(target.judgement);
+    EXPECT_NEAR(target.judgement->occluded, share, 1e-9);
+    EXPECT_FALSE(target.judgement->hidden_by_other);
+    const TargetThresholds thresholds;
+    const Verdict expected = share > thresholds.hidden_enter    ? Verdict::hidden
+                             : share > thresholds.partial_enter ? Verdict::partial
+                                                                : Verdict::visible;
+    session.pipeline().forget_targets();  // no hysteresis
+    EXPECT_EQ(target.verdict, expected) << share;
+    ++(expected == Verdict::hidden ? hidden : expected == Verdict::partial ? partial : visible);
+  }
+  EXPECT_GT(hidden, 20U);
+  EXPECT_GT(partial, 20U);
+  EXPECT_GT(visible, 20U);
+  const std::vector<std::string> lines = session.warnings();
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NE(lines[0].find("no depth camera"), std::string::npos);
+}
+
+TEST(WithoutDepth, TheMaskIsTheRobotAndItsPixelsAreUnknown) {
+  Pipeline pipeline(slab_robot(), slab_camera(), without_depth());
+  const FrameReport& report = pipeline.process({.pose = {.positions = {0.2}}});
+  const Image<std::uint8_t> mask = robot_mask(report.virtual_depth);
+  for (int v = 0; v < mask.height(); ++v)
+    for (int u = 0; u < mask.width(); ++u) {
+      const bool is_robot = robot_depth_at(u, v, 0.2).link != 0;
+      ASSERT_EQ(mask(u, v), is_robot ? 255 : 0) << u << ' ' << v;
+      ASSERT_EQ(report.labels(u, v), is_robot ? unknown_label : 0);
+    }
+}
+
+TEST(WithoutDepth, ATargetOfUnknownDepthIsUnknownBehindTheRobot) {
+  Pipeline pipeline(slab_robot(), slab_camera(), without_depth());
+  Frame frame{.pose = {.positions = {0.0}}};
+  for (const double u : {70.0, 2.0})
+    frame.targets.push_back(
+        {.name = std::to_string(u),
+         .shape = RegionTarget{.region = PixelBox{u, 54, 8, 8}, .extent = Extent::amodal}});
+  const FrameReport& report = pipeline.process(frame);
+  EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
+  EXPECT_NE(report.targets[0].reason, "");
+  EXPECT_EQ(report.targets[1].verdict, Verdict::visible);
+}
+
+TEST(WithoutDepth, ACameraThatHasDepthMissesIt) {
+  Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
+  EXPECT_EQ(pipeline.process({.pose = {.positions = {0.0}}}).status, FrameStatus::missing_depth);
+}
+
+}  // namespace
+}  // namespace penumbra::test
