@@ -20,6 +20,7 @@
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/render/near_plane_check.hpp>
 #include <penumbra/render/pixel_rectangle.hpp>
+#include <penumbra/scene/clearance-inl.hpp>
 #include <penumbra/scene/look_ahead.hpp>
 #include <penumbra/targets/object_renderers-inl.hpp>
 #include <penumbra/targets/region_spans-inl.hpp>
@@ -27,9 +28,6 @@
 #include <penumbra/targets/target_visibility-inl.hpp>
 
 namespace penumbra::scene {
-
-/// Pixels; sums of two of their squares are 16-bit numbers.
-inline constexpr int max_clearance = 127;
 
 /// A target in space at the start of a motion.
 struct AnchoredTarget {
@@ -80,36 +78,13 @@ class CameraPredictor {
     std::string name;
     Eigen::AlignedBox3d bounds;  // in its frame; empty if it is not drawn
   };
-  /// A target in the image, kept until it moves there.
-  struct Shown {
-    Eigen::Isometry3d T_camera_frame =
-        Eigen::Isometry3d::Identity();  // that it was made for: of its reference frame
-    double time = std::numeric_limits<double>::quiet_NaN();  // of a target that moves; else 0
-    std::string fault = {};                  // why it is unknown; empty: it is known
-    std::vector<RowSpan> spans = {};         // none: it is not in view
-    PixelRectangle region = {};              // around them
-    std::vector<float> near = {}, far = {};  // metres, by pixel: robot before `near` hides it
-    float before = 0.0F;                     // metres: robot nearer than that is before its middle
-    Visibility whole = {};                   // without the robot
-  };
-
   void place_bodies(const PoseResult& poses, Sample& sample);
-  const Shown& show(std::size_t target, const PoseResult& poses, double time);
-  void fill(std::size_t target, const PoseResult& poses, Shown& shown);
-  void set_limits(const TargetView& view, double depth, Shown& shown);
+  const SeenTarget& show(std::size_t target, const PoseResult& poses, double time);
+  void fill(std::size_t target, const PoseResult& poses, SeenTarget& shown);
+  void set_limits(const TargetView& view, double depth, SeenTarget& shown);
   void move(std::size_t target, double time);
   [[nodiscard]] Prediction judge(std::size_t target, bool is_near);
-  [[nodiscard]] Visibility tally(const Shown& shown);
-  [[nodiscard]] static std::size_t index(const PixelRectangle& window, int u, int v) {
-    return static_cast<std::size_t>(v - window.v0) * static_cast<std::size_t>(window.width()) +
-           static_cast<std::size_t>(u - window.u0);
-  }
-  [[nodiscard]] double clearance(const Shown& shown, bool is_hidden);
-  void mark_blocked(const Shown& shown, const PixelRectangle& window);
-  [[nodiscard]] double free_distance(const Shown& shown, const PixelRectangle& window,
-                                     int most) const;
-  [[nodiscard]] double hidden_depth(const Shown& shown, const PixelRectangle& window, int most);
-
+  [[nodiscard]] Visibility tally(const SeenTarget& shown);
   const Robot& robot_;
   std::span<const AnchoredTarget> anchored_;
   std::vector<Target> targets_;           // at the sample's time
@@ -133,12 +108,10 @@ class CameraPredictor {
   TargetViews views_;
   SeenPixels seen_pixels_;
   RegionSpans spans_;
-  std::vector<Shown> shown_;  // by target
+  std::vector<SeenTarget> shown_;  // by target
   VirtualDepthView drawn_;
   LinkCounts links_;
-  std::vector<std::uint8_t> blocked_;  // of a window: the robot could hide the target there
-  std::vector<std::int16_t> columns_;  // of a window: rows to the nearest pixel that is not blocked
-  std::vector<std::int16_t> squares_, nearest_;  // of a row: squared distances
+  Clearance clearance_of_;
 };
 
 }  // namespace penumbra::scene

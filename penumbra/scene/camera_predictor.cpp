@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -65,11 +64,6 @@ std::vector<Body> bodies_with(const Robot& robot, std::span<const AttachedBody> 
 PixelRectangle rectangle_of(std::span<const RowSpan> spans) {
   const SpanBox box = box_of_spans(spans);
   return {box.u0, box.v0, box.u1 + 1, box.v1 + 1};
-}
-
-PixelRectangle grown(const PixelRectangle& box, int by, const Intrinsics& image) {
-  return overlap({box.u0 - by, box.v0 - by, box.u1 + by, box.v1 + by},
-                 {0, 0, image.width(), image.height()});
 }
 
 /// The outline of a shape in pixels; empty for masks.
@@ -208,7 +202,8 @@ Sample CameraPredictor::at(double time, std::span<const double> positions) {
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     const PixelRectangle& region = sample.targets[i] = show(i, poses, time).region;
     if (region.empty()) continue;
-    const PixelRectangle window = grown(region, clearance_, camera_.intrinsics);
+    const PixelRectangle window =
+        grown(region, clearance_, camera_.intrinsics.width(), camera_.intrinsics.height());
     is_near[i] = std::ranges::any_of(
         sample.bodies, [&](const SeenBody& body) { return !overlap(body.pixels, window).empty(); });
     if (is_near[i]) drawn = drawn.empty() ? window : drawn.united(window);
@@ -261,9 +256,8 @@ void CameraPredictor::move(std::size_t target, double time) {
 }
 
 /// Makes the target's view again if it has moved in the image.
-const CameraPredictor::Shown& CameraPredictor::show(std::size_t target, const PoseResult& poses,
-                                                    double time) {
-  Shown& shown = shown_[target];
+const SeenTarget& CameraPredictor::show(std::size_t target, const PoseResult& poses, double time) {
+  SeenTarget& shown = shown_[target];
   const ForecastTarget& start = anchored_[target].start;
   const bool is_at_rest = start.velocity.isZero(0.0) && start.angular_velocity.isZero(0.0);
   try {
@@ -283,7 +277,7 @@ const CameraPredictor::Shown& CameraPredictor::show(std::size_t target, const Po
   return shown;
 }
 
-void CameraPredictor::fill(std::size_t target, const PoseResult& poses, Shown& shown) {
+void CameraPredictor::fill(std::size_t target, const PoseResult& poses, SeenTarget& shown) {
   const auto is_in_range = [&](double depth) {
     return depth >= camera_.range.near && depth <= camera_.range.far;
   };
@@ -324,7 +318,7 @@ void CameraPredictor::fill(std::size_t target, const PoseResult& poses, Shown& s
 
 /// Fills in the pixels of the target's region, and how near the robot must be there to hide it.
 /// `depth`: of its middle, metres; infinite: not known.
-void CameraPredictor::set_limits(const TargetView& view, double depth, Shown& shown) {
+void CameraPredictor::set_limits(const TargetView& view, double depth, SeenTarget& shown) {
   check_view(view);
   spans_.fill(view.region);
   spans_.keep(seen_pixels_);
@@ -349,7 +343,7 @@ void CameraPredictor::set_limits(const TargetView& view, double depth, Shown& sh
 }
 
 Prediction CameraPredictor::judge(std::size_t target, bool is_near) {
-  const Shown& shown = shown_[target];
+  const SeenTarget& shown = shown_[target];
   if (!shown.fault.empty()) return {.reason = shown.fault};
   Prediction prediction{.verdict = Verdict::out_of_view, .clearance = free_};
   if (shown.spans.empty()) return prediction;
@@ -367,7 +361,8 @@ Prediction CameraPredictor::judge(std::size_t target, bool is_near) {
             : "the robot is before or behind it: give its expected_depth, or its height";
   const PixelState blocked = visibility.is_expected ? PixelState::occluded : PixelState::unknown;
   if (is_near && clearance_ > 0)
-    prediction.clearance = clearance(shown, visibility.pixels[blocked] > 0);
+    prediction.clearance =
+        clearance_of_.measure(shown, drawn_, visibility.pixels[blocked] > 0, clearance_);
   if (!unknown_reason_.empty() &&
       (prediction.verdict == Verdict::visible || prediction.verdict == Verdict::partial)) {
     prediction.verdict = Verdict::unknown;
@@ -377,7 +372,7 @@ Prediction CameraPredictor::judge(std::size_t target, bool is_near) {
 }
 
 /// Counts the target's pixels, and the links that hide them.
-Visibility CameraPredictor::tally(const Shown& shown) {
+Visibility CameraPredictor::tally(const SeenTarget& shown) {
   Visibility visibility = shown.whole;
   std::size_t first = 0;  // of the span's pixels
   std::size_t before = 0, beside = 0;
@@ -402,123 +397,6 @@ Visibility CameraPredictor::tally(const Shown& shown) {
   visibility.pixels[PixelState::unknown] = visibility.is_expected ? beside : before;
   visibility.pixels[PixelState::clear] = visibility.inside - before - beside;
   return visibility;
-}
-
-/// Measures it in a narrow window first.
-double CameraPredictor::clearance(const Shown& shown, bool is_hidden) {
-  constexpr int narrow = 16;  // pixels
-  for (int most = std::min(narrow, clearance_);; most = clearance_) {
-    const PixelRectangle window = grown(shown.region, most, camera_.intrinsics);
-    mark_blocked(shown, window);
-    const double found =
-        is_hidden ? -hidden_depth(shown, window, most) : free_distance(shown, window, most);
-    if (std::abs(found) < most || most == clearance_) return found;
-  }
-}
-
-/// Marks the pixels of the robot that are before the target; outside of the target's region, before
-/// its middle.
-void CameraPredictor::mark_blocked(const Shown& shown, const PixelRectangle& window) {
-  blocked_.assign(
-      static_cast<std::size_t>(window.width()) * static_cast<std::size_t>(window.height()), 0);
-  drawn_.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
-    const PixelRectangle part = overlap({u0, v0, u1, v1}, window);
-    for (int v = part.v0; v < part.v1; ++v) {
-      const float* const depth = drawn_.depth.row(v) + part.u0;
-      std::uint8_t* const row = &blocked_[index(window, part.u0, v)];
-      const int width = part.width();
-      for (int u = 0; u < width; ++u)  // without branches, to vectorise
-        row[u] = static_cast<std::uint8_t>((depth[u] > 0.0F) & (depth[u] < shown.before));
-    }
-  });
-  const float* near = shown.near.data();
-  for (const RowSpan& span : shown.spans) {
-    const float* const depth = drawn_.depth.row(span.v) + span.u0;
-    std::uint8_t* const row = &blocked_[index(window, span.u0, span.v)];
-    const int width = span.u1 - span.u0;
-    for (int u = 0; u < width; ++u)
-      row[u] = static_cast<std::uint8_t>((depth[u] > 0.0F) & (depth[u] < near[u]));
-    near += width;
-  }
-}
-
-/// Returns the distance from the target's region to the nearest blocked pixel, `most` at most; 0
-/// where they touch.
-double CameraPredictor::free_distance(const Shown& shown, const PixelRectangle& window,
-                                      int most) const {
-  int best = (most + 1) * (most + 1);  // squared
-  for (int v = window.v0; v < window.v1; ++v) {
-    const std::uint8_t* const row = &blocked_[index(window, window.u0, v)];
-    const auto find = [&](int u, int value) {
-      const void* const found =
-          std::memchr(row + u, value, static_cast<std::size_t>(window.width() - u));
-      return found == nullptr ? window.width()
-                              : static_cast<int>(static_cast<const std::uint8_t*>(found) - row);
-    };
-    for (int first = find(0, 1); first < window.width();) {
-      const int end = find(first, 0);
-      for (const RowSpan& span : shown.spans) {
-        const int dv = span.v - v;
-        if (dv * dv >= best) continue;
-        const int du =
-            std::max({0, window.u0 + first - (span.u1 - 1), span.u0 - (window.u0 + end - 1)});
-        best = std::min(best, du * du + dv * dv);
-      }
-      first = find(end, 1);
-    }
-  }
-  return std::min(std::sqrt(best) - 1.0, static_cast<double>(most));
-}
-
-/// Returns how far the innermost blocked pixel of the target's region is from one that is free,
-/// `most` at most: the exact distance transform, columns first (Felzenszwalb and Huttenlocher,
-/// "Distance transforms of sampled functions"), in the rows where it can still grow. Its loops
-/// vectorise.
-double CameraPredictor::hidden_depth(const Shown& shown, const PixelRectangle& window, int most) {
-  using Pixels = std::int16_t;  // also squared: max_clearance
-  const auto width = static_cast<std::size_t>(window.width());
-  const auto cap = static_cast<Pixels>(most);
-  columns_.resize(blocked_.size());
-  for (std::size_t i = 0; i < width; ++i) columns_[i] = static_cast<Pixels>(cap * blocked_[i]);
-  for (std::size_t i = width; i < columns_.size(); ++i) {
-    const auto next = static_cast<Pixels>(columns_[i - width] + 1);
-    columns_[i] = static_cast<Pixels>(std::min(cap, next) * blocked_[i]);
-  }
-  for (std::size_t row = columns_.size() - width; row > 0;) {
-    row -= width;
-    for (std::size_t i = row; i < row + width; ++i)
-      columns_[i] = std::min(columns_[i], static_cast<Pixels>(columns_[i + width] + 1));
-  }
-  int deepest = 0;  // squared
-  const auto most_of = [](std::span<const Pixels> row) { return int{std::ranges::max(row)}; };
-  for (const RowSpan& span : shown.spans) {
-    const Pixels* const columns = &columns_[index(window, span.u0, span.v)];
-    const auto pixels = static_cast<std::size_t>(span.u1 - span.u0);
-    nearest_.resize(pixels);
-    for (std::size_t i = 0; i < pixels; ++i)
-      nearest_[i] = static_cast<Pixels>(columns[i] * columns[i]);
-    int row = most_of(nearest_);
-    if (row <= deepest) continue;
-    // The squares of all columns that matter, beyond the image the largest.
-    const int left = std::min(most, span.u0 - window.u0),
-              right = std::min(most, window.u1 - span.u1);
-    squares_.assign(pixels + 2 * static_cast<std::size_t>(most), static_cast<Pixels>(cap * cap));
-    Pixels* const squares = &squares_[static_cast<std::size_t>(most)];
-    for (int i = -left; i < static_cast<int>(pixels) + right; ++i)
-      squares[i] = static_cast<Pixels>(columns[i] * columns[i]);
-    for (int du = 1; du < most && row > std::max(deepest, du * du); ++du) {
-      const auto square = static_cast<Pixels>(du * du);
-      const Pixels *const left_of = squares - du, *const right_of = squares + du;
-      Pixels* const nearest = nearest_.data();
-      for (std::size_t i = 0; i < pixels; ++i) {
-        const auto next = static_cast<Pixels>(square + std::min(left_of[i], right_of[i]));
-        nearest[i] = std::min(nearest[i], next);
-      }
-      if (du % 4 == 0) row = most_of(nearest_);
-    }
-    deepest = std::max(deepest, most_of(nearest_));
-  }
-  return std::sqrt(deepest);
 }
 
 double CameraPredictor::motion_of(std::size_t body, const Sample& a, const Sample& b) const {

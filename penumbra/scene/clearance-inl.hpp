@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far in the image a target is from the robot before it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/image.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
+#include <penumbra/targets/target_visibility-inl.hpp>
+
+namespace penumbra::scene {
+
+/// Pixels; sums of two of their squares are 16-bit numbers.
+inline constexpr int max_clearance = 127;
+
+/// A target in the image, kept until it moves there.
+struct SeenTarget {
+  Eigen::Isometry3d T_camera_frame =
+      Eigen::Isometry3d::Identity();  ///< that it was made for: of its reference frame
+  double time = std::numeric_limits<double>::quiet_NaN();  ///< of a target that moves; else 0
+  std::string fault = {};                  ///< why it is unknown; empty: it is known
+  std::vector<RowSpan> spans = {};         ///< none: it is not in view
+  PixelRectangle region = {};              ///< around them
+  std::vector<float> near = {}, far = {};  ///< metres, by pixel: robot before `near` hides it
+  float before = 0.0F;                     ///< metres: robot nearer than that is before its middle
+  Visibility whole = {};                   ///< without the robot
+};
+
+/// A rectangle with a border, cut to an image of that size.
+[[nodiscard]] PixelRectangle grown(const PixelRectangle& box, int by, int width, int height);
+
+class Clearance {
+ public:
+  /// Returns Prediction::clearance of a target in an image of the robot. `is_hidden`: a pixel of it
+  /// is. `most`: pixels, up to max_clearance.
+  [[nodiscard]] double measure(const SeenTarget& target, const VirtualDepthView& drawn,
+                               bool is_hidden, int most);
+
+ private:
+  void mark_blocked(const SeenTarget& target, const VirtualDepthView& drawn,
+                    const PixelRectangle& window);
+  [[nodiscard]] static std::size_t index(const PixelRectangle& window, int u, int v) {
+    return static_cast<std::size_t>(v - window.v0) * static_cast<std::size_t>(window.width()) +
+           static_cast<std::size_t>(u - window.u0);
+  }
+  [[nodiscard]] double free_distance(const SeenTarget& target, const PixelRectangle& window,
+                                     int most) const;
+  [[nodiscard]] double hidden_depth(const SeenTarget& target, const PixelRectangle& window,
+                                    int most);
+
+  std::vector<std::uint8_t> blocked_;  // of a window: the robot could hide the target there
+  std::vector<std::int16_t> columns_;  // of a window: rows to the nearest pixel that is not blocked
+  std::vector<std::int16_t> squares_, nearest_;  // of a row: squared distances
+};
+
+}  // namespace penumbra::scene
