@@ -35,6 +35,7 @@ struct SeenTarget {
 /// A rectangle with a border, cut to an image of that size.
 [[nodiscard]] PixelRectangle grown(const PixelRectangle& box, int by, int width, int height);
 
+/// Measures how far targets are from the robot before them. Serves one thread at a time.
 class Clearance {
  public:
   /// Returns Prediction::clearance of a target in an image of the robot. `is_hidden`: a pixel of it
