@@ -91,6 +91,8 @@ void bind_bag_options(py::module_& m) {
       Field{"camera_info_topic", &B::camera_info_topic, "Their camera_info."},
       Field{"color_topic", &B::color_topic, "If given, depth is judged in its image."},
       Field{"joint_topics", &B::joint_topics, "Joint states."},
+      Field{"no_depth", &B::no_depth,
+            "The camera measures no depth: its colour images are judged by the model alone."},
       Field{"target_topics", &B::target_topics, "Detections, key points, poses."},
       Field{"plan_topics", &B::plan_topics,
             "JointTrajectory that the robot follows; none: MoveIt's display_planned_path."},

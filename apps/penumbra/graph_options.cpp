@@ -38,9 +38,9 @@ void check_results(const std::string& list) {
                     [&](const io::ResultTopic& topic) { return short_name(topic.name) == name; }) ||
         name == io::target_views_topic;
     if (!known)
-      refuse_option(
-          "--publish", name,
-          "one of vdi, labels, mask, filtered_depth, points, targets, target_views, overlay");
+      refuse_option("--publish", name,
+                    "one of vdi, labels, mask, filtered_depth, points, targets, target_views, "
+                    "overlay, robot_mask");
   }
 }
 
@@ -131,7 +131,8 @@ void add_live(CLI::App& app, LiveArguments& live) {
   add_cameras(app, live);
   add_option(
       app, "--publish",
-      "results to publish: of vdi,labels,mask,filtered_depth,points,targets,target_views,overlay; "
+      "results to publish: of vdi,labels,mask,filtered_depth,points,targets,target_views,overlay,"
+      "robot_mask; "
       "default: all that somebody subscribes to",
       "LIST", [&](const std::string& text) {
         check_results(text);

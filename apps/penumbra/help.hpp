@@ -179,7 +179,7 @@ Examples:
 inline constexpr const char* live_examples = R"(
 Takes robot_description, joint_states, tf and a depth camera's topics from ROS 2's graph, and judges
 each image with the robot's pose at its own stamp. Publishes below /penumbra (with --camera below
-/penumbra/NAME): vdi, labels, mask, filtered_depth, points, targets, overlay/compressed, each only
+/penumbra/NAME): vdi, labels, mask, filtered_depth, points, targets, overlay/compressed, robot_mask, each only
 while somebody subscribes to it. /diagnostics says once a second why nothing is published. What is
 not known is published as unknown. --port serves the viewer's page of each camera. Ctrl-C and
 SIGTERM end it; after --duration its exit status is 2 if it judged no image.

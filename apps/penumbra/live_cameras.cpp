@@ -107,6 +107,7 @@ std::optional<io::BagTopics> CameraSearch::find() {
 }
 
 io::CameraInputOptions found_camera(const io::BagTopics& chosen, io::CameraInputOptions common) {
+  common.has_depth = chosen.has_depth;
   common.depth_topic = chosen.depth.name;
   common.info_topic = chosen.camera_info.name;
   if (chosen.color) common.color_topic = chosen.color->name;

@@ -161,6 +161,8 @@ void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
   add_text(app, "--color-topic",
            "judge in this camera's image: depth is brought there by tf, if it is another's",
            "TOPIC", bag.color_topic);
+  app.add_flag("--no-depth", bag.no_depth,
+               "the camera measures no depth: judge its colour images by the robot's model alone");
   add_list(app, "--joint-topic", "default: " + help.joints + "; may be given several times",
            "TOPIC", [&](const std::string& text) { bag.joint_topics.push_back(text); });
   add_list(app, "--target-topic",

@@ -16,6 +16,8 @@ namespace penumbra::io {
 struct BagOptions {
   std::optional<std::string> depth_topic, camera_info_topic;
   std::optional<std::string> color_topic;  ///< depth is judged in its image
+  /// The camera measures no depth: its colour images are judged by the model alone.
+  bool no_depth = false;
   std::vector<std::string> joint_topics, target_topics, plan_topics;
   std::optional<PoseSource> poses;             ///< nothing: joints, or tf where there are none
   std::optional<std::filesystem::path> robot;  ///< in place of /robot_description

@@ -82,7 +82,7 @@ bool BagSource::read(std::size_t /*number*/, Frame& frame) {
     assembler_.add_fault(options_.topics.depth.name, current.arrived, fault);
   frame = std::move(static_cast<Frame&>(current));
   *frame.index += static_cast<std::size_t>(options_.first.value_or(0));
-  if (options_.topics.color && options_.with_color) {
+  if ((options_.topics.color || !options_.topics.has_depth) && options_.with_color) {
     frame.color_message = current.color_image ? decode_color(*current.color_image,
                                                              options_.camera.cameras.judged, color)
                                               : ColorImages::none_near;

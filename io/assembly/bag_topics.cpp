@@ -149,6 +149,10 @@ bool is_depth(const std::string& name) {
   return holds(name, {"depth"}) && !holds(last_part(image_base(name)), {"confidence"});
 }
 
+bool is_color(const std::string& name) {
+  return !is_depth(name) && holds(name, {"color", "colour", "rgb"});
+}
+
 TopicUse choose_depth(const Chooser& chooser, const BagOptions& options) {
   const TopicTypes types = image_types;
   if (options.depth_topic)
@@ -159,7 +163,7 @@ TopicUse choose_depth(const Chooser& chooser, const BagOptions& options) {
   const auto images = chooser.of(types);
   if (images.empty()) chooser.refuse("has no images; depth images are needed");
   chooser.refuse("no images are called depth; there are " + names_of(images) +
-                 "; choose one with --depth-topic");
+                 "; choose one with --depth-topic, or judge colour images alone with --no-depth");
 }
 
 /// Returns the camera_info topic next to an image topic, or null.
@@ -199,12 +203,20 @@ void choose_color(const Chooser& chooser, const BagOptions& options, bool with_c
     return;
   }
   if (!with_color) return;
-  const auto candidates = chooser.of(types, [](const std::string& name) {
-    return !is_depth(name) && holds(name, {"color", "colour", "rgb"});
-  });
+  const auto candidates = chooser.of(types, is_color);
   if (!candidates.empty())
     topics.color = chooser.only_image("color", "--color-topic", candidates,
                                       "the only images called color, for overlays");
+}
+
+/// The colour images of a camera that measures no depth.
+TopicUse choose_only_color(const Chooser& chooser, const BagOptions& options) {
+  if (options.color_topic)
+    return chooser.named("color", "--color-topic", *options.color_topic, image_types);
+  const auto candidates = chooser.of(image_types, is_color);
+  if (candidates.empty())
+    chooser.refuse("no images are called color; choose those to judge with --color-topic");
+  return chooser.only_image("color", "--color-topic", candidates, "the only images called color");
 }
 
 /// Returns the topic with the usual name, or the only one whose last part has that name.
@@ -325,9 +337,11 @@ BagTopics choose_camera_topics(const std::string& source, std::span<const BagTop
                                const BagOptions& options, bool with_color) {
   const Chooser chooser(source, topics);
   BagTopics chosen;
-  chosen.depth = choose_depth(chooser, options);
+  chosen.has_depth = !options.no_depth;
+  chosen.depth =
+      options.no_depth ? choose_only_color(chooser, options) : choose_depth(chooser, options);
   chosen.camera_info = choose_info(chooser, options, chosen.depth.name);
-  choose_color(chooser, options, with_color, chosen);
+  if (!options.no_depth) choose_color(chooser, options, with_color, chosen);
   return chosen;
 }
 

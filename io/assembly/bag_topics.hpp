@@ -29,7 +29,9 @@ struct TopicUse {
 /// The topics to read from a bag, by role.
 struct BagTopics {
   PoseSource poses = PoseSource::joints;
-  TopicUse depth, camera_info;
+  bool has_depth = true;
+  TopicUse depth;  ///< the judged images; without depth: of colour
+  TopicUse camera_info;
   std::optional<TopicUse> color;
   std::optional<TopicUse> color_info;  ///< if depth is registered to the color camera
   std::vector<TopicUse> joints, transforms, targets, attached, plans, descriptions;

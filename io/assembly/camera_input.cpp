@@ -199,7 +199,9 @@ JudgedCameras CameraInput::find_cameras() const {
   if (color_info_ && !options_.color_info_topic.empty())
     evidence.color.emplace(
         InfoOfImages{*color_info_, options_.color_info_topic, options_.color_topic});
-  return judged_cameras(evidence);
+  JudgedCameras cameras = judged_cameras(evidence);
+  cameras.has_depth = options_.has_depth;
+  return cameras;
 }
 
 void CameraInput::finish() {
@@ -269,7 +271,9 @@ bool CameraInput::next(std::int64_t now, bool with_color, AssembledFrame& next) 
     setup_->posed->history.transforms().at(setup_->queue.pose_stamp(stamp),
                                            setup_->cameras.judged.frame_id, depth_frame_,
                                            next.T_judged_depth);
-  if (const KeptImage* const color = with_color ? colors_.find(stamp) : nullptr)
+  if (!setup_->cameras.has_depth)
+    next.color_image = next.image;
+  else if (const KeptImage* const color = with_color ? colors_.find(stamp) : nullptr)
     next.color_image = *color;
   colors_.forget_before(stamp);
   ++counts_.in_work;

@@ -38,6 +38,7 @@ struct CameraInputOptions {
   std::string color_topic = {};       ///< empty: none
   std::string color_info_topic = {};  ///< empty: depth is judged in its own image
   MountOptions mount = {};
+  bool has_depth = true;       ///< false: `depth_topic` has colour images
   bool info_is_named = false;  ///< CameraEvidence
   bool is_rectified = false;   ///< likewise
   PoseSource poses = PoseSource::joints;

@@ -14,7 +14,7 @@ std::string size_text(int width, int height) {
 
 }  // namespace
 
-DepthInput::DepthInput(const JudgedCameras& cameras) {
+DepthInput::DepthInput(const JudgedCameras& cameras) : has_depth_(cameras.has_depth) {
   const Intrinsics& intrinsics = (cameras.depth ? *cameras.depth : cameras.judged).intrinsics;
   width_ = intrinsics.width();
   height_ = intrinsics.height();
@@ -24,6 +24,10 @@ DepthInput::DepthInput(const JudgedCameras& cameras) {
 std::string DepthInput::read(AssembledFrame& job) {
   std::string undecoded;
   std::string& fault = job.source_message;
+  if (!has_depth_) {
+    if (!fault.empty()) job.source_status = FrameStatus::bad_depth;
+    return undecoded;
+  }
   if (fault.empty()) fault = undecoded = decode(job.image, job.depth.view);
   if (fault.empty()) fault = bring(job, job.depth.view);
   if (!fault.empty()) {

@@ -19,7 +19,8 @@ class DepthInput {
  public:
   explicit DepthInput(const JudgedCameras& cameras);
 
-  /// Sets the frame's depth, which refers to its image and to this until the next call. An image
+  /// Sets the frame's depth, which refers to its image and to this until the next call; none for a
+  /// camera without depth. An image
   /// that cannot be used makes its source_status bad_depth. Returns why the image's message cannot
   /// be decoded, or an empty text.
   [[nodiscard]] std::string read(AssembledFrame& job);
@@ -28,6 +29,7 @@ class DepthInput {
   [[nodiscard]] std::string decode(const KeptImage& image, DepthView& depth);
   [[nodiscard]] std::string bring(const AssembledFrame& from, DepthView& depth);
 
+  bool has_depth_;
   int width_, height_;  // of the depth images
   std::optional<DepthRegistration> registration_;
   DecodedDepth decoded_;

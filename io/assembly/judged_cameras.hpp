@@ -31,6 +31,7 @@ struct JudgedCameras {
   Camera judged;
   std::optional<Camera> depth;
   CameraInfoMessage info = {};  ///< of `judged`, as received
+  bool has_depth = true;        ///< false: the images are colour images
 };
 
 /// Returns the cameras. Throws InputError that names the topic if camera_of refuses it, or if a

@@ -25,6 +25,8 @@ void ResultEncoder::encode(const FrameReport& report, const ShownImages& images,
   if (sink.wants(Result::points)) write(Result::points, results_.points(), sink);
   if (sink.wants(Result::targets))
     write(Result::targets, targets_message(report, results_.header().frame_id, root_), sink);
+  if (sink.wants(Result::robot_mask))
+    if (const auto mask = results_.robot_mask()) write(Result::robot_mask, *mask, sink);
   if (!sink.wants(Result::overlay)) return;
   const auto overlay = painter_.draw(report, images, targets);
   write(Result::overlay, png_message(results_.header(), overlay, png_), sink);

@@ -18,7 +18,16 @@
 namespace penumbra::io {
 
 /// The results that are published.
-enum class Result { virtual_depth, labels, mask, filtered_depth, points, targets, overlay };
+enum class Result {
+  virtual_depth,
+  labels,
+  mask,
+  filtered_depth,
+  points,
+  targets,
+  overlay,
+  robot_mask
+};
 
 struct ResultTopic {
   Result result;
@@ -32,7 +41,8 @@ inline constexpr std::array result_topics = {
     ResultTopic{Result::filtered_depth, "filtered_depth", "sensor_msgs/msg/Image"},
     ResultTopic{Result::points, "points", "sensor_msgs/msg/PointCloud2"},
     ResultTopic{Result::targets, "targets", "penumbra_msgs/msg/Targets"},
-    ResultTopic{Result::overlay, "overlay/compressed", "sensor_msgs/msg/CompressedImage"}};
+    ResultTopic{Result::overlay, "overlay/compressed", "sensor_msgs/msg/CompressedImage"},
+    ResultTopic{Result::robot_mask, "robot_mask", "sensor_msgs/msg/Image"}};
 
 /// Receives encoded results: a bag or the graph of ROS 2.
 class ResultSink {

@@ -13,6 +13,7 @@ namespace {
 constexpr std::int64_t first_warnings_after = 5'000'000'000, warnings_period = 60'000'000'000;
 
 PipelineConfig config_of(const CameraSetup& setup, PipelineConfig config) {
+  config.has_depth = setup.cameras.has_depth;
   config.camera_parent = setup.mount.parent;
   config.T_parent_camera = setup.mount.T_parent_camera;
   return config;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <span>
+#include <utility>
 
 #include <penumbra/labels/labels.hpp>
 
@@ -47,6 +48,12 @@ ImageMessage ResultMessages::labels() const {
 }
 
 ImageMessage ResultMessages::mask() const { return image_message(header_, "mono8", mask_.view()); }
+
+std::optional<ImageMessage> ResultMessages::robot_mask() {
+  if (!has_virtual_depth_) return std::nullopt;
+  robot_mask_ = penumbra::robot_mask({.depth = virtual_depth_.view(), .links = {}});
+  return image_message(header_, "mono8", std::as_const(robot_mask_).view());
+}
 
 ImageMessage ResultMessages::filtered_depth() const {
   if (const auto* metres = std::get_if<Image<float>>(&filtered_))

@@ -32,6 +32,8 @@ class ResultMessages {
   [[nodiscard]] ImageMessage labels() const;
   /// Returns mono8: 255 where depth must not be trusted, else 0.
   [[nodiscard]] ImageMessage mask() const;
+  /// Returns mono8: 255 where the robot is drawn, else 0; nothing without virtual depth.
+  [[nodiscard]] std::optional<ImageMessage> robot_mask();
   /// Returns the depth image without untrusted pixels: 0 in 16UC1, NaN in 32FC1.
   [[nodiscard]] ImageMessage filtered_depth() const;
   /// Returns the points of filtered_depth(), x y z in metres, where the lens model is valid.
@@ -44,7 +46,7 @@ class ResultMessages {
   MessageHeader header_;
   Image<float> virtual_depth_;
   bool has_virtual_depth_ = false;
-  Image<std::uint8_t> labels_, mask_;
+  Image<std::uint8_t> labels_, mask_, robot_mask_;
   DepthImage filtered_;
   PointCloud points_;
 };

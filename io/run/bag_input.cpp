@@ -19,7 +19,8 @@ namespace {
 void print_topics(const BagTopics& topics, bool with_color, const LineSink& print) {
   for (const TopicUse& use : topics.all())
     print(use.role + ": " + printable(use.name) + " (" + use.type + "), " + use.why);
-  if (with_color && !topics.color) print("color: no images are called color; overlays show depth");
+  if (with_color && topics.has_depth && !topics.color)
+    print("color: no images are called color; overlays show depth");
   print("poses: from " + std::string(to_string(topics.poses)));
 }
 
@@ -78,7 +79,9 @@ JudgedCameras cameras_of(const InputOptions& options, const BagTopics& topics,
   if (topics.color_info)
     evidence.color.emplace(
         InfoOfImages{*scene.color_info, topics.color_info->name, topics.color->name});
-  return judged_cameras(evidence);
+  JudgedCameras cameras = judged_cameras(evidence);
+  cameras.has_depth = topics.has_depth;
+  return cameras;
 }
 
 UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const CameraMount& mount,
@@ -100,6 +103,8 @@ UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const Cam
 RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
   BagSceneReader reader(options.path, options.bag, options.with_color);
   print_topics(reader.topics(), options.with_color, print);
+  if (options.needs_depth && !reader.topics().has_depth)
+    throw InputError("--no-depth: this compares depth images with the robot; leave it out");
   reader.read_robot_and_camera();
   JudgedCameras cameras = cameras_of(options, reader.topics(), reader.scene());
   RobotOptions robot_options;
@@ -130,6 +135,7 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
                           .with_color = options.with_color};
   UsedBag used = used_bag(options, reader.topics(), mount, cameras.judged.frame_id);
   PipelineConfig config;
+  config.has_depth = reader.topics().has_depth;
   config.camera_parent = mount.parent;
   config.T_parent_camera = mount.T_parent_camera;
   return {.robot_options = std::move(robot_options),

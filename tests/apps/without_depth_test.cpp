@@ -66,5 +66,43 @@ TEST_F(WithoutDepthTest, CalibrateAndTuneNeedDepth) {
                    {"recording.yaml", "'depth' is missing", "compares depth images"});
 }
 
+/// The tiny bag without depth images.
+class BagWithoutDepth : public BagTest {
+ protected:
+  BagWithoutDepth() {
+    bag_.remove("/camera/depth/image_rect_raw");
+    bag_.rename("/camera/depth/camera_info", "/camera/color/camera_info");
+    saves_ = "robot_mask,overlay";
+  }
+};
+
+TEST_F(BagWithoutDepth, IsJudgedByItsColourImages) {
+  const Outcome refused = run();
+  EXPECT_EQ(refused.status, 2);
+  expect_has(refused.err, {"--no-depth"});
+  for (const Words& options : {Words{"--no-depth"}, Words{"--no-depth", "--color-topic",
+                                                          "/camera/color/image_raw/compressed"}}) {
+    const Outcome outcome = run(options);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    expect_has(outcome.out + outcome.err, {"no depth camera", "color: /camera/color/image_raw"});
+    const fs::path wanted = path("wanted");
+    ASSERT_EQ(penumbra({"run", path(), "-o", wanted, "--save", "robot_mask"}).status, 0);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(status(static_cast<std::size_t>(i)), "ok");
+      const std::string file = "robot_mask/00000" + std::to_string(i) + ".png";
+      EXPECT_TRUE(read_file(out() / file) == read_file(wanted / file)) << file;
+      EXPECT_TRUE(fs::exists(out() / "overlay" / ("00000" + std::to_string(i) + ".png")));
+    }
+  }
+}
+
+TEST_F(BagWithoutDepth, CalibrateRefuses) {
+  bag_.write_mcap(path("tiny.mcap"));
+  const Outcome outcome =
+      penumbra({"calibrate", path("tiny.mcap"), "-o", out(), "--no-depth", "--search"});
+  EXPECT_EQ(outcome.status, 2);
+  expect_has(outcome.err, {"--no-depth", "compares depth images"});
+}
+
 }  // namespace
 }  // namespace penumbra::test

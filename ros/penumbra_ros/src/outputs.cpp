@@ -51,8 +51,8 @@ Outputs::Outputs(rclcpp::Node& node, bool target_frames, std::string frame_prefi
       camera_info_(advertise<sensor_msgs::msg::CameraInfo>(node, "camera_info")),
       markers_(advertise<visualization_msgs::msg::MarkerArray>(node, "markers")),
       detections_(advertise<vision_msgs::msg::Detection3DArray>(node, "detections")) {
-  for (const Result result :
-       {Result::virtual_depth, Result::labels, Result::mask, Result::filtered_depth})
+  for (const Result result : {Result::virtual_depth, Result::labels, Result::mask,
+                              Result::filtered_depth, Result::robot_mask})
     images_[result] = image_transport::create_publisher(
         &node,
         node.get_node_topics_interface()->resolve_topic_name(

@@ -24,9 +24,9 @@
 namespace penumbra_ros {
 
 /// Names of the results below "~/": those of penumbra::io::Result in its order, then ours.
-inline constexpr std::array<const char*, 10> output_names = {
-    "virtual_depth", "labels",  "mask",        "filtered_depth", "points",
-    "targets",       "overlay", "camera_info", "markers",        "detections"};
+inline constexpr std::array<const char*, 11> output_names = {
+    "virtual_depth", "labels",     "mask",        "filtered_depth", "points",    "targets",
+    "overlay",       "robot_mask", "camera_info", "markers",        "detections"};
 
 /// Publishes the results that have subscribers. The camera's thread calls wants(), write() and
 /// take(); the other functions are for any thread.
