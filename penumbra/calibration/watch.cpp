@@ -443,7 +443,9 @@ CalibrationWatch::CalibrationWatch(CalibrationWatch&&) noexcept = default;
 CalibrationWatch& CalibrationWatch::operator=(CalibrationWatch&&) noexcept = default;
 
 void CalibrationWatch::add(const FrameReport& report) {
-  if (report.status != FrameStatus::ok || report.virtual_depth.depth.empty()) return;
+  if (report.status != FrameStatus::ok || report.virtual_depth.depth.empty() ||
+      is_empty(report.depth))
+    return;
   State& state = *state_;
   state.place(report);
   if (state.seen++ % period != 0) return;

@@ -73,7 +73,8 @@ bool is_in_camera(const TargetEstimate& estimate, const Eigen::Isometry3d& T_cam
 /// expected depth it is unknown then.)
 bool lacks_depth(const Judgement& judged, const TargetThresholds& thresholds) {
   if (judged.verdict != Verdict::visible && judged.verdict != Verdict::partial) return false;
-  return judged.measured.value_or(0.0) < thresholds.min_measured * (judged.clear + judged.front);
+  return judged.measured &&
+         *judged.measured < thresholds.min_measured * (judged.clear + judged.front);
 }
 
 /// The name of a link, or of an attached body, by its value in the link image - 1.

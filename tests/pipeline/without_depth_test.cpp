@@ -113,6 +113,29 @@ TEST(WithoutDepth, ATargetOfUnknownDepthIsUnknownBehindTheRobot) {
   EXPECT_EQ(report.targets[1].verdict, Verdict::visible);
 }
 
+TEST(WithoutDepth, EstimatesOfWhatTheRobotDoesNotHideAreAccepted) {
+  Session session(slab_robot(), slab_camera(), without_depth());
+  for (const double u : {5.0, 73.0}) {  // beside the slab, and behind it
+    const Eigen::Vector3d at = 2.0 * slab_camera().intrinsics.ray(u, 57.0);
+    Frame frame{.stamp = 1'000'000'000, .pose = {.positions = {0.0}}};
+    frame.targets = {{.name = std::to_string(u),
+                      .shape = PointTarget{at, 0.03, ReferenceFrame::root()},
+                      .handling = PointTrackerConfig{}}};
+    const TargetReport& target = session.process(frame).targets[0];
+    const bool is_hidden = u == 73.0;
+    EXPECT_EQ(target.verdict, is_hidden ? Verdict::hidden : Verdict::visible);
+    EXPECT_EQ(target.estimate, is_hidden ? Outcome::refused_verdict : Outcome::accepted);
+    EXPECT_EQ(target.handled->source, is_hidden ? Source::lost : Source::measured);
+  }
+}
+
+TEST(WithoutDepth, ManyFramesDoNotTellOfADrift) {
+  Session session(slab_robot(), slab_camera(), without_depth());
+  for (int i = 0; i < 100; ++i)
+    session.process({.stamp = 33'000'000 * (i + 1), .pose = {.positions = {0.005 * i}}});
+  EXPECT_FALSE(session.drift().is_known);
+}
+
 TEST(WithoutDepth, ACameraThatHasDepthMissesIt) {
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
   EXPECT_EQ(pipeline.process({.pose = {.positions = {0.0}}}).status, FrameStatus::missing_depth);
