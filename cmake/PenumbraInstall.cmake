@@ -32,7 +32,7 @@ set(public_headers
   targets/region.hpp targets/target.hpp targets/target_judge.hpp
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
   calibration/calibration.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
-  session/session.hpp session/warnings.hpp tuning/missing_parts.hpp
+  session/plan_forecast.hpp session/session.hpp session/warnings.hpp tuning/missing_parts.hpp
   scene/look_ahead.hpp scene/target_fusion.hpp robot/trajectory.hpp scene/view_planning.hpp)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)

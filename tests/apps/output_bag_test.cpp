@@ -100,7 +100,7 @@ nlohmann::json array_of(std::span<const std::byte> bytes) {
 
 TEST_F(OutputBagTest, TheReferenceLibraryReadsTheSame) {
   PENUMBRA_REQUIRE_NODE_SCRIPTS();
-  ASSERT_EQ(run("out", {"--save", "labels,vdi,overlay"}).status, 0);
+  ASSERT_EQ(run("out", {"--save", "labels,vdi,overlay,robot_mask"}).status, 0);
   ASSERT_EQ(run("results.mcap").status, 0);
   const std::string file = path("results.mcap").string();
   const ScriptResult checked = run_script("read_back.mjs", file);
@@ -126,6 +126,10 @@ TEST_F(OutputBagTest, TheReferenceLibraryReadsTheSame) {
       EXPECT_EQ(message["width"], labels.width());
       EXPECT_EQ(message["height"], labels.height());
       EXPECT_EQ(message["data"], array_of(std::as_bytes(std::span(labels.data(), labels.size()))));
+    } else if (topic == "/penumbra/robot_mask") {
+      const auto mask = written<std::uint8_t>("robot_mask", number);
+      EXPECT_EQ(message["encoding"], "mono8");
+      EXPECT_EQ(message["data"], array_of(std::as_bytes(std::span(mask.data(), mask.size()))));
     } else if (topic == "/penumbra/vdi") {
       const auto vdi = written<float>("vdi", number);
       EXPECT_EQ(message["encoding"], "32FC1");
@@ -143,7 +147,7 @@ TEST_F(OutputBagTest, TheReferenceLibraryReadsTheSame) {
       EXPECT_EQ(message["root_frame"], "base");
     }
   }
-  EXPECT_EQ(numbers.size(), 7U);
+  EXPECT_EQ(numbers.size(), 8U);
   for (const auto& [topic, count] : numbers) EXPECT_EQ(count, 3U) << topic;
 }
 

@@ -62,11 +62,26 @@ TEST_F(RunTargetsTest, TheRecordingsTargetsAreInTheReport) {
     EXPECT_GT(frame["timing_ms"]["targets"], 0.0);
     ASSERT_EQ(frame["targets"].size(), 4U);
     for (const Json& one : frame["targets"]) {
-      EXPECT_EQ(keys(one), (Words{"name", "covered", "inside", "occluded_fraction",
-                                  "front_fraction", "clear_fraction", "unknown_fraction",
-                                  "hidden_by_other_fraction", "measured_fraction",
-                                  "seen_past_fraction", "verdict", "blame", "point", "point_pixels",
-                                  "point_spread_m", "handled", "estimate", "stamp_ns", "reason"}));
+      EXPECT_EQ(keys(one), (Words{"name",
+                                  "covered",
+                                  "inside",
+                                  "occluded_fraction",
+                                  "front_fraction",
+                                  "clear_fraction",
+                                  "unknown_fraction",
+                                  "hidden_by_other_fraction",
+                                  "measured_fraction",
+                                  "seen_past_fraction",
+                                  "verdict",
+                                  "blame",
+                                  "point",
+                                  "point_pixels",
+                                  "point_spread_m",
+                                  "handled",
+                                  "forecast",
+                                  "estimate",
+                                  "stamp_ns",
+                                  "reason"}));
       for (const Json& blame : one["blame"]) EXPECT_EQ(keys(blame), (Words{"link", "fraction"}));
       EXPECT_EQ(one["point"].is_null(), one["point_pixels"].is_null());
       EXPECT_EQ(one["point"].is_null(), one["point_spread_m"].is_null());
@@ -75,7 +90,7 @@ TEST_F(RunTargetsTest, TheRecordingsTargetsAreInTheReport) {
       EXPECT_EQ(one["reason"].is_null(), one["verdict"] != "unknown");
       if (one["handled"].is_null()) continue;
       EXPECT_EQ(keys(one["handled"]),
-                (Words{"source", "age_s", "position", "orientation", "sigma_m"}));
+                (Words{"source", "age_s", "position", "orientation", "sigma_m", "lost_in_s"}));
     }
   }
   EXPECT_EQ(json["settings"]["targets"], (example / "targets.yaml").string());
@@ -156,7 +171,8 @@ TEST_F(RunTargetsTest, LostAndOutsideIsNull) {
                                     {"age_s", nullptr},
                                     {"position", nullptr},
                                     {"orientation", nullptr},
-                                    {"sigma_m", nullptr}}));
+                                    {"sigma_m", nullptr},
+                                    {"lost_in_s", nullptr}}));
 }
 
 TEST_F(RunTargetsTest, TheOptionComesBeforeTheRecording) {

@@ -48,8 +48,8 @@ TEST(LivePlan, IsForecastOnTheGraph) {
   const auto graph = io::join_graph({.domain = domain.id()});
   const auto heard = graph->subscribe("/penumbra/targets", "penumbra_msgs/msg/Targets",
                                       {.reliable = true, .depth = 100});
-  LiveProgram live({"live", "--domain", id, "--depth-topic", "/camera/depth/image_rect_raw",
-                    "--robot", folder.path() / "tiny.urdf", "--target-topic", "/knob"},
+  LiveProgram live({"--domain", id, "--depth-topic", "/camera/depth/image_rect_raw", "--robot",
+                    folder.path() / "tiny.urdf", "--target-topic", "/knob"},
                    folder.path() / "live.log");
   const std::string play = "timeout --preserve-status -s INT 6 '" PENUMBRA_PROGRAM
                            "' play --loop --restamp --domain " +

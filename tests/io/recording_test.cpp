@@ -159,7 +159,6 @@ TEST_F(RecordingFolder, NamesKeyAndLineOfEveryFault) {
        {std::string(minimal) + "scene: x\n", ":11: scene: "},
        {replaced("  urdf: arm.urdf\n", "  geometry: visual\n"), ":1: robot: key 'urdf'"},
        {replaced("  parent: base\n", ""), ":3: camera: key 'parent'"},
-       {replaced("  depth: depth_%d.png\n", ""), ":7: frames: key 'depth'"},
        {replaced("arm.urdf", "none.urdf"), ":2: robot.urdf: no file " + file("none.urdf").string()},
        {replaced("arm.urdf", "[a, b]"), ":2: robot.urdf: "},
        {replaced("pose.csv", "none.csv"), ":6: camera.pose: "},
