@@ -132,7 +132,8 @@ TEST(WithoutDepth, EstimatesOfWhatTheRobotDoesNotHideAreAccepted) {
 TEST(WithoutDepth, ManyFramesDoNotTellOfADrift) {
   Session session(slab_robot(), slab_camera(), without_depth());
   for (int i = 0; i < 100; ++i)
-    session.process({.stamp = std::int64_t{33'000'000} * (i + 1), .pose = {.positions = {0.005 * i}}});
+    session.process(
+        {.stamp = std::int64_t{33'000'000} * (i + 1), .pose = {.positions = {0.005 * i}}});
   EXPECT_FALSE(session.drift().is_known);
 }
 
