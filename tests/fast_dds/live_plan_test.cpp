@@ -51,7 +51,7 @@ TEST(LivePlan, IsForecastOnTheGraph) {
   LiveProgram live({"--domain", id, "--depth-topic", "/camera/depth/image_rect_raw", "--robot",
                     folder.path() / "tiny.urdf", "--target-topic", "/knob"},
                    folder.path() / "live.log");
-  const std::string play = "timeout --preserve-status -s INT 6 '" PENUMBRA_PROGRAM
+  const std::string play = "timeout --preserve-status -s INT 10 '" PENUMBRA_PROGRAM
                            "' play --loop --restamp --domain " +
                            id + " '" + (folder.path() / "bag.mcap").string() + "' >/dev/null";
   const auto player = std::async(std::launch::async, [&] { return std::system(play.c_str()); });
