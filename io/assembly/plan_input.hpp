@@ -10,12 +10,12 @@
 
 namespace penumbra::io {
 
-/// The newest motion that a robot was told to follow, or that was planned for it.
+/// The newest motion that was planned for a robot, or sent to its controller.
 class PlanInput {
  public:
   /// Takes a motion of one robot of several, `name`, or of the only one, at `positions`, in the
   /// order of Robot::variables(). A message without points ends the motion. Returns why it cannot
-  /// be used, one line, or nothing; then there is none.
+  /// be used, one line, and forgets the motion before; or nothing.
   std::string take(const JointTrajectoryMessage& message, const std::string& name,
                    const Robot& robot, std::span<const double> positions);
   std::string take(const DisplayTrajectoryMessage& message, const std::string& name,

@@ -374,8 +374,8 @@ Prediction CameraPredictor::judge(std::size_t target, bool is_near) {
 /// Counts the target's pixels, and the links that hide them.
 Visibility CameraPredictor::tally(const SeenTarget& shown) {
   Visibility visibility = shown.whole;
-  std::size_t first = 0;  // of the span's pixels
-  std::size_t before = 0, beside = 0;
+  std::size_t first = 0;              // of the span's pixels
+  std::size_t before = 0, close = 0;  // to the target's depth
   for (const RowSpan& span : shown.spans) {
     const auto pixels = static_cast<std::size_t>(span.u1 - span.u0);
     const float* const robot = drawn_.depth.row(span.v) + span.u0;
@@ -390,12 +390,12 @@ Visibility CameraPredictor::tally(const SeenTarget& shown) {
     for (std::size_t i = 0; i < pixels && hidden > 0; ++i)
       if (robot[i] > 0.0F && robot[i] < near[i]) links_.add(links[i], 1);
     before += static_cast<std::size_t>(hidden);
-    beside += static_cast<std::size_t>(unknown);
+    close += static_cast<std::size_t>(unknown);
     first += pixels;
   }
   visibility.pixels[PixelState::occluded] = visibility.is_expected ? before : 0;
-  visibility.pixels[PixelState::unknown] = visibility.is_expected ? beside : before;
-  visibility.pixels[PixelState::clear] = visibility.inside - before - beside;
+  visibility.pixels[PixelState::unknown] = visibility.is_expected ? close : before;
+  visibility.pixels[PixelState::clear] = visibility.inside - before - close;
   return visibility;
 }
 

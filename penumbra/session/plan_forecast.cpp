@@ -6,6 +6,7 @@
 #include <variant>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/stamps.hpp>
 #include <penumbra/session/plan_forecast.hpp>
 
 namespace penumbra {
@@ -115,9 +116,11 @@ std::string PlanForecast::look(const Frame& frame) {
   const auto has_forecast = [&](const Target& target) {
     return std::ranges::find(forecasts_, target.name, &TargetForecast::name) != forecasts_.end();
   };
-  if (looked_at_ && now_ < *looked_at_ + refresh &&
-      std::ranges::all_of(frame.targets, has_forecast))
-    return {};
+  // Also while the plan waits, targets may move.
+  const bool is_recent =
+      looked_at_ && frame.stamp && looked_stamp_ && now_ < *looked_at_ + refresh &&
+      1e-9 * static_cast<double>(stamp_distance(*looked_stamp_, *frame.stamp)) < refresh;
+  if (is_recent && std::ranges::all_of(frame.targets, has_forecast)) return {};
   std::vector<ForecastTarget> targets;
   for (const Target& target : frame.targets) targets.push_back({.target = target});
   looked_at_.reset();
@@ -132,6 +135,7 @@ std::string PlanForecast::look(const Frame& frame) {
     return error.what();
   }
   looked_at_ = now_;
+  looked_stamp_ = frame.stamp;
   return {};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,7 +19,8 @@ namespace penumbra {
 class PlanForecast {
  public:
   static constexpr double horizon = 2.0;  ///< seconds that are looked ahead
-  /// Seconds of the plan after which targets are looked at anew; between, the forecast is shifted.
+  /// Seconds, of the plan or of stamps, after which targets are looked at anew; between, the
+  /// forecast is shifted. Frames without stamps are all looked at.
   static constexpr double refresh = 0.5;
   /// Of a joint from the plan, rad or m: farther, the robot is not on it.
   static constexpr double on_plan = 0.1;
@@ -42,6 +44,7 @@ class PlanForecast {
   bool has_ended_ = false;
   std::optional<LookAhead> ahead_;  // made with the first plan
   std::optional<double> looked_at_;
+  std::optional<std::int64_t> looked_stamp_;
   std::vector<TargetForecast> forecasts_;  // from then on, in seconds of the plan
   std::vector<double> positions_;
 };

@@ -132,6 +132,24 @@ TEST_F(PlanForecasts, TellThatATargetWillBeLost) {
   EXPECT_FALSE(lost_in(5.0));
 }
 
+TEST_F(PlanForecasts, FollowATargetWhileThePlanWaits) {
+  const auto plan = plan_from(1.5);
+  const auto hidden_at = [&](std::int64_t stamp, const PixelBox& box) {
+    depth = scene_depth(slab_camera(), planned_slide(1.5));
+    Frame frame{.stamp = stamp,
+                .depth = std::as_const(depth).view(),
+                .pose = {.positions = {planned_slide(1.5)}},
+                .plan = plan};
+    frame.targets = {
+        {.name = "box",
+         .shape = RegionTarget{
+             .region = box, .extent = Extent::amodal, .expected_depth = expected_depth}}};
+    return seconds_until_hidden(session.process(frame).targets[0]);
+  };
+  EXPECT_TRUE(hidden_at(1'000'000'000, beside));
+  EXPECT_FALSE(hidden_at(1'600'000'000, {2, 2, 6, 6})) << "it was moved away";
+}
+
 TEST_F(PlanForecasts, AreUnknownOffThePlan) {
   const auto plan = slab_plan();
   const TargetReport& report = judge(far_slide + 0.2, plan);
