@@ -4,6 +4,7 @@
 // arguments and with "faults" alone it writes a table of docs/calibration.md.
 // usage: calibration_study [PART OF A SETUP'S NAME [RUNS [PART OF A ROBOT'S NAME]]]
 //        calibration_study faults [RUNS [PART OF A FAULT'S NAME [FIRST SEED]]]
+//        calibration_study masks [RUNS [PART OF A SETUP'S NAME [PART OF A ROBOT'S NAME]]]
 //        calibration_study real
 #include "simulated_cell.hpp"
 #include "study_page.hpp"
@@ -161,12 +162,14 @@ void print_spread(const std::string& what, const std::vector<Eigen::Isometry3d>&
             << apart_turned / degree << " deg" << std::endl;
 }
 
-void run_real(const std::filesystem::path& recording, bool masks) {
+void run_real(const std::filesystem::path& recording, bool masks, bool depth = true) {
   io::CalibrationInputOptions options;
   options.input.path = recording;
   if (masks) options.masks = "robot_mask_%d.png";
-  const io::CalibrationInput input = io::read_calibration_input(
+  io::CalibrationInput input = io::read_calibration_input(
       options, [](const std::string&) {}, [] {});
+  if (!depth)
+    for (CalibrationFrame& frame : input.frames) frame.depth = {};
   sim::Random random(7, 7);
   const auto any = [&] {
     return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
@@ -374,6 +377,43 @@ int study_faults(std::size_t runs, const std::string& wanted, std::uint64_t firs
   return 0;
 }
 
+/// The table of calibrations from masks alone.
+int study_masks(std::uint64_t seeds, const std::string& wanted, const std::string& only) {
+  const auto with = [](std::string name, std::size_t frames, auto change) {
+    Setup setup{.name = std::move(name), .frames = frames, .masks = true};
+    change(setup);
+    return setup;
+  };
+  const auto exact = [](Setup&) {};
+  const std::vector<Setup> setups = {
+      with("5 exact masks", 5, exact),
+      with("8 exact masks", 8, exact),
+      with("12 exact masks", 12, exact),
+      with("20 exact masks", 20, exact),
+      with("12, on the hand", 12, [](Setup& setup) { setup.on_hand = true; }),
+      with("12, `--search`", 12, [](Setup& setup) { setup.search = true; }),
+      with("12, 2 px too small", 12, [](Setup& setup) { setup.mask_grown = -2; }),
+      with("12, 2 px too large", 12, [](Setup& setup) { setup.mask_grown = 2; }),
+      with("12, 5 % of the border wrong", 12, [](Setup& setup) { setup.mask_border = 0.05; }),
+      with("12, 10 % of the masks wrong", 12, [](Setup& setup) { setup.wrong_masks = 0.1; }),
+      with("12, a tool that the URDF lacks", 12, [](Setup& setup) { setup.tool = true; }),
+      with("12, something before the arm", 12, [](Setup& setup) { setup.object = true; })};
+  std::vector<std::vector<std::string>> rows{heads};
+  for (const RobotChoice& robot : robots())
+    for (const Setup& setup : setups) {
+      if (robot.name.find(only) == std::string::npos ||
+          setup.name.find(wanted) == std::string::npos)
+        continue;
+      rows.push_back(run(robot, setup, seeds));
+      for (const std::string& cell : rows.back()) std::cout << cell << "  ";
+      std::cout << std::endl;
+    }
+  if (wanted.empty() && only.empty())
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md",
+                "calibration_masks", table(rows));
+  return 0;
+}
+
 int study_all(int argc, char** argv) {
   const std::filesystem::path data = data_folder();
   const std::vector<Setup> setups = {{.name = "in the cell, 10 frames"},
@@ -387,8 +427,12 @@ int study_all(int argc, char** argv) {
   if (wanted == "real") {
     run_real(data / "xarm7_realsense", false);
     run_real(data / "xarm7_realsense", true);
+    run_real(data / "xarm7_realsense", true, false);
     return 0;
   }
+  if (wanted == "masks")
+    return study_masks(argc > 2 ? std::stoull(argv[2]) : 20, argc > 3 ? argv[3] : "",
+                       argc > 4 ? argv[4] : "");
   if (wanted == "faults")
     return study_faults(argc > 2 ? std::stoull(argv[2]) : 20, argc > 3 ? argv[3] : "",
                         argc > 4 ? std::stoull(argv[4]) : 1);

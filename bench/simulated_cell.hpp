@@ -19,6 +19,7 @@
 #include <sim/depth_sensor.hpp>
 #include <sim/random.hpp>
 #include <sim/scene.hpp>
+#include <sim/simulation.hpp>
 #include <sim/stage.hpp>
 #include <sim/temporary_folder.hpp>
 
@@ -42,6 +43,10 @@ struct Setup {
   sim::DepthNoise sensor = sim::DepthNoise::d415();
   double depth_scale = 0.0;  ///< of the sensor: by how much of itself its depth is too large
   std::vector<double> joint_errors = {};  ///< of the positions that are reported, rad
+  bool masks = false;                     ///< the frames have masks of the robot in place of depth
+  int mask_grown = 0;                     ///< pixels by which they are too large
+  double mask_border = 0.0;               ///< share of their border that is off by up to 12 pixels
+  double wrong_masks = 0.0;               ///< share of frames whose mask shows another pose
 };
 
 struct RobotChoice {
@@ -95,6 +100,7 @@ class Cell {
       frame.index = all.size();
       frame.joints = pose();
       draw(frame);
+      if (setup_.masks) draw_mask(frame);
       if (setup_.wrong_joints && frame.index == 4)
         for (double& joint : frame.joints) joint += random_.uniform(0.1, 0.3);
       frame.joints = reported(std::move(frame.joints));
@@ -163,6 +169,38 @@ class Cell {
           static_cast<float>(metres_of(measured.data()[i]) * (1.0 + setup_.depth_scale));
   }
 
+  /// Replaces the depth by the mask of the visible robot, with the setup's faults.
+  void draw_mask(CalibrationFrame& frame) {
+    if (random_.uniform(0.0, 1.0) < setup_.wrong_masks) {
+      CalibrationFrame other;
+      other.joints = pose();
+      draw(other);
+    }
+    const Eigen::Isometry3d T_root_camera =
+        setup_.on_hand ? arm_.link_pose(frame.joints, choice_.flange) * T_parent_camera_
+                       : T_parent_camera_;
+    const int width = intrinsics().width(), height = intrinsics().height();
+    Image<std::int32_t> ids(width, height);
+    const auto all = [](std::int32_t) { return true; };
+    stage_.draw_ids({intrinsics(), T_root_camera}, all, {0, 0, width, height}, &ids, nullptr);
+    frame.depth = {};
+    frame.mask = Image<std::uint8_t>(width, height);
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u)
+        frame.mask(u, v) = ids(u, v) != 0 && (setup_.tool || ids(u, v) < sim::first_object_id);
+    for (int i = 0; i < std::abs(setup_.mask_grown); ++i)
+      paint(frame.mask, border(frame.mask), 1, setup_.mask_grown > 0);
+    const std::vector<std::pair<int, int>> edge = border(frame.mask);
+    constexpr double mean_width = 16.0;  // pixels of the border that a disc covers
+    const double discs = setup_.mask_border * static_cast<double>(edge.size()) / mean_width;
+    for (int i = 0; i < discs; ++i) {
+      const auto at =
+          static_cast<std::size_t>(random_.uniform(0.0, static_cast<double>(edge.size()) - 0.001));
+      paint(frame.mask, {edge[at]}, static_cast<int>(random_.uniform(4.0, 12.0)),
+            random_.uniform(0.0, 1.0) < 0.5);
+    }
+  }
+
   /// A first guess: 100 mm and 10 degrees off, in any direction.
   [[nodiscard]] Eigen::Isometry3d off() {
     const auto any = [&] {
@@ -175,6 +213,27 @@ class Cell {
   }
 
  private:
+  /// Pixels of the mask next to one that is not.
+  static std::vector<std::pair<int, int>> border(const Image<std::uint8_t>& mask) {
+    std::vector<std::pair<int, int>> found;
+    for (int v = 1; v + 1 < mask.height(); ++v)
+      for (int u = 1; u + 1 < mask.width(); ++u)
+        if (mask(u, v) != 0 && (mask(u - 1, v) == 0 || mask(u + 1, v) == 0 || mask(u, v - 1) == 0 ||
+                                mask(u, v + 1) == 0))
+          found.emplace_back(u, v);
+    return found;
+  }
+
+  /// Sets or clears discs. Radius 1 sets a pixel's four neighbours, and clears the pixel alone.
+  static void paint(Image<std::uint8_t>& mask, const std::vector<std::pair<int, int>>& centres,
+                    int radius, bool set) {
+    const int reach = radius == 1 && !set ? 0 : radius;
+    for (const auto& [u, v] : centres)
+      for (int y = std::max(0, v - reach); y <= std::min(mask.height() - 1, v + reach); ++y)
+        for (int x = std::max(0, u - reach); x <= std::min(mask.width() - 1, u + reach); ++x)
+          if ((x - u) * (x - u) + (y - v) * (y - v) <= reach * reach) mask(x, y) = set;
+  }
+
   [[nodiscard]] std::vector<double> reported(std::vector<double> joints) const {
     for (std::size_t i = 0; i < setup_.joint_errors.size(); ++i)
       joints[i] += setup_.joint_errors[i];
@@ -196,7 +255,7 @@ class Cell {
         {-1, R"(<geom type="box" size="0.15 0.2 0.15" pos="-0.5 0.6 0.1" group="2"/>)"});
     scene.parts.push_back({-1, R"(<geom type="cylinder" size="0.04 0.12" group="2"/>)"});
     scene.parts.push_back(
-        {-1, R"(<geom type="box" size="0.05 0.03 0.06" pos="0 0 0.06" group="2"/>)"});
+        {0, R"(<geom type="box" size="0.05 0.03 0.06" pos="0 0 0.06" group="2"/>)"});
     scene.parts.push_back({-1, R"(<geom type="capsule" size="0.17 0.6" group="2"/>)"});
     return scene;
   }

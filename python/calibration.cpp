@@ -40,10 +40,9 @@ CalibrationFrame posed_frame(const OwnedFrame& owned, const std::string& name, c
 CalibrationFrame calibration_frame(const OwnedFrame& owned, std::size_t number,
                                    const Robot& robot) {
   const std::string name = "frames[" + std::to_string(number) + "]";
-  if (!owned.depth) throw py::value_error(name + ": has no depth image");
   CalibrationFrame result = posed_frame(owned, name, robot);
   result.index = owned.index.value_or(number);
-  result.depth = metres_of(owned.depth->view);
+  if (owned.depth) result.depth = metres_of(owned.depth->view);
   return result;
 }
 
@@ -100,11 +99,13 @@ void bind_calibration(py::module_& m) {
   show_fields(
       fit, Field{"index", &FrameFit::index, "The frame's index."},
       Field{"used", &FrameFit::used, "False: the robot is elsewhere than its joints say."},
-      Field{"agreeing", &FrameFit::agreeing, "Share of the robot's measured pixels at its depth."},
+      Field{"agreeing", &FrameFit::agreeing,
+            "Share of the robot's measured pixels at its depth; without depth, intersection over "
+            "union of robot and mask."},
       Field{"residual", &FrameFit::residual,
             "Median distance of measured points from the robot's surface, metres."},
       Field{"outline", &FrameFit::outline,
-            "Median distance of the depth's edge from the outline, pixels."});
+            "Median distance of the depth's or mask's edge from the outline, pixels."});
   using C = Calibration;
   py::class_<C> calibration(m, "Calibration", "A camera's pose, and how good it is.");
   show_properties(
@@ -115,12 +116,14 @@ void bind_calibration(py::module_& m) {
             "Of a small motion of the camera in its own frame: rotation (rad), then translation "
             "(m)."},
       Field{"depth_offset", &C::depth_offset,
-            "Metres: measured = true (1 + depth_scale) + depth_offset."},
+            "Metres: measured = true (1 + depth_scale) + depth_offset; None: no depth."},
       Field{"depth_scale", &C::depth_scale, "See depth_offset."},
-      Field{"outline", &C::outline, "Pixels by which the sensor's picture of the robot is larger."},
-      Field{
-          "shift_right", &C::shift_right,
-          "Pixels by which the depth image lies to the right of the colour image; None: no masks."},
+      Field{"outline", &C::outline,
+            "Pixels by which the depth's or mask's picture of the robot is larger."},
+      Field{"shift_right", &C::shift_right,
+            "Pixels by which the depth image lies to the right of the colour image; None: no "
+            "masks, or "
+            "no depth."},
       Field{"shift_down", &C::shift_down, "The same, below."},
       Field{"focal_x", &C::focal_x, "fx is 1 + this of the camera's; None: not asked."},
       Field{"focal_y", &C::focal_y, "fy is 1 + this of the camera's; None: not asked."},
@@ -185,21 +188,23 @@ void bind_calibration(py::module_& m) {
       Field{"score", &S::score, "Agreement of measured and virtual depth, at most 1."},
       Field{"best", &S::best, "The same after the mend."});
   bind_repr(diagnosis, {"cause", "message"});
-  m.def("calibrate", &calibrate_frames, py::arg("frames"), py::arg("camera"), py::arg("robot"),
-        py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
-        py::arg("masks") = std::vector<MaskArgument>(), py::arg("focal") = false,
-        py::arg("joint_offsets") = false, py::arg("motion") = std::vector<OwnedFrame>(),
-        py::arg("seed") = 1,
-        "Estimates a depth camera's pose from the robot that it sees. frames: three or more, with "
-        "depth and joints (or T_root_link), between which the robot moves. camera: of images "
-        "without distortion. initial: a guess of the camera's pose in its parent link, at most "
-        "100 mm and 10 degrees off; None: it is searched for. masks: images that are not 0 where "
-        "the colour image shows the robot. focal: estimate the focal lengths, too. joint_offsets: "
-        "estimate the offsets of joints that the images contradict. motion: frames with stamps and "
-        "poses "
-        "that reach 0.1 s before and after each of `frames`, in which the robot moves: the time "
-        "offset is estimated, too. Raises InputError for too few frames; any other failure is "
-        "Calibration.faults.");
+  m.def(
+      "calibrate", &calibrate_frames, py::arg("frames"), py::arg("camera"), py::arg("robot"),
+      py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
+      py::arg("masks") = std::vector<MaskArgument>(), py::arg("focal") = false,
+      py::arg("joint_offsets") = false, py::arg("motion") = std::vector<OwnedFrame>(),
+      py::arg("seed") = 1,
+      "Estimates a camera's pose from the robot that it sees. frames: three or more, with joints "
+      "(or T_root_link) and with depth or masks, between which the robot moves. camera: of images "
+      "without distortion. initial: a guess of the camera's pose in its parent link, at most "
+      "100 mm and 10 degrees off; None: it is searched for. masks: images that are not 0 where "
+      "the colour image shows the robot; needed without depth. focal: estimate the focal lengths, "
+      "too. joint_offsets: "
+      "estimate the offsets of joints that the images contradict. motion: frames with stamps and "
+      "poses "
+      "that reach 0.1 s before and after each of `frames`, in which the robot moves: the time "
+      "offset is estimated, too. Raises InputError for too few frames; any other failure is "
+      "Calibration.faults.");
 }
 
 }  // namespace penumbra::python

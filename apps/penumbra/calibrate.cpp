@@ -41,11 +41,13 @@ std::string joined(const auto& values, int digits, const char* separator) {
 void print_fit(const Calibration& found, const Robot& robot, const Intrinsics& camera) {
   std::cout << "position within " << fixed(1e3 * found.position_error(), 1)
             << " mm, rotation within " << fixed(degrees * found.rotation_error(), 2)
-            << " degrees (95 %)\n"
-            << "depth: measured = " << plus_minus(found.depth_scale, 100.0, 2) << " % + "
-            << plus_minus(found.depth_offset, 1e3, 1)
-            << " mm more than true; the robot's picture is " << plus_minus(found.outline, 1.0, 1)
-            << " px larger\n";
+            << " degrees (95 %)\n";
+  if (found.depth_scale)
+    std::cout << "depth: measured = " << plus_minus(*found.depth_scale, 100.0, 2) << " % + "
+              << plus_minus(*found.depth_offset, 1e3, 1) << " mm more than true\n";
+  else
+    std::cout << "overlap with the masks " << fixed(100.0 * found.mask_overlap, 1) << " %\n";
+  std::cout << "the robot's picture is " << plus_minus(found.outline, 1.0, 1) << " px larger\n";
   if (found.shift_right)
     std::cout << "the pose is that of the colour image: the depth image lies "
               << plus_minus(*found.shift_right, 1.0, 1) << " px to its right and "
@@ -64,10 +66,13 @@ void print_fit(const Calibration& found, const Robot& robot, const Intrinsics& c
     std::cout << "time offset: " << plus_minus(*found.time_offset, 1e3, 1)
               << " ms: run with --time-offset " << fixed(found.time_offset->value, 4) << '\n';
   std::cout << found.advice << '\n';
-  std::vector<std::vector<std::string>> rows{{"frame", "agrees", "surface", "edge"}};
+  const bool has_depth = found.depth_scale.has_value();
+  std::vector<std::vector<std::string>> rows{
+      {"frame", has_depth ? "agrees" : "overlaps", "surface", "edge"}};
   for (const FrameFit& frame : found.frames)
     rows.push_back({std::to_string(frame.index) + (frame.used ? "" : " (left out)"),
-                    fixed(100.0 * frame.agreeing, 0) + " %", fixed(1e3 * frame.residual, 1) + " mm",
+                    fixed(100.0 * frame.agreeing, 0) + " %",
+                    has_depth ? fixed(1e3 * frame.residual, 1) + " mm" : "-",
                     fixed(frame.outline, 1) + " px"});
   print_table(std::move(rows));
 }
@@ -92,7 +97,7 @@ void print_pose(const Calibration& found, const std::string& parent, const std::
 std::string other_cause(const io::CalibrationInput& input, const CalibrationOptions& options) {
   std::vector<DiagnosisFrame> frames;
   for (const CalibrationFrame& frame : input.frames) frames.emplace_back(DiagnosisFrame{frame, {}});
-  if (!options.initial) return {};
+  if (!options.initial || !input.input.config.has_depth) return {};
   const Robot& robot = input.input.robot;
   const std::size_t parent =
       options.camera_parent.empty() ? 0 : *robot.find_link(options.camera_parent);

@@ -264,7 +264,8 @@ void add_calibrate(CLI::App& app, CalibrateArguments& calibrate) {
            "FILE", calibrate.initial);
   app.add_flag("--search", calibrate.search, "find the camera without a first guess");
   add_text(app, "--masks",
-           "images that are not 0 where the colour image shows the robot, as mask_%d.png",
+           "images that are not 0 where the colour image shows the robot, as mask_%d.png; needed "
+           "without depth",
            "PATTERN", calibrate.input.masks);
   app.add_flag("--focal", calibrate.focal, "estimate the focal lengths fx and fy, too");
   app.add_flag("--joint-offsets", calibrate.joint_offsets,
@@ -370,7 +371,7 @@ void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate) {
   check_input(app, calibrate.input.input);
   if (calibrate.search && calibrate.initial)
     throw InputError("--search: --initial is given too; leave one of them out");
-  calibrate.input.input.needs_depth = true;
+  calibrate.input.input.needs_depth = !calibrate.input.masks;
   calibrate.input.input.needs_camera_pose = !calibrate.search && !calibrate.initial;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,8 +12,9 @@
 namespace penumbra::io {
 namespace {
 
-Json estimate_json(const Estimate& estimate) {
-  return {{"value", estimate.value}, {"sigma", estimate.sigma}};
+Json estimate_json(const std::optional<Estimate>& estimate) {
+  if (!estimate) return nullptr;
+  return {{"value", estimate->value}, {"sigma", estimate->sigma}};
 }
 
 Json rows_of(const auto& matrix) {
@@ -57,14 +59,14 @@ std::string calibration_json(const Calibration& found, const Robot& robot,
                {"frames", std::move(frames)},
                {"link_residuals_m", std::move(links)}};
   if (found.focal_x)
-    json["focal"] = {{"fx_relative", estimate_json(*found.focal_x)},
-                     {"fy_relative", estimate_json(*found.focal_y)}};
+    json["focal"] = {{"fx_relative", estimate_json(found.focal_x)},
+                     {"fy_relative", estimate_json(found.focal_y)}};
   if (!joints.empty()) json["joint_offsets"] = std::move(joints);
-  if (found.time_offset) json["time_offset_s"] = estimate_json(*found.time_offset);
-  if (found.shift_right)
+  if (found.time_offset) json["time_offset_s"] = estimate_json(found.time_offset);
+  if (found.mask_overlap > 0.0)
     json["masks"] = {{"overlap", found.mask_overlap},
-                     {"depth_shift_right_px", estimate_json(*found.shift_right)},
-                     {"depth_shift_down_px", estimate_json(*found.shift_down)}};
+                     {"depth_shift_right_px", estimate_json(found.shift_right)},
+                     {"depth_shift_down_px", estimate_json(found.shift_down)}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 

@@ -59,6 +59,8 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   if (options.masks)
     masks.emplace(*options.masks, std::filesystem::is_directory(path) ? path : path.parent_path());
 
+  const bool has_depth = input.config.has_depth;
+  if (!has_depth && !masks) throw InputError(path.string() + ": has no depth: give --masks");
   const Robot& robot = input.robot;
   const auto source = input.frames(robot);
   Frame frame;
@@ -66,8 +68,8 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   StampedPoses trajectory;
   std::map<std::size_t, std::int64_t> stamps;
   Speed speed;
-  std::size_t seen = 0, faulty = 0;
-  std::string fault;
+  std::size_t seen = 0, faulty = 0, unmasked = 0;
+  std::string fault, no_mask;
   while (source->next(frame)) {
     ++seen;
     step();
@@ -80,7 +82,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
     const RobotPose& pose = frame.pose;
     const bool has_joints = pose.positions.size() == robot.variables().size();
     if (pose.status != FrameStatus::ok || frame.source_status != FrameStatus::ok ||
-        is_empty(frame.depth.view) || (pose.T_root_link.empty() && !has_joints)) {
+        (has_depth && is_empty(frame.depth.view)) || (pose.T_root_link.empty() && !has_joints)) {
       const std::string& why = pose.message.empty() ? frame.source_message : pose.message;
       if (faulty++ == 0)
         fault = "frame " + std::to_string(kept.index) + ": " +
@@ -104,11 +106,13 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
     }
     if (options.time_offset && (!now || *now < moving)) continue;
     if (!all.wants(kept.T_root_link) && !(rests && resting.wants(kept.T_root_link))) continue;
-    kept.depth = rectified_copy(
-        lens, metres_of(frame.depth.view, {input.camera.range.near, input.camera.range.far}));
     if (masks) {
       Image<std::uint8_t> mask;
       const auto file = masks->file(static_cast<std::int64_t>(kept.index));
+      if (!std::filesystem::exists(file)) {
+        if (unmasked++ == 0) no_mask = file.string();
+        continue;
+      }
       if (const FileResult read = read_png(
               file, mask,
               ImageSize{input.camera.intrinsics.width(), input.camera.intrinsics.height()});
@@ -116,10 +120,15 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
         throw InputError("--masks: " + read.message);
       kept.mask = rectified_copy(lens, mask);
     }
+    if (has_depth)
+      kept.depth = rectified_copy(
+          lens, metres_of(frame.depth.view, {input.camera.range.near, input.camera.range.far}));
     if (rests) resting.add(kept);
     all.add(std::move(kept));
   }
 
+  if (unmasked > 0 && all.frames().empty() && resting.frames().empty())
+    throw InputError("--masks: " + no_mask + " is not there");
   CalibrationInput result{.input = std::move(input),
                           .camera = camera,
                           .frames = {},
@@ -138,6 +147,9 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
     result.notes.push_back(
         "the arm moves in most frames: joint states that are early or late move the result; let it "
         "stand still at some ten poses");
+  if (unmasked > 0)
+    result.notes.push_back("frames without a mask are left out: " + std::to_string(unmasked) +
+                           ", the first " + no_mask);
   if (faulty > 0)
     result.notes.push_back(std::to_string(faulty) + " of " + std::to_string(seen) +
                            " frames cannot be used; the first is " + fault);

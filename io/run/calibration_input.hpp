@@ -17,7 +17,8 @@ namespace penumbra::io {
 /// What is calibrated with.
 struct CalibrationInputOptions {
   InputOptions input;
-  /// Name pattern of images that are not 0 where the robot is, beside the recording.yaml or bag.
+  /// Name pattern of images that are not 0 where the robot is, next to the recording.yaml or bag.
+  /// Needed without depth. Frames without one are left out.
   std::optional<std::string> masks;
   bool time_offset = false;  ///< choose moving frames, and give them the poses around them
 };

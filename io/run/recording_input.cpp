@@ -126,7 +126,8 @@ RunInput open_recording_input(const InputOptions& options) {
                      " is a recording folder, which says this itself; leave it out");
   if (options.needs_depth && !recording.frames.depth)
     throw InputError(recording.file.string() +
-                     ": frames: key 'depth' is missing; this compares depth images with the robot");
+                     ": frames: key 'depth' is missing; this compares depth images with the robot "
+                     "(calibrate --masks does without)");
   if (!options.needs_camera_pose && !recording.camera.T_parent_camera)
     recording.camera.T_parent_camera = Eigen::Isometry3d::Identity();
   for (RecordedRobot& robot : recording.robots) options.apply_to(robot.options, robot.name);

@@ -21,7 +21,7 @@ namespace {
 constexpr double degrees = 180.0 / std::numbers::pi;
 constexpr float full_color = 0.02F;  // metres of distance that have the full colour
 constexpr float farthest = 0.1F;     // metres: what is farther off is not the robot
-constexpr Rgb8 outline_color{0, 220, 80};
+constexpr Rgb8 outline_color{0, 220, 80}, mask_color{160, 160, 160};
 constexpr std::size_t most_pictures = 10;
 
 std::string plus_minus(const Estimate& estimate, double scale, int digits) {
@@ -50,15 +50,23 @@ class Pictures {
                    const Eigen::Isometry3d& T_parent_camera) {
     FrameReport report;
     report.index = frame.index;
-    draw_overlay(report, {frame.depth.view(), {}}, image_);
+    const bool has_depth = !frame.depth.empty();
+    if (has_depth)
+      draw_overlay(report, {frame.depth.view(), {}}, image_);
+    else
+      image_ = Image<Rgb8>(frame.mask.width(), frame.mask.height());
     std::vector<Eigen::Isometry3d> poses = frame.T_root_link;
     const Eigen::Isometry3d T_camera_root = (poses[parent_] * T_parent_camera).inverse();
     for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
     const ImageView<const float> robot = renderer_->render(poses).depth;
     for (int v = 0; v < robot.height; ++v)
       for (int u = 0; u < robot.width; ++u) {
-        const float distance = (frame.depth(u, v) - static_cast<float>(found.depth_offset.value)) /
-                                   (1.0F + static_cast<float>(found.depth_scale.value)) -
+        if (!has_depth) {
+          if (frame.mask(u, v) != 0) image_(u, v) = mask_color;
+          continue;
+        }
+        const float distance = (frame.depth(u, v) - static_cast<float>(found.depth_offset->value)) /
+                                   (1.0F + static_cast<float>(found.depth_scale->value)) -
                                robot(u, v);
         if (robot(u, v) > 0.0F && frame.depth(u, v) > 0.0F && std::abs(distance) < farthest)
           image_(u, v) = distance_color(distance);
@@ -91,9 +99,13 @@ std::string result(const CalibrationOf& of, const Calibration& found) {
                               ", " + number(q.w(), 6)},
       {"95 % region", number(1e3 * found.position_error(), 1) + " mm, " +
                           number(degrees * found.rotation_error(), 2) + "°"},
-      {"depth offset", plus_minus(found.depth_offset, 1e3, 1) + " mm"},
-      {"depth scale", plus_minus(found.depth_scale, 100.0, 2) + " %"},
       {"outline is larger by", plus_minus(found.outline, 1.0, 1) + " px"}};
+  if (found.depth_offset) {
+    rows.push_back({"depth offset", plus_minus(*found.depth_offset, 1e3, 1) + " mm"});
+    rows.push_back({"depth scale", plus_minus(*found.depth_scale, 100.0, 2) + " %"});
+  } else {
+    rows.push_back({"overlap with the masks", number(100.0 * found.mask_overlap, 1) + " %"});
+  }
   if (found.shift_right)
     rows.push_back({"depth image right of, below the colour image",
                     plus_minus(*found.shift_right, 1.0, 1) + ", " +
@@ -110,17 +122,21 @@ std::string result(const CalibrationOf& of, const Calibration& found) {
 }
 
 std::string residuals(const CalibrationOf& of, const Calibration& found) {
-  Rows frames = {{"frame", "robot's pixels at its depth", "from its surface", "depth's edge"}};
+  const bool has_depth = found.depth_offset.has_value();
+  Rows frames = {{"frame", has_depth ? "robot's pixels at its depth" : "overlap with the mask",
+                  "from its surface", has_depth ? "depth's edge" : "mask's edge"}};
   for (const FrameFit& frame : found.frames)
     frames.push_back({std::to_string(frame.index) + (frame.used ? "" : " (left out)"),
                       number(100.0 * frame.agreeing, 0) + " %",
-                      number(1e3 * frame.residual, 1) + " mm", number(frame.outline, 1) + " px"});
+                      has_depth ? number(1e3 * frame.residual, 1) + " mm" : "-",
+                      number(frame.outline, 1) + " px"});
   Rows links = {{"link", "median distance behind its surface"}};
   for (std::size_t link = 0; link < found.link_residuals.size(); ++link)
     if (std::isfinite(found.link_residuals[link]))
       links.push_back(
           {of.robot.links()[link], number(1e3 * found.link_residuals[link], 1) + " mm"});
-  return "<h2>By frame</h2>\n" + table(frames) + "<h2>By link</h2>\n" + table(links);
+  return "<h2>By frame</h2>\n" + table(frames) +
+         (has_depth ? "<h2>By link</h2>\n" + table(links) : "");
 }
 
 }  // namespace
@@ -130,9 +146,13 @@ std::string calibration_page(const CalibrationOf& of, const Calibration& found) 
       page_start("Calibration of " + of.input) + result(of, found) + residuals(of, found);
   html +=
       "<h2>Pictures</h2>\n<p>Left: the first guess, if there was one. Right: the result. The robot "
-      "is outlined in green. Its pixels are white where the measured point is on its surface, red "
-      "where it is 2 cm or more behind, blue where it is before. The depth offset and scale above "
-      "are taken off.</p>\n";
+      "is outlined in green. ";
+  html +=
+      found.depth_offset
+          ? "Its pixels are white where the measured point is on its surface, red where it is "
+            "2 cm or more behind, blue where it is before. The depth offset and scale above are "
+            "taken off.</p>\n"
+          : "The masks are grey.</p>\n";
   Pictures pictures(of);
   for (const CalibrationFrame& frame : of.frames.first(std::min(of.frames.size(), most_pictures))) {
     html += "<figure>";

@@ -33,6 +33,8 @@ constexpr std::size_t searched = 10;      // frames on which poses are tried
 constexpr double least_agreeing = 0.6;    // of the robot's measured pixels
 constexpr double elsewhere = 0.7;         // of the frames' median share that agrees
 constexpr double widest_position = 0.03;  // metres, half axis of the 95 % region
+/// The same for masks alone: the robot's distance shows in the size of its picture only.
+constexpr double widest_by_masks = 0.06;
 constexpr double widest_rotation = 0.03;  // rad
 constexpr double untold = 0.02;           // rad, half axis of the 95 % region of the rotation
 /// Of the square of how far another pose is: the 95 % region reaches a little farther.
@@ -63,8 +65,17 @@ void check_input(std::span<const CalibrationFrame> frames, const Intrinsics& cam
                      " frames or more with different poses of the robot, and has " +
                      std::to_string(frames.size()) +
                      ": record the arm in some ten poses, with links near and far, left and right");
+  const bool has_depth = !frames.front().depth.empty();
+  if (!has_depth && (options.joint_offsets || options.time_offset))
+    throw InputError(
+        "offsets of joints and of the time need depth images; masks alone give the "
+        "camera's pose and its focal length");
   for (const CalibrationFrame& frame : frames) {
-    if (frame.depth.width() != camera.width() || frame.depth.height() != camera.height())
+    if (frame.depth.empty() == has_depth || (frame.depth.empty() && frame.mask.empty()))
+      throw InputError("frame " + std::to_string(frame.index) + ": has no " +
+                       (has_depth ? "depth image" : "mask"));
+    if (has_depth &&
+        (frame.depth.width() != camera.width() || frame.depth.height() != camera.height()))
       throw InputError("frame " + std::to_string(frame.index) + ": its depth image is " +
                        std::to_string(frame.depth.width()) + "x" +
                        std::to_string(frame.depth.height()) + ", the camera's are " +
@@ -90,8 +101,10 @@ class Calibrator {
         options_(options),
         parent_(find_camera_parent(robot, options.camera_parent)),
         model_(robot, parent_) {
-    unknowns_.has_shift = std::all_of(frames.begin(), frames.end(),
-                                      [](const auto& frame) { return !frame.mask.empty(); });
+    unknowns_.holds_depth = !has_depth();
+    unknowns_.has_shift = has_depth() && std::ranges::none_of(frames, [](const auto& frame) {
+                            return frame.mask.empty();
+                          });
     unknowns_.has_time = options.time_offset;
     for (const CalibrationFrame& frame : frames) used_.push_back(&frame);
   }
@@ -105,7 +118,7 @@ class Calibrator {
       result.frames.push_back(observer.fit(frame, fit.state));
       result.frames.back().used = std::find(used_.begin(), used_.end(), &frame) != used_.end();
     }
-    if (unknowns_.has_shift) {
+    if (unknowns_.has_shift || !has_depth()) {
       std::size_t both = 0, either = 0;
       for (const CalibrationFrame& frame : frames_)
         observer.overlap(frame, fit.state, both, either);
@@ -121,10 +134,12 @@ class Calibrator {
   }
 
  private:
+  [[nodiscard]] bool has_depth() const { return !frames_.front().depth.empty(); }
+
   /// Estimates the focal lengths and the joints that the images contradict, if asked for.
   Refined freed(Observer& observer, Refined fit) {
     if (options_.focal) {
-      unknowns_.focal_count = 2;
+      unknowns_.focal_count = has_depth() ? 2 : 1;
       fit = calibration::refine(observer, unknowns_, used_, fit.state);
     }
     if (!options_.joint_offsets) return fit;
@@ -234,8 +249,10 @@ class Calibrator {
     Calibration result;
     result.T_parent_camera = fit.state.T_parent_camera;
     result.covariance = fit.covariance.topLeftCorner<6, 6>();
-    result.depth_offset = estimate(fit.state.depth_offset, fit, Unknowns::depth_offset);
-    result.depth_scale = estimate(fit.state.depth_scale, fit, Unknowns::depth_scale);
+    if (has_depth()) {
+      result.depth_offset = estimate(fit.state.depth_offset, fit, Unknowns::depth_offset);
+      result.depth_scale = estimate(fit.state.depth_scale, fit, Unknowns::depth_scale);
+    }
     result.outline = estimate(fit.state.outline, fit, Unknowns::outline);
     if (unknowns_.has_shift) {
       result.shift_right = estimate(fit.state.depth_shift.x(), fit, Unknowns::shift);
@@ -243,7 +260,7 @@ class Calibrator {
     }
     if (options_.focal) {
       result.focal_x = estimate(fit.state.focal.x(), fit, unknowns_.focal());
-      result.focal_y = estimate(fit.state.focal.y(), fit, unknowns_.focal() + 1);
+      result.focal_y = estimate(fit.state.focal.y(), fit, unknowns_.joints() - 1);
     }
     if (options_.joint_offsets)
       for (const Explained::Joint& joint : explained.joints)
@@ -324,7 +341,9 @@ class Calibrator {
       else
         result.notes.push_back("frame " + std::to_string(frame.index) + " is left out: only " +
                                number(100.0 * frame.agreeing, 0) +
-                               " % of the robot's pixels show it where its joints say");
+                               (has_depth()
+                                    ? " % of the robot's pixels show it where its joints say"
+                                    : " % of mask and robot overlap"));
     }
     if (agreeing >= least_agreeing && !fit.covariance.allFinite()) {
       result.faults.push_back(
@@ -332,19 +351,22 @@ class Calibrator {
           "in "
           "which links move in the camera's view");
     } else if (!(agreeing >= least_agreeing)) {
-      result.faults.push_back(
-          "only " + number(100.0 * agreeing, 0) +
-          " % of the robot's pixels show it at its depth: the robot is not in view, the URDF is "
-          "not this robot's, the joints are of other times, or " +
-          (options_.initial ? "the first guess is too far off (--search does without)"
-                            : "the search found no better pose"));
+      result.faults.push_back("only " + number(100.0 * agreeing, 0) +
+                              (has_depth() ? " % of the robot's pixels show it at its depth"
+                                           : " % of masks and robot overlap") +
+                              ": the robot is not in view, the URDF is not this robot's, the "
+                              "joints are of other times, "
+                              "or " +
+                              (options_.initial
+                                   ? "the first guess is too far off (--search does without)"
+                                   : "the search found no better pose"));
     }
   }
 
   /// Refuses a pose that is not known well enough.
   static void check_errors(Calibration& result, const std::string& causes) {
-    if (result.position_error() <= widest_position && result.rotation_error() <= widest_rotation)
-      return;
+    const double widest = result.depth_offset ? widest_position : widest_by_masks;
+    if (result.position_error() <= widest && result.rotation_error() <= widest_rotation) return;
     result.faults.push_back(
         "the pose is known to " + number(1e3 * result.position_error(), 0) + " mm and " +
         number(result.rotation_error() * 180.0 / 3.14159265358979, 1) + " degrees only: " +

@@ -35,7 +35,9 @@ using StampedPoses = std::vector<std::pair<std::int64_t, std::vector<Eigen::Isom
 /// What calibration needs of a frame.
 struct CalibrationFrame {
   std::size_t index = 0;
-  Image<float> depth;          ///< measured by a pinhole camera, metres; 0: no measurement
+  /// Measured by a pinhole camera, metres; 0: no measurement. Empty in all frames: the masks alone
+  /// are fitted.
+  Image<float> depth;
   Image<std::uint8_t> mask;    ///< not 0 where the colour image shows the robot; empty: not known
   std::vector<double> joints;  ///< order of Robot::variables(); empty if the poses are from TF
   std::vector<Eigen::Isometry3d> T_root_link;
@@ -48,10 +50,11 @@ struct CalibrationOptions {
   std::string camera_parent;  ///< link that carries the camera; empty: the root
   /// The camera's pose in that link, at most 100 mm and 10 degrees off; null: it is searched for.
   std::optional<Eigen::Isometry3d> initial;
-  bool focal = false;          ///< estimate the focal lengths, too
-  bool joint_offsets = false;  ///< estimate the zero offsets of joints that the images contradict
-  bool time_offset = false;    ///< estimate the time between images and poses, too
-  std::uint64_t seed = 1;      ///< of the poses that are tried
+  bool focal = false;  ///< estimate the focal lengths, too
+  /// Estimate the zero offsets of joints that the images contradict; needs depth.
+  bool joint_offsets = false;
+  bool time_offset = false;  ///< estimate the time between images and poses, too; needs depth
+  std::uint64_t seed = 1;    ///< of the poses that are tried
 };
 
 /// A small motion of the camera in its own frame: rotation (rad) in x, y, z, then translation (m).
@@ -61,9 +64,11 @@ using PoseCovariance = Eigen::Matrix<double, 6, 6>;
 struct FrameFit {
   std::size_t index = 0;  ///< CalibrationFrame::index
   bool used = true;       ///< false: the robot is elsewhere than its joints say
-  double agreeing = 0.0;  ///< share of the robot's measured pixels at its depth
+  /// Share of the robot's measured pixels at its depth; without depth, intersection over union of
+  /// robot and mask.
+  double agreeing = 0.0;
   double residual = 0.0;  ///< median distance of measured points from the robot's surface, metres
-  double outline = 0.0;   ///< median distance of the depth's edge from the outline, pixels
+  double outline = 0.0;  ///< median distance of the depth's or mask's edge from the outline, pixels
 };
 
 /// A value and its standard deviation.
@@ -77,13 +82,14 @@ struct Calibration {
   /// Of T_parent_camera, the larger of two: from the residuals' correlation, and from what the pose
   /// is without each frame in turn. It covers the pose that each cause in `notes` gives.
   PoseCovariance covariance;
-  Estimate depth_offset;  ///< metres: measured = true (1 + depth_scale) + depth_offset
-  Estimate depth_scale;
-  Estimate outline;  ///< pixels by which the sensor's picture of the robot is larger
+  /// Metres: measured = true (1 + depth_scale) + depth_offset; neither without depth.
+  std::optional<Estimate> depth_offset, depth_scale;
+  Estimate outline;  ///< pixels by which the depth's or mask's picture of the robot is larger
   /// Pixels by which the depth image lies to the right of and below the colour image; only with
-  /// masks, and then the pose is that of the colour image.
+  /// depth and masks, and then the pose is that of the colour image.
   std::optional<Estimate> shift_right, shift_down;
-  /// Relative: fx and fy are 1 + this of the camera's; only with CalibrationOptions::focal.
+  /// Relative: fx and fy are 1 + this of the camera's; only with CalibrationOptions::focal. The
+  /// same for both without depth.
   std::optional<Estimate> focal_x, focal_y;
   /// Order of Robot::variables(), rad or m; empty: not asked. Those that the images do not
   /// contradict stay 0.
@@ -128,9 +134,10 @@ class CalibrationFrames {
   std::vector<CalibrationFrame> frames_;
 };
 
-/// Estimates a depth camera's pose from the robot that it sees. The camera is fixed to the root or
-/// to any link of the robot. Throws InputError for fewer frames than CalibrationFrames::least and
-/// for images of another size than the camera's; any other failure is Calibration::faults.
+/// Estimates a camera's pose from the robot that it sees: in depth images, or in masks alone. The
+/// camera is fixed to the root or to any link of the robot. Throws InputError for fewer frames than
+/// CalibrationFrames::least, frames without images, images of another size than the camera's, and
+/// options that need depth; any other failure is Calibration::faults.
 [[nodiscard]] Calibration calibrate(std::span<const CalibrationFrame> frames,
                                     const Intrinsics& camera, const Robot& robot,
                                     const CalibrationOptions& options);

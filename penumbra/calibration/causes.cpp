@@ -174,6 +174,7 @@ bool is_wider(const Explained::Pose& pose, const Refined& fit) {
 std::string text_of(const FoundCause& found, const Explained& explained, const Robot& robot,
                     const Intrinsics& camera) {
   const State& state = explained.fit.state;
+  const bool has_depth = !explained.unknowns.holds_depth;
   std::string text;
   if (found.cause.kind == Cause::Kind::focal) {
     text = focal_text(explained, camera);
@@ -186,12 +187,13 @@ std::string text_of(const FoundCause& found, const Explained& explained, const R
     text = name_of(found.cause, robot) + " is " +
            amount(state.joint_offsets[variable], explained.fit.covariance(at, at),
                   slides ? 1e3 : 180.0 / std::numbers::pi, slides ? 1 : 2) +
-           (slides ? " mm" : " degrees") + " off (--joint-offsets)";
+           (slides ? " mm" : " degrees") + " off" + (has_depth ? " (--joint-offsets)" : "");
   } else {
     const int at = explained.unknowns.time();
     text = "the images' stamps are " +
            amount(state.time_offset, explained.fit.covariance(at, at), 1e3, 1) + " ms too " +
-           (state.time_offset > 0.0 ? "early" : "late") + " for the joint states (--time-offset)";
+           (state.time_offset > 0.0 ? "early" : "late") + " for the joint states" +
+           (has_depth ? " (--time-offset)" : "");
   }
   for (const Cause& other : found.or_else) text += ", or " + name_of(other, robot) + " is off";
   if (!found.or_else.empty()) text += ": the images cannot tell which";

@@ -81,7 +81,7 @@ void Observer::observe(const CalibrationFrame& frame, std::size_t number, const 
                   .state = state,
                   .robot = render(frame, state),
                   .link_twists = model_.link_twists(frame, state, unknowns_)};
-  add_surface(view, reach, out);
+  if (!frame.depth.empty()) add_surface(view, reach, out);
   add_outlines(view, reach, out);
 }
 
@@ -232,12 +232,14 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
                 gradient, by_focal, out);
         return out.rows.data() + out.rows.size() - unknowns_.size();
       };
-      if (const auto step = step_of(depth_at, static_cast<int>(reach.pixels))) {
+      const bool has_depth = !view.frame.depth.empty();
+      const int pixels = static_cast<int>(reach.pixels);
+      if (const auto step = has_depth ? step_of(depth_at, pixels) : step_of(mask_at, pixels)) {
         double* const row = add(Kind::edge, *step + view.rest().dot(normal) - view.state.outline);
         row[Unknowns::outline] = -1.0;
         if (unknowns_.has_shift) Eigen::Map<Eigen::Vector2d>(row + Unknowns::shift) = normal;
       }
-      if (!view.frame.mask.empty())
+      if (has_depth && !view.frame.mask.empty())
         if (const auto step = step_of(mask_at, mask_reach)) add(Kind::mask, *step);
     }
 }
@@ -246,7 +248,8 @@ FrameFit Observer::fit(const CalibrationFrame& frame, const State& state) {
   const VirtualDepthView robot = render(frame, state);
   const View view{.frame = frame, .number = 0, .state = state, .robot = robot, .link_twists = {}};
   std::size_t measured = 0, agreeing = 0;
-  for (int v = 0; v < robot.depth.height; v += stride_)
+  if (frame.depth.empty()) overlap(frame, state, agreeing, measured);
+  for (int v = 0; v < robot.depth.height && !frame.depth.empty(); v += stride_)
     for (int u = 0; u < robot.depth.width; u += stride_) {
       const float expected = robot.depth(u, v);
       const float d = expected > 0.0f ? view.measured(u, v) : 0.0f;
@@ -272,9 +275,16 @@ double Observer::information(const CalibrationFrame& frame, const State& state,
   constexpr std::array<double, kinds> sigmas{0.003, 1.0, 1.0};  // metres, pixels, pixels
   CalibrationFrame seen = frame;
   const VirtualDepthView robot = render(frame, state);
-  seen.depth = Image<float>(robot.depth.width, robot.depth.height);
+  if (unknowns_.holds_depth)
+    seen.mask = Image<std::uint8_t>(robot.depth.width, robot.depth.height);
+  else
+    seen.depth = Image<float>(robot.depth.width, robot.depth.height);
   for (int v = 0; v < robot.depth.height; ++v)
-    for (int u = 0; u < robot.depth.width; ++u) seen.depth(u, v) = robot.depth(u, v);
+    for (int u = 0; u < robot.depth.width; ++u)
+      if (unknowns_.holds_depth)
+        seen.mask(u, v) = robot.depth(u, v) > 0.0f;
+      else
+        seen.depth(u, v) = robot.depth(u, v);
   State exact = state;  // the sensor measures what is rendered
   exact.depth_offset = exact.depth_scale = exact.outline = 0.0;
   exact.depth_shift.setZero();

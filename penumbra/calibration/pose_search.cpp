@@ -24,6 +24,8 @@ constexpr double worst_score = -2.0;
 constexpr double occluded = 0.3;  // cost of a pixel with something before the robot
 constexpr double missed = 0.5;    // cost of a pixel with something that moved and is not the robot
 
+constexpr double distance_sigma = 0.3;  // of the logarithm of the robot's distance by its size
+
 // The cross-entropy method (Rubinstein 1999).
 constexpr int population = 120;
 constexpr std::size_t elite = 15;
@@ -40,6 +42,20 @@ Image<float> made_small(const Image<float>& depth, const Intrinsics& small) {
   return out;
 }
 
+/// 1 where the mask covers at least half of a pixel.
+Image<std::uint8_t> made_small(const Image<std::uint8_t>& mask, const Intrinsics& small) {
+  const int block = mask.width() / small.width();
+  Image<std::uint8_t> out(small.width(), small.height());
+  for (int v = 0; v < small.height(); ++v)
+    for (int u = 0; u < small.width(); ++u) {
+      int covered = 0;
+      for (int i = 0; i < block * block; ++i)
+        covered += mask(u * block + i % block, v * block + i / block) != 0;
+      out(u, v) = 2 * covered >= block * block;
+    }
+  return out;
+}
+
 }  // namespace
 
 PoseSearch::PoseSearch(const Model& model, const Intrinsics& camera,
@@ -53,10 +69,13 @@ PoseSearch::PoseSearch(const Model& model, const Intrinsics& camera,
       seed_(seed),
       tolerance_(wide) {
   for (const CalibrationFrame* frame : frames)
-    frames_.push_back({frame, made_small(frame->depth, small_),
-                       Image<std::uint8_t>(small_.width(), small_.height())});
+    if (frame->depth.empty())
+      frames_.push_back({frame, {}, made_small(frame->mask, small_)});
+    else
+      frames_.push_back({frame, made_small(frame->depth, small_),
+                         Image<std::uint8_t>(small_.width(), small_.height())});
   if (camera_is_fixed) {
-    find_moved();
+    if (!frames.front()->depth.empty()) find_moved();
     find_anchors();
   }
   const Robot& robot = model.robot();
@@ -87,30 +106,45 @@ void PoseSearch::find_moved() {
 }
 
 /// Where the moving part of the robot is: the mean of what moved in the image, and of the links.
+/// Without depth, where all of the robot is, at the distance at which its links are spread as far
+/// as the mask.
 void PoseSearch::find_anchors() {
   const auto report = model_.robot().report();
   std::vector<bool> moves(report.size());
+  const bool has_depth = !frames_.front().depth.empty();
   for (const Small& small : frames_)
     for (std::size_t link = 0; link < report.size(); ++link)
-      moves[link] = moves[link] ||
-                    (report[link].drawn && !small.frame->T_root_link[link].isApprox(
-                                               frames_.front().frame->T_root_link[link], 0.02));
+      moves[link] =
+          moves[link] || (report[link].drawn &&
+                          (!has_depth || !small.frame->T_root_link[link].isApprox(
+                                             frames_.front().frame->T_root_link[link], 0.02)));
   for (const Small& small : frames_) {
     Anchor anchor;
-    double pixels = 0.0, links = 0.0;
+    double pixels = 0.0, links = 0.0, seen_spread = 0.0, spread = 0.0;
     for (int v = 0; v < small_.height(); ++v)
       for (int u = 0; u < small_.width(); ++u) {
         if (small.moved(u, v) == 0) continue;
-        anchor.in_camera += small_.ray(u, v) * small.depth(u, v);
+        const Eigen::Vector3d ray = small_.ray(u, v);
+        anchor.in_camera += has_depth ? ray * small.depth(u, v) : ray;
+        seen_spread += ray.squaredNorm();
         pixels += 1.0;
       }
     for (std::size_t link = 0; link < report.size(); ++link) {
       if (!moves[link]) continue;
-      anchor.in_root += small.frame->T_root_link[link] * report[link].bounds.center();
+      const Eigen::Vector3d centre = small.frame->T_root_link[link] * report[link].bounds.center();
+      anchor.in_root += centre;
+      spread += centre.squaredNorm();
       links += 1.0;
     }
     if (pixels == 0.0 || links == 0.0) continue;
-    anchors_.push_back({anchor.in_camera / pixels, anchor.in_root / links});
+    anchor = {anchor.in_camera / pixels, anchor.in_root / links};
+    if (!has_depth) {  // two of the three dimensions are seen
+      seen_spread = seen_spread / pixels - anchor.in_camera.squaredNorm();
+      spread = (spread / links - anchor.in_root.squaredNorm()) * 2.0 / 3.0;
+      if (!(seen_spread > 0.0) || !(spread > 0.0)) continue;
+      anchor.in_camera *= std::sqrt(spread / seen_spread);
+    }
+    anchors_.push_back(anchor);
   }
 }
 
@@ -120,12 +154,27 @@ double PoseSearch::score(const Eigen::Isometry3d& T_parent_camera, std::size_t e
   return score(state, every_frame);
 }
 
+double PoseSearch::overlap(const Small& small, const ImageView<const float>& robot) const {
+  std::size_t both = 0, either = 0;
+  for (int v = 0; v < small_.height(); ++v)
+    for (int u = 0; u < small_.width(); ++u) {
+      const bool rendered = robot(u, v) > 0.0f, seen = small.moved(u, v) != 0;
+      both += rendered && seen;
+      either += rendered || seen;
+    }
+  return static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
+}
+
 double PoseSearch::score(const State& state, std::size_t every_frame) {
-  double sum = 0.0, most = 0.0;
+  double sum = 0.0, most = 0.0, overlaps = 0.0;
   const auto tolerance = static_cast<float>(tolerance_);
   for (std::size_t k = 0; k < frames_.size(); k += every_frame) {
     const Small& small = frames_[k];
     const VirtualDepthView robot = renderer_->render(model_.T_camera_link(*small.frame, state));
+    if (small.depth.empty()) {
+      overlaps += overlap(small, robot.depth);
+      continue;
+    }
     for (int v = 0; v < small_.height(); ++v)
       for (int u = 0; u < small_.width(); ++u) {
         const float expected = robot.depth(u, v);
@@ -145,6 +194,8 @@ double PoseSearch::score(const State& state, std::size_t every_frame) {
         }
       }
   }
+  const std::size_t count = (frames_.size() + every_frame - 1) / every_frame;
+  if (frames_.front().depth.empty()) return overlaps / static_cast<double>(count);
   // A robot out of view, or a speck, is as bad as one in free space.
   const double least = 0.01 * small_.width() * small_.height() *
                        static_cast<double>(frames_.size()) / static_cast<double>(every_frame);
@@ -234,8 +285,10 @@ Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random,
               .toRotationMatrix();
     }
   }
+  const bool has_depth = !frames_.front().depth.empty();
+  const double scale = has_depth ? 1.0 : std::exp(distance_sigma * normal(random));
   for (const Anchor& anchor : anchors_)
-    T.translation() += (anchor.in_root - T.linear() * anchor.in_camera) / anchors_.size();
+    T.translation() += (anchor.in_root - T.linear() * anchor.in_camera * scale) / anchors_.size();
   T.translation() += 0.15 * any();
   return T;
 }

@@ -53,7 +53,7 @@ struct Unknowns {
   std::vector<std::size_t> variables = {};  ///< Robot::variables() whose offsets are estimated
   bool has_time = false;
   bool holds_pose = false;   ///< the pose stays as it is
-  bool holds_depth = false;  ///< depth offset and scale stay as they are
+  bool holds_depth = false;  ///< depth offset and scale stay as they are: there may be no depth
 
   [[nodiscard]] int focal() const { return has_shift ? shift + 2 : shift; }
   [[nodiscard]] int joints() const { return focal() + focal_count; }
@@ -69,8 +69,9 @@ struct Unknowns {
 
 enum class Kind : std::uint8_t {
   surface,  ///< distance of a measured point from the robot's surface along its normal, metres
-  edge,     ///< distance of the depth's step from the rendered outline, pixels
-  mask      ///< the same of the mask's border
+  edge,     ///< distance of the depth's step, or the mask's border without depth, from the rendered
+            ///< outline, pixels
+  mask      ///< the same of the mask's border where there is depth, too
 };
 constexpr std::size_t kinds = 3;
 
@@ -243,7 +244,8 @@ struct Explained {
                                             const State& state);
 
 /// Rates camera poses on small images: agreement of measured and virtual depth, against what was
-/// measured behind the robot's surface and what moved and is not the robot.
+/// measured behind the robot's surface and what moved and is not the robot. Without depth:
+/// intersection over union of robot and masks.
 class PoseSearch {
  public:
   PoseSearch(const Model& model, const Intrinsics& camera,
@@ -264,13 +266,14 @@ class PoseSearch {
   struct Small {
     const CalibrationFrame* frame;
     Image<float> depth;
-    Image<std::uint8_t> moved;  // 1: nearer than the background
+    Image<std::uint8_t> moved;  // 1: nearer than the background; without depth, the mask
   };
   struct Anchor {
     Eigen::Vector3d in_camera = Eigen::Vector3d::Zero(), in_root = Eigen::Vector3d::Zero();
   };
   void find_moved();
   void find_anchors();
+  [[nodiscard]] double overlap(const Small& small, const ImageView<const float>& robot) const;
   [[nodiscard]] Eigen::Isometry3d guess(std::mt19937_64& random,
                                         const std::optional<Eigen::Isometry3d>& around) const;
   /// How far from a first guess a pose may be.

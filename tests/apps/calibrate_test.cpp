@@ -55,6 +55,63 @@ TEST_F(CalibrateTest, MasksGiveTheColourImagesPose) {
   EXPECT_GT(json["masks"]["overlap"], 0.926) << "that of the published pose";
 }
 
+/// The shipped recording without depth, with the masks that `run` writes of it.
+class CalibrateMasksTest : public testing::Test {
+ protected:
+  CalibrateMasksTest() {
+    fs::copy(example, path("masked"), fs::copy_options::recursive);
+    EXPECT_EQ(
+        penumbra({"run", path("masked"), "-o", path("masked/out"), "--save", "robot_mask"}).status,
+        0);
+    edit_file(path("masked/recording.yaml"), "  depth: depth/%d.png", "");
+  }
+
+  [[nodiscard]] fs::path path(const std::string& name) const { return folder_.path() / name; }
+  Outcome calibrate(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"calibrate", path("masked")});
+    return penumbra(options);
+  }
+
+  const fs::path example = fs::path(PENUMBRA_SOURCE_DIR) / "examples/arm_over_table";
+  TemporaryFolder folder_;
+};
+
+TEST_F(CalibrateMasksTest, FindsThePoseOfTheMasks) {
+  const Eigen::Isometry3d truth = io::read_pose_csv(example / "camera_pose.csv");
+  Eigen::Isometry3d off = truth;
+  off.translation() += Eigen::Vector3d(0.04, -0.05, 0.05);
+  io::write_pose_csv(path("off.csv"), off);
+  const Outcome outcome = calibrate(
+      {"--masks", "out/robot_mask/%06d.png", "--initial", path("off.csv"), "-o", path("found")});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("overlap with the masks"), std::string::npos) << outcome.out;
+  const Eigen::Isometry3d found = io::read_pose_csv(path("found/camera_pose.csv"));
+  constexpr double limit = 0.002;  // metres: exact masks of poses that are near each other
+  EXPECT_LT((found.translation() - truth.translation()).norm(), limit);
+  const Json json = Json::parse(read_file(path("found/calibration.json")));
+  EXPECT_TRUE(json["depth_offset_m"].is_null());
+  EXPECT_GT(json["masks"]["overlap"], 0.99);
+  EXPECT_NE(read_file(path("found/report.html")).find("The masks are grey"), std::string::npos);
+}
+
+TEST_F(CalibrateMasksTest, LeavesOutFramesWithoutAMaskAndRefusesWhatNeedsDepth) {
+  fs::remove(path("masked/out/robot_mask/000002.png"));
+  const Outcome outcome = calibrate({"--masks", "out/robot_mask/%06d.png"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("frames without a mask are left out: 1"), std::string::npos)
+      << outcome.err;
+  for (const char* option : {"--joint-offsets", "--time-offset"}) {
+    const Outcome refused = calibrate({"--masks", "out/robot_mask/%06d.png", option});
+    EXPECT_EQ(refused.status, 2);
+    EXPECT_NE(refused.err.find("need depth images"), std::string::npos) << refused.err;
+  }
+  const Outcome none = calibrate({});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("--masks"), std::string::npos) << none.err;
+  const Outcome wrong = calibrate({"--masks", "color/%d.png"});
+  EXPECT_EQ(wrong.status, 2);
+}
+
 TEST_F(CalibrateTest, RefusesTooFewFramesAndOtherRobots) {
   const Outcome few = calibrate({"--frames", "0:2"});
   EXPECT_EQ(few.status, 2);

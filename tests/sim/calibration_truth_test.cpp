@@ -37,11 +37,28 @@ struct Seen {
       std::transform(frame.depth.data(), frame.depth.data() + frame.depth.size(), kept.depth.data(),
                      [](std::uint16_t z) { return metres_of(z); });
       robot().forward_kinematics(kept.joints, kept.T_root_link);
+      masks.push_back(mask_of(frame));
       frames.push_back(std::move(kept));
     }
   }
 
   [[nodiscard]] const Robot& robot() const { return simulation.robot(); }
+
+  /// MuJoCo's picture of the visible robot.
+  static Image<std::uint8_t> mask_of(const sim::SimFrame& frame) {
+    Image<std::uint8_t> mask(frame.ids.width(), frame.ids.height());
+    std::transform(frame.ids.data(), frame.ids.data() + frame.ids.size(), mask.data(),
+                   [](std::int32_t id) { return id > 0 && id < sim::first_object_id ? 255 : 0; });
+    return mask;
+  }
+
+  /// Takes the depth away and gives the frames their masks.
+  void see_masks_only() {
+    for (CalibrationFrame& frame : frames) {
+      frame.depth = {};
+      frame.mask = std::move(masks[frame.index]);
+    }
+  }
 
   /// The true pose, moved by 100 mm and 10 degrees.
   [[nodiscard]] Eigen::Isometry3d off() {
@@ -70,6 +87,7 @@ struct Seen {
   sim::Simulation simulation;
   sim::Random random;
   std::vector<CalibrationFrame> frames;
+  std::vector<Image<std::uint8_t>> masks;
 };
 
 class CalibrationTruth : public testing::Test {
@@ -98,6 +116,60 @@ TEST_F(CalibrationTruth, AFrameWithWrongJointsIsLeftOut) {
   const Calibration found = seen.calibrated({.camera_parent = "", .initial = seen.off()});
   seen.expect_right(found);
   EXPECT_FALSE(found.frames[4].used);
+}
+
+TEST_F(CalibrationTruth, MasksAloneAreEnough) {
+  for (const std::uint64_t seed : {11, 12, 13}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Seen seen(seed);
+    seen.see_masks_only();
+    const Calibration found = seen.calibrated({.camera_parent = "", .initial = seen.off()});
+    seen.expect_right(found);
+    EXPECT_FALSE(found.depth_offset || found.shift_right);
+    EXPECT_GT(found.mask_overlap, 0.85) << "things before the arm are not in the masks";
+  }
+}
+
+TEST_F(CalibrationTruth, MasksAloneFindTheCameraWithoutAGuess) {
+  Seen seen(14);
+  seen.see_masks_only();
+  seen.expect_right(seen.calibrated({.camera_parent = "", .initial = {}}));
+}
+
+TEST_F(CalibrationTruth, AWrongMaskIsNamed) {
+  Seen seen(15, 8);
+  seen.see_masks_only();
+  seen.frames[3].mask = seen.frames[6].mask;
+  const Calibration found = seen.calibrated({.camera_parent = "", .initial = seen.off()});
+  seen.expect_right(found);
+  EXPECT_FALSE(found.frames[3].used);
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_NE(found.notes[0].find("frame 3"), std::string::npos) << found.notes[0];
+}
+
+TEST_F(CalibrationTruth, MasksAloneGiveTheFocalLength) {
+  Seen seen(16, 10);
+  seen.see_masks_only();
+  const Intrinsics& k = seen.simulation.camera().intrinsics;
+  constexpr double longer = 1.04;
+  const Intrinsics given(k.width(), k.height(), longer * k.fx(), longer * k.fy(), k.cx(), k.cy());
+  const Calibration found = calibrate(seen.frames, given, seen.robot(),
+                                      {.camera_parent = "", .initial = seen.off(), .focal = true});
+  seen.expect_right(found);
+  ASSERT_TRUE(found.focal_x && found.focal_y);
+  EXPECT_EQ(found.focal_x->value, found.focal_y->value);
+  EXPECT_NEAR(found.focal_x->value, 1.0 / longer - 1.0,
+              std::max(0.002, 3.0 * found.focal_x->sigma));
+}
+
+TEST_F(CalibrationTruth, EmptyMasksAreRefused) {
+  Seen seen(17, 3);
+  seen.see_masks_only();
+  for (CalibrationFrame& frame : seen.frames)
+    std::fill_n(frame.mask.data(), frame.mask.size(), std::uint8_t{0});
+  for (const std::optional<Eigen::Isometry3d>& initial :
+       {std::optional(seen.off()), std::optional<Eigen::Isometry3d>()})
+    EXPECT_FALSE(seen.calibrated({.camera_parent = "", .initial = initial}).is_good());
 }
 
 TEST_F(CalibrationTruth, ARobotOutOfViewIsRefused) {
