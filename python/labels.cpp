@@ -7,6 +7,7 @@
 #include <python/renderer.hpp>
 
 #include <penumbra/labels/labels.hpp>
+#include <penumbra/pipeline/without_robot.hpp>
 
 namespace penumbra::python {
 namespace {
@@ -119,11 +120,26 @@ void bind_classifier(py::module_& m) {
                     "The SIMD target in use."});
 }
 
+ImageResult<std::uint8_t> front_of_array(const ImageArgument<"virtual_depth", float>& virtual_depth,
+                                         const DepthArgument<"measured">& measured,
+                                         const Tolerance& tolerance) {
+  const Image<std::uint8_t> front =
+      front_of(std::get<0>(virtual_depth.view), measured.view, tolerance);
+  return array_of(front.view(), nullptr);
+}
+
 }  // namespace
 
 void bind_labels(py::module_& m) {
   bind_rule(m);
   bind_classifier(m);
+  m.def("front_of", &front_of_array, py::arg("virtual_depth"), py::arg("measured"),
+        py::arg("tolerance") = Tolerance(),
+        "Returns 255 where the rendered robot stands before what a depth image shows, else 0, "
+        "(H, W): what to paint of another robot over that scene. virtual_depth: metres, 0 where no "
+        "robot is; measured: millimetres (uint16) or metres (float32). The robot is in front up to "
+        "the tolerance behind the measured depth, and where nothing is measured. Raises InputError "
+        "for images of different sizes.");
 }
 
 }  // namespace penumbra::python

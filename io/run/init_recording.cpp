@@ -272,7 +272,7 @@ bool write_camera(Draft& draft, const InitOptions& options, const std::vector<fs
   if (poses.empty()) {
     draft.lack("pose",
                "4 x 4, metres: optical frame to the link that carries the camera; "
-               "penumbra calibrate --search finds it");
+               "penumbra calibrate --search finds it, without depth from --masks");
     return false;
   }
   draft.value("parent", root, "guessed: the robot's root. The link that the pose is given in");
@@ -301,7 +301,9 @@ void write_frames(Draft& draft, const InitOptions& options, const std::vector<fs
   if (depth != nullptr)
     draft.images("depth", *depth);
   else
-    draft.lack("depth", "images of 16 bits (millimetres) or floats (metres), as depth_%d.png");
+    draft.lack("depth",
+               "none: verdicts come from the model; images of a depth camera have 16 bits "
+               "(millimetres) or floats (metres), as depth_%d.png");
   if (color != nullptr)
     draft.images("color", *color);
   else

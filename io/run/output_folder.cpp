@@ -12,6 +12,7 @@
 
 #include <io/files/cloud_file.hpp>
 #include <io/files/disk_file.hpp>
+#include <io/files/json-inl.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/files/png.hpp>
@@ -103,7 +104,8 @@ void remove_former(const fs::path& file) {
 ResultFolderOptions run_results(const OutputOptions& options) {
   return {.path = options.path,
           .report = {"report.json", std::string(report_json_start)},
-          .others = {{"report.html", page_begin, options.report_page}},
+          .others = {{"report.html", page_begin, options.report_page},
+                     {"links.json", "{\n", options.saves.links}},
           .force = options.force,
           .advice = "choose another folder with -o, or write into this one with --force"};
 }
@@ -135,6 +137,11 @@ void OutputFolder::begin(const ReportHead& head) {
     report_file_ = part;
     report_.emplace(part, head);
   });
+  if (!options_.saves.links) return;
+  Json links = Json::object();
+  for (std::size_t i = 0; i < head.links.size(); ++i)
+    links[std::to_string(i + 1)] = {{"link", head.links[i]}};
+  folder_.add_text("links.json", links.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 void OutputFolder::finish(const Statistics& statistics, std::span<const std::string> notes) {

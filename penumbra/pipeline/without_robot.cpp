@@ -96,4 +96,27 @@ Image<std::uint8_t> robot_mask(const VirtualDepthView& virtual_depth) {
   return mask;
 }
 
+Image<std::uint8_t> front_of(const ImageView<const float>& virtual_depth, const DepthView& measured,
+                             const Tolerance& tolerance) {
+  return std::visit(
+      [&](const auto& seen) {
+        if (seen.width != virtual_depth.width || seen.height != virtual_depth.height)
+          throw InputError("the depth image is " + std::to_string(seen.width) + "x" +
+                           std::to_string(seen.height) + ", the virtual one " +
+                           std::to_string(virtual_depth.width) + "x" +
+                           std::to_string(virtual_depth.height));
+        Image<std::uint8_t> front(seen.width, seen.height);
+        for (int v = 0; v < seen.height; ++v)
+          for (int u = 0; u < seen.width; ++u) {
+            const float z = virtual_depth(u, v);
+            if (!(z > 0.0F)) continue;
+            const float d = metres_of(seen(u, v));
+            const bool is_before = d > 0.0F && d < z - static_cast<float>(tolerance.at(z));
+            front(u, v) = is_before ? 0 : 255;
+          }
+        return front;
+      },
+      measured);
+}
+
 }  // namespace penumbra

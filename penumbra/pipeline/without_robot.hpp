@@ -54,4 +54,11 @@ class CloudMaker {
 /// show it, if nothing stands before it.
 [[nodiscard]] Image<std::uint8_t> robot_mask(const VirtualDepthView& virtual_depth);
 
+/// Returns 255 where the rendered robot stands before what a depth image shows, else 0: what to
+/// paint of another robot over that scene. It is in front up to the tolerance behind the measured
+/// depth, and where nothing is measured. Throws InputError for images of different sizes.
+[[nodiscard]] Image<std::uint8_t> front_of(const ImageView<const float>& virtual_depth,
+                                           const DepthView& measured,
+                                           const Tolerance& tolerance = {});
+
 }  // namespace penumbra

@@ -100,6 +100,28 @@ TEST(WithoutDepth, TheMaskIsTheRobotAndItsPixelsAreUnknown) {
     }
 }
 
+TEST(WithoutDepth, AnotherRobotIsPaintedWhereItStandsBeforeTheScene) {
+  Pipeline pipeline(slab_robot(), slab_camera(), without_depth());
+  const FrameReport& report = pipeline.process({.pose = {.positions = {0.2}}});
+  const Tolerance tolerance{.a = 0.02, .b = 0.0, .c = 0.0};
+  const auto& virtual_depth = report.virtual_depth.depth;
+  Image<float> scene(virtual_depth.width, virtual_depth.height);
+  const auto scene_at = [&](int u, int v) {  // behind, a little before, far before, not measured
+    const auto z = static_cast<float>(robot_depth_at(u, v, 0.2).depth);
+    return std::array{z + 0.5F, z - 0.015F, z - 0.03F, 0.0F}.at(static_cast<std::size_t>(u + v) %
+                                                                4);
+  };
+  for (int v = 0; v < scene.height(); ++v)
+    for (int u = 0; u < scene.width(); ++u) scene(u, v) = scene_at(u, v);
+  const Image<std::uint8_t> front = front_of(virtual_depth, scene.view(), tolerance);
+  for (int v = 0; v < scene.height(); ++v)
+    for (int u = 0; u < scene.width(); ++u) {
+      const bool is_robot = robot_depth_at(u, v, 0.2).link != 0;
+      ASSERT_EQ(front(u, v), is_robot && (u + v) % 4 != 2 ? 255 : 0) << u << ' ' << v;
+    }
+  EXPECT_THROW((void)front_of(virtual_depth, Image<float>(2, 2).view()), InputError);
+}
+
 TEST(WithoutDepth, ATargetOfUnknownDepthIsUnknownBehindTheRobot) {
   Pipeline pipeline(slab_robot(), slab_camera(), without_depth());
   Frame frame{.pose = {.positions = {0.0}}};

@@ -51,6 +51,18 @@ def test_labels_follow_the_rule():
     assert sum(labels.pixels.values()) == 5
 
 
+def test_another_robot_is_painted_before_what_is_behind_it():
+    virtual_depth = np.array([[1.0, 1.0, 1.0, 1.0, 0.0]], np.float32)
+    measured = np.array([[1.2, 0.985, 0.9, 0.0, 0.5]], np.float32)
+    tolerance = penumbra.Tolerance(a=0.02, b=0.0, c=0.0)
+    front = penumbra.front_of(virtual_depth, measured, tolerance)
+    assert front.tolist() == [[255, 255, 0, 255, 0]]
+    millimetres = (1000 * measured).astype(np.uint16)
+    assert np.array_equal(penumbra.front_of(virtual_depth, millimetres, tolerance), front)
+    with pytest.raises(penumbra.InputError, match="5x1"):
+        penumbra.front_of(virtual_depth, measured[:, :3])
+
+
 def test_millimetres_are_metres(shipped):
     frame = shipped.frames[4]
     metres = frame.depth.astype(np.float32) * np.float32(0.001)
