@@ -46,6 +46,9 @@ dask_settings = {
     "distributed.scheduler.allowed-failures": 100,
     # This long after a death the local cluster drops the worker for good if it is just restarting.
     "distributed.deploy.lost-worker-timeout": "1000 days",
+    # Not Dask's MALLOC_TRIM_THRESHOLD_, with which each image is memory of its own, got and given
+    # back: masks take three times as long.
+    "distributed.nanny.pre-spawn-environ": {"OMP_NUM_THREADS": 1, "OPENBLAS_NUM_THREADS": 1},
     # By default Dask's watch over itself takes a tenth of a core of the local cluster.
     "distributed.worker.profile.interval": "1s",
     "distributed.worker.memory.monitor-interval": "1s",
