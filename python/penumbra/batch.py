@@ -285,8 +285,10 @@ def run(
     if not program.exists():
         raise InputError(f"{program} is not there; install the package again")
     with_options = [(path, [*options, *own]) for path, own in given]
-    return run_work(_penumbra_run, with_options, _files_of, output, workers=workers,
-                    scheduler=scheduler, retry_failed=retry_failed, on_progress=on_progress)  # fmt: skip
+    return run_work(
+        _penumbra_run, with_options, _files_of, output, workers=workers, scheduler=scheduler,
+        retry_failed=retry_failed, on_progress=on_progress,
+    )  # fmt: skip
 
 
 def run_work(

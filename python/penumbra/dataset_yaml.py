@@ -60,16 +60,37 @@ LAYOUTS = {
     "aloha": Layout(("observations/qpos",), color="observations/images/{camera}"),
     "droid": Layout(
         ("observation/robot_state/joint_positions", "observation/robot_state/gripper_position"),
-        pose="observation/camera_extrinsics/{camera}"),
+        pose="observation/camera_extrinsics/{camera}",
+    ),
     "lerobot": Layout(("observation.state",), "episode_index", "observation.images.{camera}"),
-    "robomimic": Layout(("obs/robot0_joint_pos", "obs/robot0_gripper_qpos"), "data/*",
-                        "obs/{camera}_image", "obs/{camera}_depth"),
-    "robomind": Layout(("puppet/joint_position",), color="observations/rgb_images/{camera}",
-                       depth="observations/depth_images/{camera}"),
-}  # fmt: skip
+    "robomimic": Layout(
+        ("obs/robot0_joint_pos", "obs/robot0_gripper_qpos"),
+        "data/*",
+        "obs/{camera}_image",
+        "obs/{camera}_depth",
+    ),
+    "robomind": Layout(
+        ("puppet/joint_position",),
+        color="observations/rgb_images/{camera}",
+        depth="observations/depth_images/{camera}",
+    ),
+}
 
-CAMERA_KEYS = ("name", "info", "rectified", "width", "height", "fx", "fy", "cx", "cy", "parent",
-               "pose", "sensor", "depth_scale")  # fmt: skip
+CAMERA_KEYS = (
+    "name",
+    "info",
+    "rectified",
+    "width",
+    "height",
+    "fx",
+    "fy",
+    "cx",
+    "cy",
+    "parent",
+    "pose",
+    "sensor",
+    "depth_scale",
+)
 ROBOT_KEYS = ("urdf", "packages", "geometry", "geometry_fallback", "ignore_links")
 
 
@@ -142,8 +163,10 @@ def _layout(node: Any) -> Layout:
     if isinstance(node, str) and node in LAYOUTS:
         return LAYOUTS[node]
     if not isinstance(node, dict):
-        raise InputError(f"layout: expected one of {', '.join(LAYOUTS)}, or your own paths "
-                         f"({', '.join(Layout._fields)}); got {node}")  # fmt: skip
+        raise InputError(
+            f"layout: expected one of {', '.join(LAYOUTS)}, or your own paths "
+            f"({', '.join(Layout._fields)}); got {node}"
+        )
     keys = _only(node, "layout", Layout._fields)
     columns = _of(keys, "layout", "columns")
     rest = {key: str(value) for key, value in keys.items() if key != "columns"}
@@ -167,8 +190,9 @@ def _joint(node: Any, place: int) -> JointColumn:
     if column < 0:
         raise InputError(f"{where}: column: expected a number from 0; got {column}")
     factor = degree if unit == "degrees" else 1.0
-    return JointColumn(name, column, factor * float(keys.get("scale", 1)),
-                       factor * float(keys.get("offset", 0)))  # fmt: skip
+    return JointColumn(
+        name, column, factor * float(keys.get("scale", 1)), factor * float(keys.get("offset", 0))
+    )
 
 
 def needed(name: str, package: str) -> Any:
@@ -185,14 +209,18 @@ def poses_of(given: NDArray[Any], frames: int) -> NDArray[np.float64]:
     if poses.shape[-1:] == (6,):
         sx, sy, sz = np.moveaxis(np.sin(poses[..., 3:]), -1, 0)
         cx, cy, cz = np.moveaxis(np.cos(poses[..., 3:]), -1, 0)
-        rows = [[cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx, poses[..., 0]],
-                [sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx, poses[..., 1]],
-                [-sy, cy * sx, cy * cx, poses[..., 2]],
-                [0 * sx, 0 * sx, 0 * sx, 0 * sx + 1]]  # fmt: skip
+        rows = [
+            [cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx, poses[..., 0]],
+            [sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx, poses[..., 1]],
+            [-sy, cy * sx, cy * cx, poses[..., 2]],
+            [0 * sx, 0 * sx, 0 * sx, 0 * sx + 1],
+        ]
         poses = np.moveaxis(np.array(rows), (0, 1), (-2, -1))
     if poses.shape not in ((4, 4), (frames, 4, 4)):
-        raise InputError(f"camera pose: expected 4 x 4 or 6 numbers, for all {frames} frames or each "
-                         f"of them; got shape {np.shape(given)}")  # fmt: skip
+        raise InputError(
+            f"camera pose: expected 4 x 4 or 6 numbers, for all {frames} frames or each "
+            f"of them; got shape {np.shape(given)}"
+        )
     turn = poses[..., :3, :3]
     is_rigid = np.allclose(turn @ np.swapaxes(turn, -1, -2), np.eye(3), atol=1e-3)
     if not is_rigid or not np.all(np.linalg.det(turn) > 0) or not np.all(np.isfinite(poses)):

@@ -12,7 +12,6 @@ import difflib
 import fnmatch
 import functools
 import glob
-import io
 import os
 import pathlib
 import sys
@@ -45,11 +44,10 @@ from penumbra.dataset_yaml import (
     needed,
     poses_of,
 )
+from penumbra.episode_images import Images, array_images, file_images, item_image
 from penumbra.mask_files import write
 
 __all__ = ["LAYOUTS", "CloudOptions", "Dataset", "Episode", "JointColumn", "Layout", "run", "write"]
-
-Images = Callable[[int], NDArray[Any]]  # the image of a frame
 
 beyond_range = 0.1  # of a joint's range: that far beyond its limits a value is not a position
 most_beyond = 0.1  # of the frames
@@ -123,8 +121,10 @@ class Dataset:
         for what, images in (("colour", color), ("depth", depth)):
             height, width = images(0).shape[:2] if images else (k.height, k.width)
             if (height, width) != (k.height, k.width):
-                raise InputError(f"{what} images are {width}x{height}, but the camera of "
-                                 f"dataset.yaml has {k.width}x{k.height}")  # fmt: skip
+                raise InputError(
+                    f"{what} images are {width}x{height}, but the camera of "
+                    f"dataset.yaml has {k.width}x{k.height}"
+                )
         in_units = None if depth is None else functools.partial(self._depth, depth)
         return Episode(name, joints, of_camera, color, in_units)
 
@@ -135,16 +135,21 @@ class Dataset:
         with _open(file) as opened:
             names = [""]
             for pattern in self._layout.episodes.split("/"):
-                names = [f"{name}/{key}" for name in names
-                         for key in fnmatch.filter((opened[name] if name else opened), pattern)]  # fmt: skip
+                names = [
+                    f"{name}/{key}"
+                    for name in names
+                    for key in fnmatch.filter((opened[name] if name else opened), pattern)
+                ]
         if not names:
             raise InputError(f"{file}: has no group {self._layout.episodes}")
         return sorted((name[1:] for name in names), key=lambda name: (len(name), name))
 
     def read(self, file: str | os.PathLike[str], group: str = "") -> Episode:
-        """Reads an episode of an HDF5 or .npz file. Its images are read later. Raises InputError."""
-        opened = _open(file)
+        """Reads an episode of an HDF5 or .npz file; images when they are used. Raises InputError."""
         layout, within = self._layout, f"{group}/" if group else ""
+        opened = _open(file)
+        if layout.episodes and not group:
+            raise InputError(f"has no group {layout.episodes}, or none is chosen")
 
         def at(key: str) -> Any:
             try:
@@ -152,17 +157,21 @@ class Dataset:
             except KeyError:
                 raise InputError(f"{within}{key} is not in the file") from None
 
+        def images(key: str) -> Images:
+            return array_images(at(key), within + key)
+
         depth: Optional[Images] = None
         if layout.depth.endswith(image_files):
-            depth = _file_images(pathlib.Path(file).parent, layout.depth)
+            depth = file_images(pathlib.Path(file).parent, layout.depth)
         elif layout.depth and within + layout.depth in opened:
-            depth = _array_images(at(layout.depth))
+            depth = images(layout.depth)
         return self.episode(
             f"{file}/{group}" if group else str(file),
             _side_by_side([at(key)[()] for key in layout.columns]),
             pose=at(layout.pose)[()] if layout.pose else None,
-            color=_array_images(at(layout.color)) if layout.color else None, depth=depth,
-        )  # fmt: skip
+            color=images(layout.color) if layout.color else None,
+            depth=depth,
+        )
 
     def from_dicts(
         self,
@@ -175,8 +184,12 @@ class Dataset:
         for an episode that is wrong; None: raises its InputError.
         """
         layout, start = self._layout, 0
+        keys = (layout.episodes, *layout.columns, layout.color, layout.depth, layout.pose)
         while start < len(items):
             first = items[start]
+            missing = [key for key in keys if key and key not in first]
+            if missing:
+                raise InputError(f"{missing[0]} is not among the keys: {', '.join(first)}")
             number, rows, last = first[layout.episodes], [], start
             while last < len(items):
                 item = first if last == start else items[last]
@@ -185,8 +198,11 @@ class Dataset:
                 rows.append([np.asarray(item[key], float).ravel() for key in layout.columns])
                 last += 1
             name = f"episode_{int(number):06d}"
-            images = {key: functools.partial(_item_image, items, start, of)
-                      for key, of in (("color", layout.color), ("depth", layout.depth)) if of}  # fmt: skip
+            images = {
+                key: functools.partial(item_image, items, start, of)
+                for key, of in (("color", layout.color), ("depth", layout.depth))
+                if of
+            }
             try:
                 columns = np.array([np.concatenate(row) for row in rows])
                 pose = np.asarray(first[layout.pose]) if layout.pose else None
@@ -227,16 +243,20 @@ class Dataset:
         joints = np.empty((len(columns), len(self._columns)))
         for i, of in enumerate(self._columns):
             if of.column is not None and of.column >= columns.shape[1]:
-                raise InputError(f"joint {of.joint}: column {of.column} is missing: "
-                                 f"the episode has {columns.shape[1]} columns")  # fmt: skip
+                raise InputError(
+                    f"joint {of.joint}: column {of.column} is missing: "
+                    f"the episode has {columns.shape[1]} columns"
+                )
             joints[:, i] = of.offset
             if of.column is not None:
                 joints[:, i] += of.scale * columns[:, of.column]
         bad = np.argwhere(~np.isfinite(joints))
         if len(bad):
             frame, i = bad[0]
-            raise InputError(f"joint {self._columns[i].joint}: {joints[frame, i]} in frame {frame}, "
-                             f"{len(np.unique(bad[:, 0]))} such frames")  # fmt: skip
+            raise InputError(
+                f"joint {self._columns[i].joint}: {joints[frame, i]} in frame {frame}, "
+                f"{len(np.unique(bad[:, 0]))} such frames"
+            )
         return joints
 
     def _depth(self, images: Images, t: int) -> NDArray[Any]:
@@ -260,8 +280,10 @@ def _in_order(joints: Sequence[JointColumn], robot: Robot) -> list[JointColumn]:
             raise InputError(f"joints: {name} is not a joint{hint}")
     missing = [name for name in robot.variables if name not in of]
     if missing:
-        raise InputError(f"joints: {', '.join(missing)}: give a column, or the value of a joint "
-                         "that does not move")  # fmt: skip
+        raise InputError(
+            f"joints: {', '.join(missing)}: give a column, or the value of a joint "
+            "that does not move"
+        )
     return [of[name] for name in robot.variables]
 
 
@@ -274,11 +296,15 @@ def _check_limits(joints: NDArray[np.float64], robot: Robot) -> None:
         beyond = np.maximum(joint.lower - values, values - joint.upper)
         share = np.mean(beyond > beyond_range * reach)
         if reach > 0 and share > most_beyond:
-            hint = ("set its scale and offset" if joint.type == JointType.prismatic else
-                    f"if the values look like degrees: set unit: degrees, or scale: {degree:.7f}")
+            hint = (
+                "set its scale and offset"
+                if joint.type == JointType.prismatic
+                else f"if the values look like degrees: set unit: degrees, or scale: {degree:.7f}"
+            )
             raise InputError(
                 f"joint {joint.name}: {values[np.argmax(beyond)]:.4g} is beyond the URDF's limits "
-                f"({joint.lower:.4g} to {joint.upper:.4g}), as {100 * share:.0f} % of its values: {hint}")
+                f"({joint.lower:.4g} to {joint.upper:.4g}), as {100 * share:.0f} % of all: {hint}"
+            )
 
 
 def _open(file: str | os.PathLike[str]) -> Any:
@@ -293,63 +319,10 @@ def _open(file: str | os.PathLike[str]) -> Any:
 def _side_by_side(arrays: Sequence[NDArray[Any]]) -> NDArray[np.float64]:
     if len({len(array) for array in arrays}) > 1:
         raise InputError(f"joints: arrays of {' and '.join(str(len(a)) for a in arrays)} frames")
-    return np.concatenate([np.asarray(a, float).reshape(len(a), -1) if len(a) else np.empty((0, 1))
-                           for a in arrays], axis=1)  # fmt: skip
-
-
-def _decoded(source: Any) -> Iterator[NDArray[Any]]:
-    """The images of a file, a video or bytes: 16-bit grey, or red, green and blue."""
-    av = needed("av", "python3-av")
-    try:
-        with av.open(source) as opened:
-            for frame in opened.decode(video=0):
-                is_depth = frame.format.name.startswith("gray16")
-                yield frame.to_ndarray(format="gray16le" if is_depth else "rgb24")
-    except (OSError, ValueError) as error:
-        name = source if isinstance(source, str) else "image"
-        raise InputError(f"{name}: cannot be read: {error}") from None
-
-
-def _array_images(data: Any) -> Images:
-    """T x H x W (x 3), or encoded images: T x bytes."""
-
-    def image(t: int) -> NDArray[Any]:
-        if t >= len(data):
-            raise InputError(f"{data.name}: has {len(data)} images, fewer than frames")
-        value = np.asarray(data[t])
-        return value if value.ndim > 1 else next(_decoded(io.BytesIO(value.tobytes())))
-
-    return image
-
-
-def _file_images(folder: pathlib.Path, name: str) -> Images:
-    """A file for each frame, or a video whose frames are read one after another."""
-    at = 0
-    frames: Iterator[NDArray[Any]] = iter(())
-
-    def image(t: int) -> NDArray[Any]:
-        nonlocal at, frames
-        if "%" in name:
-            return next(_decoded(str(folder / (name % t))))
-        if t == 0:
-            at, frames = 0, _decoded(str(folder / name))
-        for found in frames:
-            at += 1
-            if at == t + 1:
-                return found
-        raise InputError(f"{name}: has {at} images, fewer than frames")
-
-    return image
-
-
-def _item_image(items: Any, start: int, key: str, t: int) -> NDArray[Any]:
-    """Torch's images have their channels first, and floats for bytes."""
-    image = np.asarray(items[start + t][key])
-    if image.ndim == 3 and image.shape[0] in (1, 3):
-        image = np.moveaxis(image, 0, -1)
-    if image.shape[-1] == 3 and image.dtype.kind == "f":
-        image = np.rint(255 * image).astype(np.uint8)
-    return np.ascontiguousarray(image)
+    return np.concatenate(
+        [np.asarray(a, float).reshape(len(a), -1) if len(a) else np.empty((0, 1)) for a in arrays],
+        axis=1,
+    )
 
 
 def _file_of(name: str) -> pathlib.Path:
@@ -371,13 +344,13 @@ def _write_masks(
     dataset = _loaded(description, os.stat(description).st_mtime_ns)
     file = _file_of(name)
     group = pathlib.Path(name).relative_to(file).as_posix()
-    try:
-        episode = dataset.read(file, "" if group == "." else group)
-        contents = write(dataset, episode, part / "run", save)
-    except (KeyError, OSError) as error:
-        raise InputError(f"cannot be read: {error}") from None
-    return {"frames": contents["frames"], "bad_frames": 0,
-            "pixels_robot": sum(contents["robot_pixels"])}  # fmt: skip
+    episode = dataset.read(file, "" if group == "." else group)
+    contents = write(dataset, episode, part / "run", save)
+    return {
+        "frames": contents["frames"],
+        "bad_frames": 0,
+        "pixels_robot": sum(contents["robot_pixels"]),
+    }
 
 
 def _episodes(inputs: Iterable[str | os.PathLike[str]], dataset: Dataset) -> list[str]:
@@ -418,7 +391,8 @@ def run(
     mask_files.check(save)
     given = [(name, [file, *save]) for name in _episodes(inputs, Dataset.load(file))]
     return batch.run_work(
-        _write_masks, given, lambda name: [_file_of(name), pathlib.Path(file)], output, **where)  # fmt: skip
+        _write_masks, given, lambda name: [_file_of(name), pathlib.Path(file)], output, **where
+    )
 
 
 def main() -> int:
@@ -426,8 +400,8 @@ def main() -> int:
         prog="python3 -m penumbra.datasets",
         description="Writes the robot's masks in the episodes of a data set, on all cores or on a "
         "cluster of Dask's. What is done and unchanged is not done again.",
-        epilog="Exit status: 0; 1 if an episode failed; 2 if all failed or the arguments are wrong; "
-        "130 after Ctrl-C.",
+        epilog="Exit status: 0; 1 if an episode failed; 2 if all failed or the arguments are "
+        "wrong; 130 after Ctrl-C.",
         allow_abbrev=False,
     )
     parser.add_argument("inputs", nargs="+", metavar="FILE", help="HDF5, .npz, or 'pattern*.hdf5'")
@@ -435,8 +409,13 @@ def main() -> int:
     parser.add_argument("--save", default="rle", help=",".join(mask_files.WRITERS))
     batch.add_options(parser)
     known = parser.parse_args()
-    return batch.report(parser, known, lambda where: run(
-        known.inputs, known.output, known.dataset, known.save.split(","), **where))  # fmt: skip
+    return batch.report(
+        parser,
+        known,
+        lambda where: run(
+            known.inputs, known.output, known.dataset, known.save.split(","), **where
+        ),
+    )
 
 
 if __name__ == "__main__":

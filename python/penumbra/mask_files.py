@@ -62,12 +62,16 @@ class _Rle:
 
     def __init__(self, folder: pathlib.Path, dataset: Dataset, episode: Episode) -> None:
         k = dataset.camera.intrinsics
-        images = [{"id": t, "width": k.width, "height": k.height, "file_name": f"{t:06d}.png"}
-                  for t in range(len(episode.joints))]  # fmt: skip
+        images = [
+            {"id": t, "width": k.width, "height": k.height, "file_name": f"{t:06d}.png"}
+            for t in range(len(episode.joints))
+        ]
         categories = [{"id": 1, "name": "robot"}]
         self._out = open(folder / "masks.json", "w", encoding="utf-8")
-        self._out.write(f'{{"images": {json.dumps(images)},\n"categories": {json.dumps(categories)},'
-                        '\n"annotations": [')  # fmt: skip
+        self._out.write(
+            f'{{"images": {json.dumps(images)},\n"categories": {json.dumps(categories)},'
+            '\n"annotations": ['
+        )
         self._separator = "\n"
 
     def add(self, t: int, report: FrameReport) -> None:
@@ -76,9 +80,15 @@ class _Rle:
         if not len(columns):
             return
         box = [columns[0], rows[0], columns[-1] - columns[0] + 1, rows[-1] - rows[0] + 1]
-        annotation = {"id": t, "image_id": t, "category_id": 1, "iscrowd": 0,
-                      "area": int(np.count_nonzero(mask)), "bbox": [int(of) for of in box],
-                      "segmentation": rle(mask)}  # fmt: skip
+        annotation = {
+            "id": t,
+            "image_id": t,
+            "category_id": 1,
+            "iscrowd": 0,
+            "area": int(np.count_nonzero(mask)),
+            "bbox": [int(of) for of in box],
+            "segmentation": rle(mask),
+        }
         self._out.write(self._separator + json.dumps(annotation))
         self._separator = ",\n"
 
@@ -93,7 +103,9 @@ class _Npz:
     def __init__(self, folder: pathlib.Path, dataset: Dataset, episode: Episode) -> None:
         k = dataset.camera.intrinsics
         self._rest = {"names": np.array(dataset.robot.links), "joints": episode.joints}
-        self._zip = zipfile.ZipFile(folder / "masks.npz", "w", zipfile.ZIP_DEFLATED, compresslevel=1)
+        self._zip = zipfile.ZipFile(
+            folder / "masks.npz", "w", zipfile.ZIP_DEFLATED, compresslevel=1
+        )
         self._out = self._zip.open("links.npy", "w", force_zip64=True)
         shape = (len(episode.joints), k.height, k.width)
         npy_format.write_array_header_1_0(
@@ -133,13 +145,17 @@ class _Video:
     def __init__(self, folder: pathlib.Path, dataset: Dataset, episode: Episode) -> None:
         self._av = needed("av", "python3-av")
         names = dataset.robot.links
-        colors = [[round(255 * c) for c in colorsys.hsv_to_rgb(i / len(names), 0.8, 1)]
-                  for i in range(len(names))]  # fmt: skip
+        colors = [
+            [round(255 * c) for c in colorsys.hsv_to_rgb(i / len(names), 0.8, 1)]
+            for i in range(len(names))
+        ]
         links = {i + 1: {"link": name, "colour": colors[i]} for i, name in enumerate(names)}
         (folder / "links.json").write_text(json.dumps(links, indent=1), encoding="utf-8")
         k = dataset.camera.intrinsics
         self._out = self._av.open(str(folder / self.name), "w")
-        self._stream = self._out.add_stream(self.codec, rate=frames_per_second, options=self.options)
+        self._stream = self._out.add_stream(
+            self.codec, rate=frames_per_second, options=self.options
+        )
         self._stream.width, self._stream.height, self._stream.pix_fmt = k.width, k.height, "gray"
 
     def add(self, t: int, report: FrameReport) -> None:
@@ -163,7 +179,9 @@ class _Prompts:
         self._out.write('{"frames": [')
 
     def add(self, t: int, report: FrameReport) -> None:
-        found = {report.links[value - 1]: prompt for value, prompt in prompts(_links(report)).items()}
+        found = {
+            report.links[value - 1]: prompt for value, prompt in prompts(_links(report)).items()
+        }
         self._out.write((",\n" if t else "\n") + json.dumps({"frame": t, "links": found}))
 
     def close(self) -> None:
@@ -309,8 +327,15 @@ def _links(report: FrameReport) -> NDArray[np.uint8]:
     return links.astype(np.uint8)
 
 
-WRITERS: dict[str, Any] = {"rle": _Rle, "npz": _Npz, "png": _Png, "video": _Video, "h264": _H264,
-                           "prompts": _Prompts, "clouds": _Clouds}  # fmt: skip
+WRITERS: dict[str, Any] = {
+    "rle": _Rle,
+    "npz": _Npz,
+    "png": _Png,
+    "video": _Video,
+    "h264": _H264,
+    "prompts": _Prompts,
+    "clouds": _Clouds,
+}
 
 
 def check(save: Sequence[str]) -> None:
@@ -332,8 +357,10 @@ def write(
     check(save)
     links = dataset.robot.links
     if len(links) > most_links:
-        raise InputError(f"the robot has {len(links)} links; masks of more than {most_links} "
-                         "are not supported")  # fmt: skip
+        raise InputError(
+            f"the robot has {len(links)} links; masks of more than {most_links} "
+            "are not supported"
+        )
     out = pathlib.Path(folder)
     out.mkdir(parents=True, exist_ok=True)
     pixels = []
@@ -345,7 +372,13 @@ def write(
             for writer in writers:
                 writer.add(t, report)
             pixels.append(report.pixels.robot)
-    contents = {"penumbra": __version__, "episode": episode.name, "links": list(links),
-                "save": list(save), "frames": len(pixels), "robot_pixels": pixels}  # fmt: skip
+    contents = {
+        "penumbra": __version__,
+        "episode": episode.name,
+        "links": list(links),
+        "save": list(save),
+        "frames": len(pixels),
+        "robot_pixels": pixels,
+    }
     (out / "report.json").write_text(json.dumps(contents, indent=1), encoding="utf-8")
     return contents

@@ -187,6 +187,9 @@ def test_dictionaries_give_the_same_and_a_faulty_episode_is_left_out(arm, joints
     assert np.array_equal(episodes[0].color(1), color[1])
     with pytest.raises(penumbra.InputError, match="episode_000005"):
         list(dataset.from_dicts(items))
+    other = datasets.Dataset.load(describe(tmp_path, layout="lerobot", camera={"name": "front"}))
+    with pytest.raises(penumbra.InputError, match="images.front is not among the keys: .*images.top"):
+        list(other.from_dicts(items))
 
 
 def test_arrays_and_npz(arm, joints, truth, tmp_path):
@@ -401,6 +404,17 @@ def test_groups_of_one_file_are_episodes_of_a_batch(arm, joints, tmp_path):
     assert [record["status"] for record in records] == ["done"] * 3
     assert [record["input"] for record in records] == [f"{file}/data/demo_{i}" for i in (0, 2, 10)]
     assert records[0]["frames"] == 5 and records[0]["pixels_robot"] > 50_000
+
+
+def test_files_without_episodes_or_with_few_images_are_faults(joints, tmp_path):
+    file = write_h5(tmp_path / "it.hdf5", {"qpos": recorded(joints), "depth": np.ones((3, HEIGHT, WIDTH), np.uint16)})
+    dataset = datasets.Dataset.load(describe(tmp_path, layout="robomimic"))
+    for call in (dataset.groups, dataset.read):
+        with pytest.raises(penumbra.InputError, match=r"no group data/\*"):
+            call(file)
+    dataset = datasets.Dataset.load(describe(tmp_path, layout={"columns": "qpos", "depth": "depth"}))
+    with pytest.raises(penumbra.InputError, match="3 images"):
+        datasets.write(dataset, dataset.read(file), tmp_path / "out", ["clouds"])
 
 
 def depth_files(folder, depth, kind):
