@@ -23,7 +23,8 @@ test=(libgtest-dev libassimp-dev libembree-dev liburdfdom-dev libopencv-calib3d-
       libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri libfastcdr-dev libfastrtps-dev nodejs npm
       ffmpeg clang libclang-rt-14-dev colcon python3-colcon-package-information python3-colcon-package-selection
       python3-colcon-ros
-      python3-catkin-pkg python3-distributed python3-pytest python3-mypy python3-yaml python3-pil)
+      python3-catkin-pkg python3-distributed python3-pytest python3-mypy python3-yaml python3-pil
+      python3-h5py python3-av)
 web=(chromium fonts-dejavu-core nodejs npm)
 docs=(doxygen python3-breathe python3-sphinx python3-myst-parser furo)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)

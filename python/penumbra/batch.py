@@ -46,6 +46,9 @@ dask_settings = {
     "distributed.scheduler.allowed-failures": 100,
     # This long after a death the local cluster drops the worker for good if it is just restarting.
     "distributed.deploy.lost-worker-timeout": "1000 days",
+    # Not Dask's MALLOC_TRIM_THRESHOLD_, with which each image is memory of its own, got and given
+    # back: masks take three times as long.
+    "distributed.nanny.pre-spawn-environ": {"OMP_NUM_THREADS": 1, "OPENBLAS_NUM_THREADS": 1},
     # By default Dask's watch over itself takes a tenth of a core of the local cluster.
     "distributed.worker.profile.interval": "1s",
     "distributed.worker.memory.monitor-interval": "1s",
@@ -63,8 +66,12 @@ columns = (
 )  # fmt: skip
 
 
-# Input, options, working folder for their relative paths, fingerprint and the result's folder.
-_Job = tuple[str, list[str], str, str, pathlib.Path]
+# Does an input with its options, in a working folder for their relative paths, and writes the
+# result into a folder. Returns numbers for the record. Raises InputError for a faulty input.
+Work = Callable[[str, list[str], str, pathlib.Path], dict[str, Any]]
+# Work, input, options, working folder, fingerprint and the result's folder.
+_Job = tuple[Work, str, list[str], str, str, pathlib.Path]
+Progress = Callable[[int, int, dict[str, Any]], None]
 
 
 def _files_of(path: str | os.PathLike[str]) -> list[pathlib.Path]:
@@ -73,13 +80,13 @@ def _files_of(path: str | os.PathLike[str]) -> list[pathlib.Path]:
     return sorted(pathlib.Path(at, name) for at, _, names in os.walk(path) for name in names)
 
 
-def _fingerprint(path: str, options: Sequence[str]) -> str:
-    """Of the input's own files by name, size and time, the options and this version."""
+def _fingerprint(path: str, options: Sequence[str], files: Iterable[pathlib.Path]) -> str:
+    """Of the input's files by name, size and time, the options and this version."""
     hashed = hashlib.sha256(json.dumps([__version__, path, options]).encode())
-    for file in _files_of(path):
+    for file in files:
         try:
             status = file.stat()
-        except OSError:  # `penumbra run` says what is wrong
+        except OSError:  # the work says what is wrong
             continue
         hashed.update(os.fsencode(f"{file}\0{status.st_size}\0{status.st_mtime_ns}\n"))
     return hashed.hexdigest()
@@ -141,15 +148,10 @@ def _alone_in(output: pathlib.Path) -> Iterator[None]:
         yield
 
 
-def _judge(
-    path: str, options: list[str], working_folder: str, fingerprint: str, folder: pathlib.Path
+def _penumbra_run(
+    path: str, options: list[str], working_folder: str, part: pathlib.Path
 ) -> dict[str, Any]:
-    """Runs on a worker. Replaces the input's result, whole, and returns its record."""
-    part = folder.parent / part_name / f"{folder.name}-{uuid.uuid4().hex}"
-    part.mkdir()
-    (part / record_name).touch()
     threads = [] if "--threads" in options else ["--threads", "1"]
-    start = time.monotonic()
     done = subprocess.run(
         [program, "run", path, "-o", part / "run", *threads, *options],
         capture_output=True, text=True, errors="surrogateescape", preexec_fn=_die_with_parent,
@@ -158,14 +160,30 @@ def _judge(
     fault = (done.stderr.strip().splitlines() or ["no message"])[-1].removeprefix("penumbra: ")
     reports = list(_reports(part)) if done.returncode == 0 else []
     if not reports and done.returncode != nothing_judged:  # not the input's fault: it is not kept
-        shutil.rmtree(part, ignore_errors=True)
         raise RuntimeError(f"penumbra run gave no result (status {done.returncode}): {fault}")
+    if not reports:
+        raise InputError(fault)
+    return _numbers(reports)
+
+
+def _make_result(
+    work: Work, path: str, options: list[str], working_folder: str, fingerprint: str,
+    folder: pathlib.Path,
+) -> dict[str, Any]:  # fmt: skip
+    """Runs on a worker. Replaces the input's result, whole, and returns its record."""
+    part = folder.parent / part_name / f"{folder.name}-{uuid.uuid4().hex}"
+    part.mkdir()
+    (part / record_name).touch()
+    start = time.monotonic()
     record: dict[str, Any] = {"input": path, "result": folder.name, "penumbra": __version__}
-    if reports:
-        record |= {"status": "done", **_numbers(reports)}
-    else:
-        record |= {"status": "failed", "fault": fault}
+    try:
+        record |= {"status": "done", **work(path, options, working_folder, part)}
+    except InputError as error:
+        record |= {"status": "failed", "fault": str(error)}
         shutil.rmtree(part / "run", ignore_errors=True)
+    except BaseException:
+        shutil.rmtree(part, ignore_errors=True)
+        raise
     record["seconds"] = round(time.monotonic() - start, 3)
     record["bytes"] = sum(file.stat().st_size for file in _files_of(part))
     with (part / record_name).open("r+", encoding="utf-8") as file:  # fails if it was removed
@@ -241,7 +259,7 @@ def run(
     workers: int | None = None,
     scheduler: str | None = None,
     retry_failed: bool = False,
-    on_progress: Callable[[int, int, dict[str, Any]], None] = lambda done, all_inputs, record: None,
+    on_progress: Progress = lambda done, all_inputs, record: None,
 ) -> list[dict[str, Any]]:
     """Runs `penumbra run` on each input and returns a record of each, in their order.
 
@@ -266,6 +284,29 @@ def run(
     given = _inputs(str(name) for name in inputs)
     if not program.exists():
         raise InputError(f"{program} is not there; install the package again")
+    with_options = [(path, [*options, *own]) for path, own in given]
+    return run_work(
+        _penumbra_run, with_options, _files_of, output, workers=workers, scheduler=scheduler,
+        retry_failed=retry_failed, on_progress=on_progress,
+    )  # fmt: skip
+
+
+def run_work(
+    work: Work,
+    given: Sequence[tuple[str, list[str]]],
+    files_of: Callable[[str], Iterable[pathlib.Path]],
+    output: str | os.PathLike[str],
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    retry_failed: bool = False,
+    on_progress: Progress = lambda done, all_inputs, record: None,
+) -> list[dict[str, Any]]:
+    """Does any work on inputs as run() does `penumbra run`.
+
+    work: a function of a module; writes a report.json into run/ of the folder that it is given.
+    given: inputs, each once, with their options. files_of: the files that an input is made of.
+    """
     folder = pathlib.Path(output).absolute()
     records: dict[str, dict[str, Any]] = {}
 
@@ -274,15 +315,14 @@ def run(
         on_progress(len(records), len(given), record)
 
     def jobs() -> Iterator[_Job]:
-        for path, own in given:
-            all_options = [*options, *own]
-            fingerprint = _fingerprint(path, all_options)
+        for path, options in given:
+            fingerprint = _fingerprint(path, options, files_of(path))
             result = folder / _result_name(path)
             former = _former_record(path, fingerprint, result)
             if former and not (retry_failed and former["status"] == "failed"):
                 keep(former)
             else:
-                yield path, all_options, os.getcwd(), fingerprint, result
+                yield work, path, options, os.getcwd(), fingerprint, result
 
     with _alone_in(folder):
         _run_on_cluster(jobs(), keep, workers, scheduler)
@@ -318,8 +358,8 @@ def _run_on_cluster(
 
             def submit(more: Iterable[_Job]) -> None:
                 for job in more:
-                    future = client.submit(_judge, *job, pure=False)
-                    path_of[future] = job[0]
+                    future = client.submit(_make_result, *job, pure=False)
+                    path_of[future] = job[1]
                     finished.add(future)
 
             submit(itertools.chain([first], itertools.islice(jobs, most_waiting - 1)))
@@ -362,19 +402,33 @@ def main() -> int:
     parser.add_argument("inputs", nargs="*", metavar="INPUT",
                         help="recording, bag, 'pattern*.mcap', or list.txt: an input a line, "
                         "followed by options of its own")  # fmt: skip
+    add_options(parser)
+    arguments = sys.argv[1:]
+    end = arguments.index("--") if "--" in arguments else len(arguments)
+    known, options = parser.parse_args(arguments[:end]), arguments[end + 1 :]
+    return report(parser, known, lambda where: run(known.inputs, known.output, options, **where))
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Adds those of a batch of any work."""
     parser.add_argument("-o", "--output", required=True, help="folder for results and summary")
     parser.add_argument("--workers", type=int, help="processes here; default: one per core")
     parser.add_argument("--scheduler", help="tcp://HOST:PORT of a running cluster instead")
     parser.add_argument("--retry-failed", action="store_true", help="do failed inputs again")
-    arguments = sys.argv[1:]
-    end = arguments.index("--") if "--" in arguments else len(arguments)
-    known, options = parser.parse_args(arguments[:end]), arguments[end + 1 :]
+
+
+def report(
+    parser: argparse.ArgumentParser, known: argparse.Namespace,
+    run_batch: Callable[[dict[str, Any]], list[dict[str, Any]]],
+) -> int:  # fmt: skip
+    """Runs a batch with the options of add_options, prints its course, returns the exit status."""
     if known.workers is not None and known.workers < 1:
         parser.error("--workers: 1 or more")
     try:
-        records = run(known.inputs, known.output, options, workers=known.workers,
-                      scheduler=known.scheduler, retry_failed=known.retry_failed,
-                      on_progress=_print_progress)  # fmt: skip
+        records = run_batch({
+            "workers": known.workers, "scheduler": known.scheduler,
+            "retry_failed": known.retry_failed, "on_progress": _print_progress,
+        })  # fmt: skip
     except InputError as error:
         print(f"penumbra: {_printable(error)}", file=sys.stderr)
         return 2

@@ -14,6 +14,7 @@ import yaml
 from PIL import Image
 
 import penumbra
+from penumbra import datasets
 from blocks import DOCUMENTS, ROOT, all_blocks, blocks_of
 from conftest import SHIPPED, in_folder
 
@@ -39,13 +40,17 @@ def check_batch(out):
     assert out.endswith("arm_over_table done 12\n")
 
 
+def check_masks(out):
+    assert re.fullmatch(r"12 frames, \d{5} pixels in the last one\nepisode_000007 12\n", out)
+
+
 def check_look_ahead(out):
     assert re.search(r"^lid \d\.\d\d s to \d\.\d\d s: hidden \w+$", out, re.MULTILINE)
 
 
 # What the programs of a document print, read once more.
-SAID = {"batch.md": check_batch, "look_ahead.md": check_look_ahead, "targets.md": check_detector,
-        "python.md": check_manual}
+SAID = {"batch.md": check_batch, "look_ahead.md": check_look_ahead, "robot_masks.md": check_masks,
+        "targets.md": check_detector, "python.md": check_manual}
 
 
 @pytest.mark.parametrize("document", [d for d in DOCUMENTS
@@ -149,9 +154,20 @@ def read_targets(text, work):
         has_distortion=False, beyond_hides=True, camera_frame="camera_color_optical_frame")
 
 
+def read_dataset(shown, work):
+    """A dataset.yaml; what is left out is that of the page's first one."""
+    first = next(block for block in all_blocks("yaml") if block.document.endswith("robot_masks.md"))
+    (work / "dataset.yaml").write_text(yaml.safe_dump({**yaml.safe_load(first.text), **shown}))
+    return datasets.Dataset.load(work / "dataset.yaml")
+
+
 @pytest.mark.parametrize("block", all_blocks("yaml"), ids=str)
 def test_yaml_is_read(block, work):
     shown = yaml.safe_load(block.text)
+    if "joints" in shown:
+        episode = read_dataset(shown, work).episode("it", np.zeros((2, 7)))
+        assert episode.joints.shape == (2, 7)
+        return
     if "detections" in shown:
         found = {"image_id": 0, "category_id": 39, "bbox": [10, 20, 30, 40], "score": 0.9}
         (work / shown["detections"]).write_text(json.dumps([found]))

@@ -30,6 +30,7 @@ NOT_RUN = {
     r"cd penumbra$": "after git clone",
     r"ros2 |rviz2 |colcon |rosdep |git clone ": "ROS 2's own: scripts/test_ros.sh",
     r"python3 -m penumbra\.batch": "tests/python/test_batch.py",
+    r"python3 -m penumbra\.datasets": "tests/python/test_datasets.py",
     r"penumbra_research |export PATH=|scripts/experiment_tables": "minutes: tests/research",
     r"sudo ": "the machine's settings and packages",
     r"echo net\.core": "the machine's settings",
