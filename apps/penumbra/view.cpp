@@ -145,12 +145,13 @@ void ViewSource::open_input(const io::SessionOptions& options, const std::string
   store_->begin(judging_->head());
   if (!cameras_.empty()) recorder_.emplace(camera, pipeline, *store_);
   const auto links = pipeline.robot().links();
+  std::vector<io::Part> parts{io::Part::color, io::Part::labels, io::Part::links, io::Part::vdi};
+  if (judging_->has_depth()) parts.insert(parts.end(), {io::Part::depth, io::Part::cloud});
   view_.emplace(io::SessionInfo{.input = options.input.path.string(),
                                 .links = {links.begin(), links.end()},
                                 .camera = judging_->camera(),
                                 .image = options.image,
-                                .parts = {io::Part::color, io::Part::labels, io::Part::links,
-                                          io::Part::vdi, io::Part::depth, io::Part::cloud},
+                                .parts = std::move(parts),
                                 .cameras = cameras_},
                 io::make_scene(pipeline.robot()), *store_, judging_->size());
 }

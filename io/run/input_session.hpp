@@ -51,6 +51,7 @@ class InputSession {
 
   [[nodiscard]] const Pipeline& pipeline() const { return session_.pipeline(); }
   [[nodiscard]] const Camera& camera() const { return camera_; }  ///< of the report's images
+  [[nodiscard]] bool has_depth() const { return input_.config.has_depth; }
   [[nodiscard]] std::optional<std::size_t> size() const { return source_->size(); }
   [[nodiscard]] ReportHead head() const;  ///< refers to this
   /// See RunInput.

@@ -141,8 +141,9 @@ export class Viewer {
     if (hidden.has('robot') && hidden.has('cloud'))
       return showSceneNote('Robot and points are switched off: see the buttons above.');
     const missing = packet.live?.missing ?? this.session.missing;
-    const isFetching = !packet.cloud && this.session.parts.includes('cloud') && status === 'ok';
-    const hasPoints = points > 0 || hidden.has('cloud') || isFetching;
+    const hasCloud = this.session.parts.includes('cloud');
+    const isFetching = !packet.cloud && status === 'ok';
+    const hasPoints = points > 0 || hidden.has('cloud') || isFetching || !hasCloud;
     showSceneNote(sceneNoteOf(packet, missing, hasPoints));
   }
 

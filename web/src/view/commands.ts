@@ -131,6 +131,9 @@ function bindSpeed(source: FrameSource): (by: number) => void {
 }
 
 function bindSceneParts(viewer: Viewer): void {
+  if (!viewer.session.parts.includes('cloud'))
+    for (const button of document.querySelectorAll('[data-part=cloud], [data-key=l], [data-key=w]'))
+      button.remove();
   for (const button of document.querySelectorAll<HTMLElement>('[data-part]'))
     button.addEventListener('click', () => {
       const shown = button.getAttribute('aria-pressed') !== 'true';
