@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Judges many recordings and bags at once, on this machine or on a cluster of Dask's.
+"""Judges or calibrates many recordings and bags at once, on this machine or on a cluster of Dask's.
 
 python3 -m penumbra.batch INPUT... -o OUT [-- options of penumbra run]
+python3 -m penumbra.batch --calibrate INPUT... -o OUT [-- options of penumbra calibrate]
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import hashlib
 import importlib
 import itertools
 import json
+import math
 import os
 import pathlib
 import shlex
@@ -30,9 +32,12 @@ import uuid
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from penumbra import InputError, __version__
 
-__all__ = ["run"]
+__all__ = ["calibrate", "run"]
 
 program = pathlib.Path(__file__).parent.absolute() / "bin" / "penumbra"
 record_name = "batch.json"
@@ -103,8 +108,9 @@ def _die_with_parent() -> None:
 
 
 def _reports(result: pathlib.Path) -> Iterator[pathlib.Path]:
-    """Of one camera in run/, of several in run/CAMERA/."""
-    return (result / "run").rglob("report.json")
+    """Of one camera in run/, of several in run/CAMERA/; or of its calibration."""
+    yield from (result / "run").rglob("report.json")
+    yield from (result / "run").glob("calibration.json")
 
 
 def _numbers(reports: Iterable[pathlib.Path]) -> dict[str, Any]:
@@ -152,18 +158,38 @@ def _penumbra_run(
     path: str, options: list[str], working_folder: str, part: pathlib.Path
 ) -> dict[str, Any]:
     threads = [] if "--threads" in options else ["--threads", "1"]
+    return _numbers(_penumbra("run", path, [*threads, *options], working_folder, part))
+
+
+def _penumbra_calibrate(
+    path: str, options: list[str], working_folder: str, part: pathlib.Path
+) -> dict[str, Any]:
+    (file,) = _penumbra("calibrate", path, options, working_folder, part)
+    found = json.loads(file.read_text(encoding="utf-8"))
+    return {
+        "frames": sum(frame["used"] for frame in found["frames"]),
+        "position_error_mm": 1e3 * found["position_error_95_m"],
+        "rotation_error_degrees": math.degrees(found["rotation_error_95_rad"]),
+        **{key: found[key] for key in ("camera_parent", "T_parent_camera", "covariance")},
+    }
+
+
+def _penumbra(
+    command: str, path: str, options: list[str], working_folder: str, part: pathlib.Path
+) -> list[pathlib.Path]:
+    """Returns the reports."""
     done = subprocess.run(
-        [program, "run", path, "-o", part / "run", *threads, *options],
+        [program, command, path, "-o", part / "run", *options],
         capture_output=True, text=True, errors="surrogateescape", preexec_fn=_die_with_parent,
         start_new_session=True, check=False, cwd=working_folder,
     )  # fmt: skip
     fault = (done.stderr.strip().splitlines() or ["no message"])[-1].removeprefix("penumbra: ")
     reports = list(_reports(part)) if done.returncode == 0 else []
     if not reports and done.returncode != nothing_judged:  # not the input's fault: it is not kept
-        raise RuntimeError(f"penumbra run gave no result (status {done.returncode}): {fault}")
+        raise RuntimeError(f"penumbra {command} gave no result (status {done.returncode}): {fault}")
     if not reports:
         raise InputError(fault)
-    return _numbers(reports)
+    return reports
 
 
 def _make_result(
@@ -291,6 +317,82 @@ def run(
     )  # fmt: skip
 
 
+def calibrate(
+    inputs: Iterable[str | os.PathLike[str]],
+    output: str | os.PathLike[str],
+    options: Sequence[str] = (),
+    **where: Any,
+) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """Runs `penumbra calibrate` on each input, as run() does `penumbra run`, and says whether the
+    camera moved between them.
+
+    inputs: episodes of one camera, in the order in which they were recorded.
+    options: of `penumbra calibrate`. where: workers, scheduler, retry_failed, on_progress of run().
+
+    Returns the records, which have T_parent_camera and its covariance, and the camera's poses in
+    turn: "T_parent_camera" of all its inputs together, "covariance", "inputs", and how far it had
+    moved when they began: "moved_mm" and "moved_degrees", 0 at first. They are written into
+    output/cameras.json, too. Raises what run() raises.
+    """
+    given = _inputs(str(name) for name in inputs)
+    work = [(path, [*options, *own]) for path, own in given]
+    records = run_work(_penumbra_calibrate, work, _files_of, output, **where)
+    poses = _cameras(record for record in records if record["status"] == "done")
+    file = pathlib.Path(output) / "cameras.json"
+    file.write_text(json.dumps(poses, indent=1) + "\n", encoding="utf-8")
+    return records, poses
+
+
+def _cameras(records: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Takes an input's pose for the one before if chance, or what does not matter, explains how
+    they differ."""
+    expected_error = np.diag([math.radians(0.1) ** 2] * 3 + [0.002**2] * 3)  # also the watch's
+    most_by_chance = 16.81  # 99 % quantile of chi^2 with 6 degrees
+    poses: list[dict[str, Any]] = []
+    for record in records:
+        T, covariance = np.array(record["T_parent_camera"]), np.array(record["covariance"])
+        pose = {"T_parent_camera": T, "covariance": covariance, "inputs": [record["input"]],
+                "moved_mm": 0.0, "moved_degrees": 0.0}  # fmt: skip
+        if not poses:
+            poses.append(pose)
+            continue
+        last = poses[-1]
+        twist = _twist(np.linalg.inv(last["T_parent_camera"]) @ T)
+        both = covariance + last["covariance"]
+        if twist @ np.linalg.solve(both + expected_error, twist) < most_by_chance:
+            gain = last["covariance"] @ np.linalg.inv(both)  # as of a Kalman filter
+            last["T_parent_camera"] = last["T_parent_camera"] @ _motion(gain @ twist)
+            last["covariance"] = last["covariance"] - gain @ last["covariance"]
+            last["inputs"].append(record["input"])
+            continue
+        pose["moved_mm"] = 1e3 * float(np.linalg.norm(twist[3:]))
+        pose["moved_degrees"] = math.degrees(float(np.linalg.norm(twist[:3])))
+        poses.append(pose)
+    for pose in poses:
+        for key in ("T_parent_camera", "covariance"):
+            pose[key] = pose[key].tolist()
+    return poses
+
+
+def _twist(T: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rotation vector (rad), then translation (m)."""
+    turn = np.array([T[2, 1] - T[1, 2], T[0, 2] - T[2, 0], T[1, 0] - T[0, 1]]) / 2
+    sine, cosine = float(np.linalg.norm(turn)), (np.trace(T[:3, :3]) - 1) / 2
+    scale = math.atan2(sine, cosine) / sine if sine > 0 else 1.0
+    return np.concatenate([scale * turn, T[:3, 3]])
+
+
+def _motion(twist: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Rodrigues's formula."""
+    angle = float(np.linalg.norm(twist[:3]))
+    x, y, z = twist[:3] / (angle or 1.0)
+    K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    T = np.eye(4)
+    T[:3, :3] += math.sin(angle) * K + (1 - math.cos(angle)) * K @ K
+    T[:3, 3] = twist[3:]
+    return T
+
+
 def run_work(
     work: Work,
     given: Sequence[tuple[str, list[str]]],
@@ -402,11 +504,29 @@ def main() -> int:
     parser.add_argument("inputs", nargs="*", metavar="INPUT",
                         help="recording, bag, 'pattern*.mcap', or list.txt: an input a line, "
                         "followed by options of its own")  # fmt: skip
+    parser.add_argument("--calibrate", action="store_true",
+                        help="run `penumbra calibrate` on episodes of one camera, and say whether "
+                        "it moved between them; options after -- are its")  # fmt: skip
     add_options(parser)
     arguments = sys.argv[1:]
     end = arguments.index("--") if "--" in arguments else len(arguments)
     known, options = parser.parse_args(arguments[:end]), arguments[end + 1 :]
-    return report(parser, known, lambda where: run(known.inputs, known.output, options, **where))
+    run_batch = _calibrate_and_print if known.calibrate else run
+    return report(
+        parser, known, lambda where: run_batch(known.inputs, known.output, options, **where)
+    )
+
+
+def _calibrate_and_print(
+    inputs: Sequence[str], output: str, options: Sequence[str], **where: Any
+) -> list[dict[str, Any]]:
+    records, poses = calibrate(inputs, output, options, **where)
+    for pose in poses:
+        moved = f"moved by {pose['moved_mm']:.1f} mm, {pose['moved_degrees']:.2f} degrees"
+        since = f": {moved} before {_printable(pose['inputs'][0])}" if pose is not poses[0] else ""
+        xyz = ", ".join(f"{row[3]:.5f}" for row in pose["T_parent_camera"][:3])
+        print(f"camera at {xyz} in {len(pose['inputs'])} inputs{since}")
+    return records
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

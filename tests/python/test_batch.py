@@ -12,6 +12,7 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 
 import penumbra.batch
@@ -167,6 +168,49 @@ def test_a_list_has_options_and_a_function_does_the_same(tmp_path):
                                  on_progress=lambda done, all_inputs, record: told.append(done))
     assert [record["frames"] for record in records] == [2]
     assert told == [1]
+
+
+def masked_episode(folder, pose, guess):
+    """The shipped recording without depth, with the masks that a camera at `pose` sees."""
+    shutil.copytree(SHIPPED, folder)
+    np.savetxt(folder / "camera_pose.csv", pose, delimiter=",")
+    done = subprocess.run([PROGRAM, "run", folder, "-o", folder / "seen", "--save", "robot_mask"],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    np.savetxt(folder / "camera_pose.csv", guess, delimiter=",")
+    text = (folder / "recording.yaml").read_text()
+    (folder / "recording.yaml").write_text(
+        "".join(line for line in text.splitlines(True) if "depth:" not in line))
+    return folder
+
+
+def test_episodes_tell_where_their_camera_is_and_when_it_moved(tmp_path):
+    pose = np.loadtxt(SHIPPED / "camera_pose.csv", delimiter=",")
+    guess, moved = pose.copy(), pose.copy()
+    guess[:3, 3] += [0.03, -0.02, 0.03]
+    moved[:3, 3] += [0.0, 0.03, 0.0]
+    masks = ["--masks", "seen/robot_mask/%06d.png"]
+    episodes = [masked_episode(tmp_path / f"episode_{i}", moved if i == 2 else pose, guess)
+                for i in range(3)]
+    episodes.append(tmp_path / "no_episode")
+    records, cameras = penumbra.batch.calibrate(episodes, tmp_path / "out", masks, workers=2)
+    assert [record["status"] for record in records] == ["done"] * 3 + ["failed"]
+    assert [len(camera["inputs"]) for camera in cameras] == [2, 1]
+    assert cameras[1]["inputs"] == [str(episodes[2])]
+    limit = 2.0  # millimetres: docs/calibration.md
+    for camera, truth in zip(cameras, (pose, moved)):
+        found = np.array(camera["T_parent_camera"])
+        assert 1e3 * np.linalg.norm(found[:3, 3] - truth[:3, 3]) < limit
+    assert cameras[0]["moved_mm"] == 0
+    assert cameras[1]["moved_mm"] == pytest.approx(30, abs=2 * limit)
+    assert json.loads((tmp_path / "out/cameras.json").read_text()) == cameras
+
+    command = [sys.executable, "-m", "penumbra.batch", "--calibrate", *map(str, episodes), "-o",
+               str(tmp_path / "out"), "--", *masks]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 1  # one failed
+    assert "in 2 inputs" in done.stdout
+    assert "degrees before" in done.stdout
 
 
 @pytest.fixture(scope="module")
