@@ -351,7 +351,7 @@ def _cameras(records: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     poses: list[dict[str, Any]] = []
     for record in records:
         T, covariance = np.array(record["T_parent_camera"]), np.array(record["covariance"])
-        pose = {"T_parent_camera": T, "covariance": covariance, "inputs": [record["input"]],
+        pose: dict[str, Any] = {"T_parent_camera": T, "covariance": covariance, "inputs": [record["input"]],
                 "moved_mm": 0.0, "moved_degrees": 0.0}  # fmt: skip
         if not poses:
             poses.append(pose)
@@ -511,10 +511,13 @@ def main() -> int:
     arguments = sys.argv[1:]
     end = arguments.index("--") if "--" in arguments else len(arguments)
     known, options = parser.parse_args(arguments[:end]), arguments[end + 1 :]
-    run_batch = _calibrate_and_print if known.calibrate else run
-    return report(
-        parser, known, lambda where: run_batch(known.inputs, known.output, options, **where)
-    )
+
+    def run_batch(where: dict[str, Any]) -> list[dict[str, Any]]:
+        if known.calibrate:
+            return _calibrate_and_print(known.inputs, known.output, options, **where)
+        return run(known.inputs, known.output, options, **where)
+
+    return report(parser, known, run_batch)
 
 
 def _calibrate_and_print(

@@ -6,6 +6,7 @@ import os
 import pathlib
 import shutil
 
+import numpy as np
 import pytest
 
 import penumbra
@@ -54,6 +55,10 @@ def prepare(folder):
     for name in ("targets.yaml", "wrist.csv", "camera_info.yaml", "camera_pose.csv", "joint_states.csv"):
         shutil.copy(SHIPPED / name, folder)
     given = penumbra.open_input(SHIPPED)
+    pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
+    for i, frame in enumerate(given):
+        mask = pipeline.process(frame.frame).robot_mask
+        penumbra.write_png(folder / "my_recording" / f"mask_{i}.png", mask.astype(np.uint8))
     write_bag(folder / "recording.mcap", given, list(given), urdf, "base_link")
     return folder
 
