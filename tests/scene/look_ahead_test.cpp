@@ -4,12 +4,11 @@
 #include "../support/errors.hpp"
 #include "../support/random.hpp"
 #include "../support/run_length.hpp"
-#include "link_rays.hpp"
+#include "box_rays.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -20,24 +19,6 @@ namespace penumbra::test {
 namespace {
 
 constexpr double truth_step = 0.001;  // seconds
-/// Rays through the middle of each pixel.
-constexpr int ray_step = 1;
-
-double uniform(std::mt19937_64& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-Camera forecast_camera() { return {Intrinsics(640, 480, 600, 600, 319.5, 239.5), {}, {}, {}}; }
-
-Eigen::Isometry3d looking_at(const Eigen::Vector3d& from, const Eigen::Vector3d& at) {
-  const Eigen::Vector3d z = (at - from).normalized();
-  const Eigen::Vector3d x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() << x, z.cross(x), z;
-  T.translation() = from;
-  return T;
-}
-
 /// A random motion of an arm before a camera, and boxes that stand behind places where it passes.
 struct Scene {
   Scene(const Robot& robot_, std::mt19937_64& random) : robot(robot_) {
@@ -100,49 +81,6 @@ struct Scene {
   Eigen::Isometry3d T_root_camera;
   std::vector<BoxTarget> boxes;
 };
-
-/// A ray of the camera that meets a box, and the depth where it does.
-struct BoxRay {
-  Eigen::Vector3d direction;  // in the root's frame; z is 1 in the camera's
-  double z;
-};
-
-std::vector<BoxRay> rays_of(const BoxTarget& box, const Scene& scene, const Intrinsics& camera) {
-  std::vector<BoxRay> rays;
-  const Eigen::Isometry3d T_box_camera = box.pose.inverse() * scene.T_root_camera;
-  const Eigen::Array3d half = 0.5 * box.size.array();
-  const Eigen::Array3d from = T_box_camera.translation().array();
-  for (int v = 0; v < camera.height(); v += ray_step)
-    for (int u = 0; u < camera.width(); u += ray_step) {
-      const Eigen::Array3d d = (T_box_camera.linear() * camera.ray(u, v)).array();
-      const Eigen::Array3d a = (-half - from) / d, b = (half - from) / d;
-      const double in = a.min(b).maxCoeff(), out = a.max(b).minCoeff();
-      if (in <= out && in > 0.0)
-        rays.push_back({scene.T_root_camera.linear() * camera.ray(u, v), in});
-    }
-  return rays;
-}
-
-/// What Embree's rays say of a box at one time.
-struct Truth {
-  double hidden = 0.0;
-  std::size_t by = 0;  // link
-};
-
-Truth truth_of(const std::vector<BoxRay>& rays, const LinkRays& links, const Eigen::Vector3d& from,
-               const Tolerance& tolerance) {
-  std::map<std::size_t, std::size_t> hiding;
-  std::size_t hidden = 0;
-  for (const BoxRay& ray : rays)
-    if (const auto hit = links.cast(from, ray.direction, ray.z - tolerance.at(ray.z))) {
-      ++hidden;
-      ++hiding[hit->link];
-    }
-  const auto most =
-      std::ranges::max_element(hiding, {}, [](const auto& each) { return each.second; });
-  return {static_cast<double>(hidden) / static_cast<double>(rays.size()),
-          most == hiding.end() ? 0 : most->first};
-}
 
 /// Counts over all motions, as they are printed.
 struct Tally {
@@ -250,9 +188,9 @@ void judge_motions(const Robot& robot, int motions, std::mt19937_64& random, Tal
     const std::vector<TargetForecast> forecasts =
         LookAhead(robot, {camera}, scene.targets(), RobotPose{.positions = scene.first})
             .along(*scene.trajectory);
-    std::vector<std::vector<BoxRay>> rays;
+    std::vector<std::vector<TargetRay>> rays;
     for (const BoxTarget& box : scene.boxes)
-      rays.push_back(rays_of(box, scene, camera.camera.intrinsics));
+      rays.push_back(rays_of(box, scene.T_root_camera, camera.camera.intrinsics));
     std::vector<std::vector<Truth>> truth(rays.size());
     for (double time = 0.0; time <= scene.trajectory->duration(); time += truth_step) {
       scene.trajectory->at(time, positions);
