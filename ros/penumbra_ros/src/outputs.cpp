@@ -43,8 +43,10 @@ auto advertise(rclcpp::Node& node, const std::string& name, std::size_t depth = 
 
 }  // namespace
 
-Outputs::Outputs(rclcpp::Node& node, bool target_frames, std::string frame_prefix)
+Outputs::Outputs(rclcpp::Node& node, bool target_frames, std::string frame_prefix,
+                 LookAheadService& look_ahead)
     : frame_prefix_(std::move(frame_prefix)),
+      look_ahead_(look_ahead),
       points_(advertise<sensor_msgs::msg::PointCloud2>(node, "points", points_depth)),
       targets_(advertise<penumbra_msgs::msg::Targets>(node, "targets")),
       overlay_(advertise<sensor_msgs::msg::CompressedImage>(node, "overlay/compressed")),
@@ -97,6 +99,7 @@ void Outputs::take(const penumbra::io::AssembledFrame& job, const penumbra::Dept
     publish_camera_info(job.setup->cameras.info, *report.stamp);
   if (is_selected("markers")) publish_markers(job, report);
   publish_detections(job, report);
+  look_ahead_.take(job);
 }
 
 void Outputs::publish_camera_info(const penumbra::io::CameraInfoMessage& info, std::int64_t stamp) {

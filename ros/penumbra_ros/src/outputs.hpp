@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "look_ahead.hpp"
+
 #include <array>
 #include <atomic>
 #include <map>
@@ -32,8 +34,10 @@ inline constexpr std::array<const char*, 11> output_names = {
 /// take(); the other functions are for any thread.
 class Outputs final : public penumbra::io::ResultSink, public penumbra::io::FrameWatcher {
  public:
-  /// `target_frames`: publishes targets in TF. `frame_prefix`: of link names in TF.
-  Outputs(rclcpp::Node& node, bool target_frames, std::string frame_prefix);
+  /// `target_frames`: publishes targets in TF. `frame_prefix`: of link names in TF. `look_ahead`
+  /// gets each judged image.
+  Outputs(rclcpp::Node& node, bool target_frames, std::string frame_prefix,
+          LookAheadService& look_ahead);
 
   /// Limits the results to these names.
   void select(const std::set<std::string>& names);
@@ -55,6 +59,7 @@ class Outputs final : public penumbra::io::ResultSink, public penumbra::io::Fram
                           const penumbra::FrameReport& report);
 
   std::string frame_prefix_;
+  LookAheadService& look_ahead_;
   std::array<std::atomic<bool>, output_names.size()> selected_ = {};
   std::map<penumbra::io::Result, image_transport::Publisher> images_;
   rclcpp::Publisher<sensor_msgs::msg::PointCloud2>::SharedPtr points_;

@@ -28,12 +28,15 @@ const DiagnosticStatusMessage* subject_of(const penumbra::io::DiagnosticArrayMes
 PenumbraNode::PenumbraNode(const rclcpp::NodeOptions& options)
     : Node("penumbra", options),
       settings_(declare_settings(*this)),
-      outputs_(*this, settings_.target_frames, settings_.live.cameras[0].mount.frame_prefix),
+      look_ahead_(*this),
+      outputs_(*this, settings_.target_frames, settings_.live.cameras[0].mount.frame_prefix,
+               look_ahead_),
       runner_(settings_.live, settings_.pipeline, {&outputs_}),
       inputs_(*this, runner_),
       diagnostics_(LiveRunner::steady_now(), {.name = get_name()}),
       updater_(this) {
   outputs_.select(settings_.publish);
+  look_ahead_.set_rule(settings_.pipeline.rule);
   runner_.watch(0, outputs_);
   updater_.setHardwareID(get_fully_qualified_name());
   updater_.add("robot", [this](auto& status) { report(status, 0); });
@@ -77,6 +80,7 @@ rcl_interfaces::msg::SetParametersResult PenumbraNode::change(const Changes& cha
     settings_.pipeline.rule = read_rule(*this, changes);
     outputs_.select(read_publish(*this, changes));
     runner_.configure(settings_.pipeline);
+    look_ahead_.set_rule(settings_.pipeline.rule);
     result.successful = true;
   } catch (const std::exception& error) {
     result.successful = false;

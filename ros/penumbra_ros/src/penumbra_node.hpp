@@ -36,6 +36,7 @@ class PenumbraNode : public rclcpp::Node {
   void report(diagnostic_updater::DiagnosticStatusWrapper& status, std::size_t number);
 
   Settings settings_;
+  LookAheadService look_ahead_;
   Outputs outputs_;
   penumbra::io::LiveRunner runner_;
   Inputs inputs_;

@@ -202,6 +202,15 @@ void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::Live
     camera.color_topic = resolved(node, color);
     camera.color_info_topic = resolved(node, penumbra::io::camera_info_topic(camera.color_topic));
   }
+  camera.has_depth = declare("has_depth", true,
+                             "false: there is no depth camera, and the images of color_topic are "
+                             "judged by the robot's model alone");
+  if (!camera.has_depth) {
+    if (color.empty()) throw penumbra::InputError("has_depth: false needs a color_topic");
+    camera.depth_topic = camera.color_topic;
+    if (info.empty()) camera.info_topic = camera.color_info_topic;
+    camera.color_topic.clear();
+  }
   camera.is_rectified = declare(
       "rectified", false, "the images have no lens distortion, as those called image_rect...");
 }

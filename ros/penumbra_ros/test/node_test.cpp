@@ -178,6 +178,56 @@ TEST_F(NodeTest, ServicesResetAndDisable) {
   EXPECT_TRUE(labels_of(3));
 }
 
+TEST_F(NodeTest, LooksAheadAtMotions) {
+  using LookAhead = penumbra_msgs::srv::LookAhead;
+  start({{"target_topics", std::vector<std::string>{"/boxes"}}});
+  ASSERT_TRUE(labels_of(0));
+  const auto ask = [&](const std::vector<trajectory_msgs::msg::JointTrajectory>& motions) {
+    auto request = std::make_shared<LookAhead::Request>();
+    request->trajectories = motions;
+    return call<LookAhead>("look_ahead", request);
+  };
+  /// Moves the arm's first joint to an angle in two seconds.
+  const auto turn = [](double angle) {
+    trajectory_msgs::msg::JointTrajectory motion;
+    motion.joint_names = {"shoulder_pan"};
+    motion.points.resize(1);
+    motion.points[0].positions = {angle};
+    motion.points[0].time_from_start.sec = 2;
+    return motion;
+  };
+  // The can has no expected depth: behind the arm it is unknown, away from it visible.
+  LookAhead::Response::SharedPtr found;
+  ASSERT_TRUE(spin_until([&] {  // the first detections may be lost
+    found = labels_of(0) ? ask({turn(0.3), turn(-1.5)}) : nullptr;
+    return found && !found->forecasts.empty() && !found->forecasts[0].targets.empty();
+  }));
+  ASSERT_TRUE(found->success) << found->message;
+  ASSERT_EQ(found->forecasts.size(), 2U);
+  EXPECT_EQ(found->order, (std::vector<std::uint32_t>{1, 0}));
+  EXPECT_GT(found->forecasts[1].seen, found->forecasts[0].seen);
+  EXPECT_FALSE(found->forecasts[0].reason.empty());
+  for (const auto& forecast : found->forecasts) {
+    ASSERT_EQ(forecast.targets.size(), 1U);
+    EXPECT_EQ(forecast.targets[0].name, "/boxes/can");
+    ASSERT_FALSE(forecast.targets[0].intervals.empty());
+    EXPECT_NEAR(forecast.targets[0].intervals.back().end, 2.0, 1e-6);
+  }
+
+  auto unknown = turn(0.0);
+  unknown.joint_names = {"no_joint"};
+  for (const auto& [motions, word] :
+       {std::pair{std::vector{turn(0.3), unknown}, "trajectories[1]"},
+        std::pair{std::vector<trajectory_msgs::msg::JointTrajectory>(), "no trajectories"}}) {
+    const auto refused = ask(motions);
+    ASSERT_TRUE(refused);
+    EXPECT_FALSE(refused->success);
+    EXPECT_TRUE(refused->forecasts.empty());
+    EXPECT_NE(refused->message.find(word), std::string::npos) << refused->message;
+  }
+  EXPECT_TRUE(labels_of(1)) << "images are judged as before";
+}
+
 TEST_F(NodeTest, HandledTargetsAreDetectionsAndFrames) {
   std::string detected, frame;
   auto listener = std::make_shared<rclcpp::Node>("listener");
@@ -271,6 +321,19 @@ TEST_F(NodeTest, DiagnosticsSayWhatIsMissing) {
   EXPECT_TRUE(spin_until([&] { return message.find("no depth images") == 0; })) << message;
 }
 
+TEST_F(NodeTest, WithoutDepthTheModelAloneIsJudged) {
+  // The depth images stand for colour images here: nothing is read from them.
+  start({{"has_depth", false}, {"color_topic", "depth/image"}});
+  const auto labels = labels_of(1);
+  ASSERT_TRUE(labels);
+  std::size_t unknown = 0;
+  for (const std::uint8_t label : labels->data) {
+    ASSERT_TRUE(label == 0 || label == 3) << int(label);
+    unknown += label == 3;
+  }
+  EXPECT_GT(unknown, 10000U);
+}
+
 TEST_F(NodeTest, IsAComponent) {
   class_loader::ClassLoader loader("libpenumbra_component.so");
   const auto factory = loader.createInstance<rclcpp_components::NodeFactory>(
@@ -281,7 +344,8 @@ TEST_F(NodeTest, IsAComponent) {
 TEST(Node, RefusesWhatItDoesNotUnderstandInOneLine) {
   for (const std::string arguments :
        {"--fast", "--ros-args -p geometry:=both", "--ros-args -p robot:=/none.urdf",
-        "--ros-args -p margins:=\"['gripper']\"", "--ros-args -p front_min_width:=-5"}) {
+        "--ros-args -p margins:=\"['gripper']\"", "--ros-args -p has_depth:=false",
+        "--ros-args -p front_min_width:=-5"}) {
     const std::string command = PENUMBRA_NODE " " + arguments + " 2>&1";
     FILE* pipe = popen(command.c_str(), "r");
     ASSERT_NE(pipe, nullptr);
