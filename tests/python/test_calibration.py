@@ -35,8 +35,27 @@ def test_faults_are_told():
         calibrated(FRAMES[:2], TRUTH)
     with pytest.raises(ValueError, match="masks"):
         calibrated(FRAMES, TRUTH, masks=[np.zeros((480, 640), np.uint8)])
-    with pytest.raises(ValueError, match=r"frames\[1\]: has no depth"):
+    with pytest.raises(ValueError, match=r"frames\[1\]: needs 7 joint"):
         calibrated([FRAMES[0], penumbra.Frame(None, None), FRAMES[1]], TRUTH)
+    with pytest.raises(penumbra.InputError, match="frame 1: has no depth image"):
+        calibrated([FRAMES[0], FRAMES[1].replace(depth=None), FRAMES[2]], TRUTH)
+
+
+def test_masks_alone_are_enough():
+    pipeline = penumbra.Pipeline(GIVEN.robot, GIVEN.camera, GIVEN.config)
+    masks = [pipeline.process(frame).robot_mask.astype(np.uint8) for frame in FRAMES]
+    frames = [frame.replace(depth=None) for frame in FRAMES]
+    rough = TRUTH.copy()
+    rough[:3, 3] += [0.05, -0.04, 0.04]
+    found = calibrated(frames, rough, masks=masks)
+    assert found.is_good
+    assert found.depth_offset is None and found.shift_right is None
+    assert found.mask_overlap > 0.99
+    assert np.linalg.norm(found.T_parent_camera[:3, 3] - TRUTH[:3, 3]) < 0.002
+    with pytest.raises(penumbra.InputError, match="frame 0: has no mask"):
+        calibrated(frames, rough)
+    with pytest.raises(penumbra.InputError, match="need depth images"):
+        calibrated(frames, rough, masks=masks, joint_offsets=True)
 
 
 def test_the_time_between_images_and_joints():
