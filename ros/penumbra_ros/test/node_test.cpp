@@ -4,6 +4,7 @@
 #include "player.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -178,6 +179,16 @@ TEST_F(NodeTest, ServicesResetAndDisable) {
   EXPECT_TRUE(labels_of(3));
 }
 
+/// Moves the arm's first joint to an angle in two seconds.
+trajectory_msgs::msg::JointTrajectory turn(double angle) {
+  trajectory_msgs::msg::JointTrajectory motion;
+  motion.joint_names = {"shoulder_pan"};
+  motion.points.resize(1);
+  motion.points[0].positions = {angle};
+  motion.points[0].time_from_start.sec = 2;
+  return motion;
+}
+
 TEST_F(NodeTest, LooksAheadAtMotions) {
   using LookAhead = penumbra_msgs::srv::LookAhead;
   start({{"target_topics", std::vector<std::string>{"/boxes"}}});
@@ -186,15 +197,6 @@ TEST_F(NodeTest, LooksAheadAtMotions) {
     auto request = std::make_shared<LookAhead::Request>();
     request->trajectories = motions;
     return call<LookAhead>("look_ahead", request);
-  };
-  /// Moves the arm's first joint to an angle in two seconds.
-  const auto turn = [](double angle) {
-    trajectory_msgs::msg::JointTrajectory motion;
-    motion.joint_names = {"shoulder_pan"};
-    motion.points.resize(1);
-    motion.points[0].positions = {angle};
-    motion.points[0].time_from_start.sec = 2;
-    return motion;
   };
   // The can has no expected depth: behind the arm it is unknown, away from it visible.
   LookAhead::Response::SharedPtr found;
@@ -226,6 +228,29 @@ TEST_F(NodeTest, LooksAheadAtMotions) {
     EXPECT_NE(refused->message.find(word), std::string::npos) << refused->message;
   }
   EXPECT_TRUE(labels_of(1)) << "images are judged as before";
+}
+
+TEST_F(NodeTest, ForecastsAPlanThatIsPublished) {
+  start({{"target_topics", std::vector<std::string>{"/boxes"}},
+         {"plan_topics", std::vector<std::string>{"/plan"}}});
+  const auto plan =
+      player_->node->create_publisher<trajectory_msgs::msg::JointTrajectory>("/plan", 10);
+  std::map<std::string, penumbra_msgs::msg::Target> heard;
+  const auto targets = player_->node->create_subscription<penumbra_msgs::msg::Targets>(
+      "/penumbra/targets", 10, [&](penumbra_msgs::msg::Targets::ConstSharedPtr message) {
+        for (const auto& target : message->targets) heard[target.name] = target;
+      });
+  ASSERT_TRUE(spin_until(
+      [&] { return plan->get_subscription_count() > 0 && targets->get_publisher_count() > 0; }));
+  const auto& can = heard["/boxes/can"];
+  EXPECT_TRUE(spin_until([&] { return labels_of(0) && can.verdict != can.UNKNOWN; }));
+  EXPECT_TRUE(std::isnan(can.forecast_seconds)) << "there is no plan";
+  plan->publish(turn(0.3));
+  ASSERT_TRUE(spin_until([&] { return labels_of(0) && !std::isnan(can.forecast_seconds); }));
+  EXPECT_NEAR(can.forecast_seconds, 2.0, 0.1);
+  // The can has no expected depth: what the arm passes is unknown, with the reason.
+  EXPECT_TRUE(std::isnan(can.hidden_in));
+  EXPECT_NE(can.forecast_reason, "");
 }
 
 TEST_F(NodeTest, HandledTargetsAreDetectionsAndFrames) {
