@@ -12,6 +12,7 @@
 
 #include <io/bag/bag_reader.hpp>
 #include <io/files/camera_info.hpp>
+#include <io/files/detections_file.hpp>
 #include <io/files/disk_file.hpp>
 #include <io/files/frame_pattern.hpp>
 #include <io/files/image_file.hpp>
@@ -310,6 +311,24 @@ void write_frames(Draft& draft, const InitOptions& options, const std::vector<fs
     draft.line("  # color: color_%d.png, for pictures");
 }
 
+/// A targets.yaml, else the files of detectors.
+std::vector<fs::path> target_files(const InitOptions& options, const std::vector<fs::path>& files,
+                                   const ImageSize& size) {
+  if (std::find(files.begin(), files.end(), "targets.yaml") != files.end()) return {"targets.yaml"};
+  std::vector<fs::path> found;
+  for (const fs::path& file : files) {
+    if (!is_detections_name(file)) continue;
+    try {
+      if (!read_detections((options.folder / file).string(), {},
+                           Intrinsics(size.width, size.height, 1.0, 1.0, 0.0, 0.0), {})
+               .empty())
+        found.push_back(file);
+    } catch (const InputError&) {  // another table or text
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 InitResult init_recording(const InitOptions& options) {
@@ -346,8 +365,10 @@ InitResult init_recording(const InitOptions& options) {
   result.has_pose = write_camera(draft, options, files, depth != nullptr ? depth : color,
                                  std::string(robot.links().front()));
   write_frames(draft, options, files, depth, color, robot);
-  if (std::find(files.begin(), files.end(), "targets.yaml") != files.end())
-    draft.line("targets: targets.yaml");
+  if (const std::vector<fs::path> targets =
+          target_files(options, files, depth != nullptr ? depth->size : color->size);
+      !targets.empty())
+    draft.one_of("targets", targets, "");
   const std::string text = draft.text();
   write_file(result.file, text.data(), text.size());
   result.lacking = std::move(draft.lacking);

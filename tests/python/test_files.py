@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recordings of the files that people have, written by others' libraries."""
 
+import json
 import shutil
 import subprocess
 
@@ -221,6 +222,15 @@ def test_init_finds_what_a_recording_has(folder):
     again = program("init", folder)
     assert again.returncode == 2 and "--force" in again.stderr
     assert program("init", folder, "--force").returncode == 0
+
+
+def test_init_names_a_detectors_file(folder):
+    (folder / "targets.yaml").unlink()
+    box = {"image_id": 0, "category_id": 39, "bbox": [460, 172, 38, 98], "score": 0.9}
+    (folder / "results.json").write_text(json.dumps([box]))
+    (folder / "notes.json").write_text('{"taken": "by hand"}')
+    assert program("init", folder).returncode == 0
+    assert 'targets: "results.json"' in (folder / "recording.yaml").read_text()
 
 
 def test_init_says_what_is_missing(folder):
