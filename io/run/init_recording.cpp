@@ -368,7 +368,7 @@ InitResult init_recording(const InitOptions& options) {
   if (const std::vector<fs::path> targets =
           target_files(options, files, depth != nullptr ? depth->size : color->size);
       !targets.empty())
-    draft.one_of("targets", targets, "");
+    draft.line("targets: " + yaml_text(targets.front().string()));
   const std::string text = draft.text();
   write_file(result.file, text.data(), text.size());
   result.lacking = std::move(draft.lacking);
