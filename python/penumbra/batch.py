@@ -18,7 +18,6 @@ import hashlib
 import importlib
 import itertools
 import json
-import math
 import os
 import pathlib
 import shlex
@@ -32,10 +31,7 @@ import uuid
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from penumbra import InputError, __version__
+from penumbra import InputError, __version__, camera_poses
 
 __all__ = ["calibrate", "run"]
 
@@ -168,8 +164,6 @@ def _penumbra_calibrate(
     found = json.loads(file.read_text(encoding="utf-8"))
     return {
         "frames": sum(frame["used"] for frame in found["frames"]),
-        "position_error_mm": 1e3 * found["position_error_95_m"],
-        "rotation_error_degrees": math.degrees(found["rotation_error_95_rad"]),
         **{key: found[key] for key in ("camera_parent", "T_parent_camera", "covariance")},
     }
 
@@ -243,10 +237,12 @@ def _former_record(path: str, fingerprint: str, folder: pathlib.Path) -> dict[st
     return record if is_valid and is_whole else None
 
 
-def _inputs(given: Iterable[str]) -> list[tuple[str, list[str]]]:
-    """Absolute paths, each once, with options of their own."""
+def _inputs(
+    given: Iterable[str | os.PathLike[str]], options: Sequence[str]
+) -> list[tuple[str, list[str]]]:
+    """Absolute paths, each once, with these options and their own."""
     found: dict[str, list[str]] = {}
-    for name in given:
+    for name in map(str, given):
         if name.endswith(".txt"):
             place = name
             try:
@@ -265,7 +261,7 @@ def _inputs(given: Iterable[str]) -> list[tuple[str, list[str]]]:
             found[os.path.abspath(path).removesuffix("/recording.yaml")] = []
     if not found:
         raise InputError("no input is given")
-    return list(found.items())
+    return [(path, [*options, *own]) for path, own in found.items()]
 
 
 def _write_summary(output: pathlib.Path, records: Sequence[dict[str, Any]]) -> None:
@@ -307,12 +303,10 @@ def run(
     Raises InputError for no input, an output that cannot be written or that another call writes,
     and a scheduler that does not answer.
     """
-    given = _inputs(str(name) for name in inputs)
     if not program.exists():
         raise InputError(f"{program} is not there; install the package again")
-    with_options = [(path, [*options, *own]) for path, own in given]
     return run_work(
-        _penumbra_run, with_options, _files_of, output, workers=workers, scheduler=scheduler,
+        _penumbra_run, _inputs(inputs, options), _files_of, output, workers=workers, scheduler=scheduler,
         retry_failed=retry_failed, on_progress=on_progress,
     )  # fmt: skip
 
@@ -323,74 +317,21 @@ def calibrate(
     options: Sequence[str] = (),
     **where: Any,
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Runs `penumbra calibrate` on each input, as run() does `penumbra run`, and says whether the
-    camera moved between them.
+    """Runs `penumbra calibrate` on each input, and says whether the camera moved between them.
 
-    inputs: episodes of one camera, in the order in which they were recorded.
-    options: of `penumbra calibrate`. where: workers, scheduler, retry_failed, on_progress of run().
+    inputs: episodes of one camera, in the order in which they were recorded. options: of
+    `penumbra calibrate`. where: workers, scheduler, retry_failed and on_progress of run().
 
-    Returns the records, which have T_parent_camera and its covariance, and the camera's poses in
-    turn: "T_parent_camera" of all its inputs together, "covariance", "inputs", and how far it had
-    moved when they began: "moved_mm" and "moved_degrees", 0 at first. They are written into
-    output/cameras.json, too. Raises what run() raises.
+    Returns the records and the camera's poses in turn, which are in output/cameras.json, too:
+    "T_parent_camera" of all its inputs together, "covariance", "inputs", and how far it had moved
+    when they began: "moved_mm" and "moved_degrees", 0 at first. Raises what run() raises.
     """
-    given = _inputs(str(name) for name in inputs)
-    work = [(path, [*options, *own]) for path, own in given]
-    records = run_work(_penumbra_calibrate, work, _files_of, output, **where)
-    poses = _cameras(record for record in records if record["status"] == "done")
-    file = pathlib.Path(output) / "cameras.json"
-    file.write_text(json.dumps(poses, indent=1) + "\n", encoding="utf-8")
+    given = _inputs(inputs, options)
+    records = run_work(_penumbra_calibrate, given, _files_of, output, **where)
+    poses = camera_poses.of(record for record in records if record["status"] == "done")
+    text = json.dumps(poses, indent=1) + "\n"
+    pathlib.Path(output, "cameras.json").write_text(text, encoding="utf-8")
     return records, poses
-
-
-def _cameras(records: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Takes an input's pose for the one before if chance, or what does not matter, explains how
-    they differ."""
-    expected_error = np.diag([math.radians(0.1) ** 2] * 3 + [0.002**2] * 3)  # also the watch's
-    most_by_chance = 16.81  # 99 % quantile of chi^2 with 6 degrees
-    poses: list[dict[str, Any]] = []
-    for record in records:
-        T, covariance = np.array(record["T_parent_camera"]), np.array(record["covariance"])
-        pose: dict[str, Any] = {"T_parent_camera": T, "covariance": covariance, "inputs": [record["input"]],
-                "moved_mm": 0.0, "moved_degrees": 0.0}  # fmt: skip
-        if not poses:
-            poses.append(pose)
-            continue
-        last = poses[-1]
-        twist = _twist(np.linalg.inv(last["T_parent_camera"]) @ T)
-        both = covariance + last["covariance"]
-        if twist @ np.linalg.solve(both + expected_error, twist) < most_by_chance:
-            gain = last["covariance"] @ np.linalg.inv(both)  # as of a Kalman filter
-            last["T_parent_camera"] = last["T_parent_camera"] @ _motion(gain @ twist)
-            last["covariance"] = last["covariance"] - gain @ last["covariance"]
-            last["inputs"].append(record["input"])
-            continue
-        pose["moved_mm"] = 1e3 * float(np.linalg.norm(twist[3:]))
-        pose["moved_degrees"] = math.degrees(float(np.linalg.norm(twist[:3])))
-        poses.append(pose)
-    for pose in poses:
-        for key in ("T_parent_camera", "covariance"):
-            pose[key] = pose[key].tolist()
-    return poses
-
-
-def _twist(T: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rotation vector (rad), then translation (m)."""
-    turn = np.array([T[2, 1] - T[1, 2], T[0, 2] - T[2, 0], T[1, 0] - T[0, 1]]) / 2
-    sine, cosine = float(np.linalg.norm(turn)), (np.trace(T[:3, :3]) - 1) / 2
-    scale = math.atan2(sine, cosine) / sine if sine > 0 else 1.0
-    return np.concatenate([scale * turn, T[:3, 3]])
-
-
-def _motion(twist: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Rodrigues's formula."""
-    angle = float(np.linalg.norm(twist[:3]))
-    x, y, z = twist[:3] / (angle or 1.0)
-    K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    T = np.eye(4)
-    T[:3, :3] += math.sin(angle) * K + (1 - math.cos(angle)) * K @ K
-    T[:3, 3] = twist[3:]
-    return T
 
 
 def run_work(
@@ -513,23 +454,13 @@ def main() -> int:
     known, options = parser.parse_args(arguments[:end]), arguments[end + 1 :]
 
     def run_batch(where: dict[str, Any]) -> list[dict[str, Any]]:
-        if known.calibrate:
-            return _calibrate_and_print(known.inputs, known.output, options, **where)
-        return run(known.inputs, known.output, options, **where)
+        if not known.calibrate:
+            return run(known.inputs, known.output, options, **where)
+        records, poses = calibrate(known.inputs, known.output, options, **where)
+        print(*map(_printable, camera_poses.lines(poses)), sep="\n")
+        return records
 
     return report(parser, known, run_batch)
-
-
-def _calibrate_and_print(
-    inputs: Sequence[str], output: str, options: Sequence[str], **where: Any
-) -> list[dict[str, Any]]:
-    records, poses = calibrate(inputs, output, options, **where)
-    for pose in poses:
-        moved = f"moved by {pose['moved_mm']:.1f} mm, {pose['moved_degrees']:.2f} degrees"
-        since = f": {moved} before {_printable(pose['inputs'][0])}" if pose is not poses[0] else ""
-        xyz = ", ".join(f"{row[3]:.5f}" for row in pose["T_parent_camera"][:3])
-        print(f"camera at {xyz} in {len(pose['inputs'])} inputs{since}")
-    return records
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:

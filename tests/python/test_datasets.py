@@ -14,7 +14,7 @@ import yaml
 
 import penumbra
 from penumbra import datasets, mask_files
-from conftest import DATA, Opened, SHIPPED, only_in_full, read_png, skip_without_data
+from conftest import DATA, Opened, SHIPPED, read_png, skip_without_data
 
 h5py = pytest.importorskip("h5py")
 av = pytest.importorskip("av")
@@ -493,24 +493,3 @@ def test_farthest_points_are_spread():
     line = np.zeros((101, 3), np.float32)
     line[:, 0] = np.arange(101)
     assert line[mask_files.farthest_points(line, 5), 0].tolist() == [0, 100, 50, 25, 75]
-
-
-MEMORY = """
-import resource, sys
-from penumbra import datasets
-dataset = datasets.Dataset.load(sys.argv[1])
-peaks = []
-for file in sys.argv[2:4]:
-    datasets.write(dataset, dataset.read(file), sys.argv[4], ["rle", "npz", "video", "prompts"])
-    peaks.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
-print(*peaks)
-"""
-
-
-@only_in_full
-def test_memory_does_not_grow_with_frames(joints, tmp_path):
-    files = [write_h5(tmp_path / f"{n}.h5", {"qpos": np.resize(recorded(joints), (n, 7))}) for n in (50, 2000)]
-    done = subprocess.run([sys.executable, "-c", MEMORY, describe(tmp_path), *files, tmp_path / "out"],
-                          capture_output=True, text=True, check=True)
-    first, last = map(int, done.stdout.split())
-    assert last - first < 50_000, f"{last - first} kB"

@@ -2,6 +2,8 @@
 """Arrays lie where C++ has them, outlive their owners, and never change in silence."""
 
 import gc
+import subprocess
+import sys
 import threading
 import weakref
 
@@ -9,7 +11,7 @@ import numpy as np
 import pytest
 
 import penumbra
-from conftest import SHIPPED, Opened, address
+from conftest import SHIPPED, Opened, address, only_in_full
 
 
 def test_nothing_is_copied_on_the_way_in(opened):
@@ -188,3 +190,27 @@ def test_many_pipelines_in_many_threads(shipped):
     for thread in threads:
         thread.join()
     assert not wrong
+
+
+MEMORY = """
+import resource, sys
+from penumbra import datasets
+dataset = datasets.Dataset.load(sys.argv[1])
+peaks = []
+for file in sys.argv[2:4]:
+    datasets.write(dataset, dataset.read(file), sys.argv[4], ["rle", "npz", "video", "prompts"])
+    peaks.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+print(*peaks)
+"""
+
+
+@only_in_full
+def test_data_sets_take_the_same_memory_for_more_frames(tmp_path):
+    pytest.importorskip("h5py"), pytest.importorskip("av")
+    from test_datasets import describe, recorded, write_h5
+    joints = np.array([frame.frame.joints for frame in penumbra.open_input(SHIPPED)])[:5]
+    files = [write_h5(tmp_path / f"{n}.h5", {"qpos": np.resize(recorded(joints), (n, 7))}) for n in (50, 2000)]
+    done = subprocess.run([sys.executable, "-c", MEMORY, describe(tmp_path), *files, tmp_path / "out"],
+                          capture_output=True, text=True, check=True)
+    first, last = map(int, done.stdout.split())
+    assert last - first < 50_000, f"{last - first} kB"
