@@ -457,7 +457,7 @@ def main() -> int:
         if not known.calibrate:
             return run(known.inputs, known.output, options, **where)
         records, poses = calibrate(known.inputs, known.output, options, **where)
-        print(*map(_printable, camera_poses.lines(poses)), sep="\n")
+        print("".join(f"{_printable(line)}\n" for line in camera_poses.lines(poses)), end="")
         return records
 
     return report(parser, known, run_batch)

@@ -14,6 +14,8 @@ namespace {
 using penumbra::Trajectory;
 using penumbra_msgs::msg::Target;
 
+constexpr std::chrono::seconds longest_ago{2};  // older targets may have moved
+
 /// Throws InputError that names the trajectory.
 Trajectory trajectory_of(const trajectory_msgs::msg::JointTrajectory& message, std::size_t number,
                          const penumbra::Robot& robot, const std::vector<double>& positions) {
@@ -88,6 +90,7 @@ void LookAheadService::take(const penumbra::io::AssembledFrame& job) {
   newest_.setup = job.setup;
   newest_.pose = job.pose;
   newest_.targets = job.targets;
+  newest_.at = std::chrono::steady_clock::now();
 }
 
 void LookAheadService::set_rule(const penumbra::LabelRule& rule) {
@@ -100,6 +103,8 @@ LookAheadService::Service::Response LookAheadService::answer(const Service::Requ
   Service::Response response;
   try {
     if (!seen.setup) throw penumbra::InputError("no image is judged yet");
+    if (seen.targets.empty() || std::chrono::steady_clock::now() - seen.at > longest_ago)
+      throw penumbra::InputError("no targets came in the last 2 seconds");
     if (request.trajectories.empty()) throw penumbra::InputError("no trajectories");
     const penumbra::Robot& robot = seen.setup->posed->robot;
     if (seen.positions.size() != robot.variables().size() ||

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -31,6 +32,7 @@ class LookAheadService {
     std::shared_ptr<penumbra::io::CameraSetup> setup;
     penumbra::RobotPose pose;
     std::vector<penumbra::Target> targets;
+    std::chrono::steady_clock::time_point at = {};  // when the targets came
     std::vector<double> positions;
     penumbra::LabelRule rule;
   };
