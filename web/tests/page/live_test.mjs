@@ -192,7 +192,7 @@ test(
     await page.locator('html.stale').waitFor(); // also after the last frames arrived
     playing();
     await showsLive(page);
-    assert.doesNotMatch(await page.locator('html').getAttribute('class'), /stale/);
+    await page.locator('html:not(.stale)').waitFor();
 
     await stop(view.child);
     await page.locator('#state', { hasText: 'no connection: trying again' }).waitFor();
