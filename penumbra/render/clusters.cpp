@@ -46,7 +46,9 @@ ClusteredScene::ClusteredScene(std::span<const Body> bodies) {
     }
   }
   const std::size_t padded = clusters.size() + padding;
-  for (auto* values : {&sphere_x, &sphere_y, &sphere_z, &sphere_radius}) values->resize(padded);
+  for (auto* values : {&sphere_x, &sphere_y, &sphere_z, &sphere_radius, &normal_x, &normal_y,
+                       &normal_z})
+    values->resize(padded);
 }
 
 void ClusteredScene::add_group(const TriangleMesh& mesh, const std::vector<std::uint32_t>& indices,
@@ -87,26 +89,33 @@ void ClusteredScene::add_group(const TriangleMesh& mesh, const std::vector<std::
     sphere_y.push_back(box.center().y());
     sphere_z.push_back(box.center().z());
     sphere_radius.push_back(radius * 1.0001F);  // roundings of centre and radius
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (std::uint32_t t = 0; t < meshlet.triangle_count; ++t) {
-      add_triangle(mesh, own, &local[meshlet.triangle_offset + 3 * t]);
+      normal += add_triangle(mesh, own, &local[meshlet.triangle_offset + 3 * t]);
     }
+    normal_x.push_back(static_cast<float>(normal.x()));
+    normal_y.push_back(static_cast<float>(normal.y()));
+    normal_z.push_back(static_cast<float>(normal.z()));
     pad_vertices();
     pad_triangles();
   }
   groups.push_back(group);
 }
 
-void ClusteredScene::add_triangle(const TriangleMesh& mesh, const std::uint32_t* cluster_vertices,
-                                  const unsigned char* local) {
+Eigen::Vector3d ClusteredScene::add_triangle(const TriangleMesh& mesh,
+                                             const std::uint32_t* cluster_vertices,
+                                             const unsigned char* local) {
   const Eigen::Vector3d a = mesh.vertices[cluster_vertices[local[0]]].cast<double>();
   const Eigen::Vector3d b = mesh.vertices[cluster_vertices[local[1]]].cast<double>();
   const Eigen::Vector3d c = mesh.vertices[cluster_vertices[local[2]]].cast<double>();
-  const Eigen::Vector3d n = (b - a).cross(c - a).normalized();
+  const Eigen::Vector3d area = (b - a).cross(c - a);
+  const Eigen::Vector3d n = area.normalized();
   plane_x.push_back(static_cast<float>(n.x()));
   plane_y.push_back(static_cast<float>(n.y()));
   plane_z.push_back(static_cast<float>(n.z()));
   plane_d.push_back(static_cast<float>(n.dot(a + b + c) / 3.0));
   corners.push_back(local[0] + 256U * local[1] + 65536U * local[2]);
+  return area;
 }
 
 void ClusteredScene::pad_vertices() {

@@ -50,6 +50,9 @@ struct ClusteredScene {
   /// Bounding spheres of the clusters, in the body's frame; padded with spheres of radius 0.
   std::vector<float> sphere_x, sphere_y, sphere_z, sphere_radius;
 
+  /// Sums of the clusters' normals by area; padded.
+  std::vector<float> normal_x, normal_y, normal_z;
+
   std::vector<float> x, y, z;  ///< vertices in the body's frame, padded by repeating the last
 
   /// Outward planes n . p = d with |n| = 1, computed in double; padded with zeros.
@@ -61,8 +64,9 @@ struct ClusteredScene {
  private:
   void add_group(const TriangleMesh& mesh, const std::vector<std::uint32_t>& indices,
                  ClusterGroup group);
-  void add_triangle(const TriangleMesh& mesh, const std::uint32_t* cluster_vertices,
-                    const unsigned char* local);
+  /// Returns its normal, twice as long as its area.
+  Eigen::Vector3d add_triangle(const TriangleMesh& mesh, const std::uint32_t* cluster_vertices,
+                               const unsigned char* local);
   void pad_vertices();
   void pad_triangles();
 };

@@ -60,6 +60,7 @@ class CpuRenderer final : public DepthRenderer {
         packing_(numbers_.largest),
         touched_(intrinsics.width(), intrinsics.height()),
         holes_(scene_.holes.size()),
+        order_(scene_.groups.size()),
         items_(scene_.clusters.size()),
         workers_(threads) {
     for (int i = 0; i < threads; ++i) {
@@ -106,7 +107,19 @@ class CpuRenderer final : public DepthRenderer {
            ++hole) {
         holes_[hole] = cpu::bounds_of(scene_.holes[hole], body, intrinsics());
       }
-      item_count_ += kernel_.cull(context(), i, sides_of(group), &items_[item_count_]);
+    }
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      const ClusterGroup& group = scene_.groups[i];
+      const Eigen::Vector3d middle = frames_[group.body].T_camera_body * group.bounds.center();
+      order_[i] = {middle.z() - group.bounds.diagonal().norm() / 2.0,
+                   static_cast<std::uint32_t>(i)};
+    }
+    std::sort(order_.begin(), order_.end());
+    for (const auto& [nearest, i] : order_) {
+      const Sides sides = sides_of(scene_.groups[i]);
+      item_count_ += kernel_.cull(context(), i, sides, false, &items_[item_count_]);
+      if (sides == Sides::both)
+        item_count_ += kernel_.cull(context(), i, sides, true, &items_[item_count_]);
     }
   }
 
@@ -172,6 +185,7 @@ class CpuRenderer final : public DepthRenderer {
   TileMask touched_;
   std::vector<BodyFrame> frames_;
   std::vector<cpu::Bounds> holes_;  // of scene_.holes
+  std::vector<std::pair<double, std::uint32_t>> order_;  // of scene_.groups, the nearest first
   std::vector<DrawItem> items_;
   std::size_t item_count_ = 0;
   std::vector<Canvas> canvases_;          // one per thread

@@ -104,7 +104,9 @@ struct DrawItem {
   std::uint32_t group;
   std::uint32_t body;
   Sides sides;
-  bool clip;  // it may reach past the near plane or the guard band
+  bool clip;      // it may reach past the near plane or the guard band
+  bool second;    // drawn after the group's others, which are likely to hide it
+  float nearest;  // 1/z that no point of it exceeds; infinite if it is not to be tested
 };
 
 /// A depth buffer in blocks, and scratch space. Each lane holds the bits of a float 1/z whose low

@@ -39,15 +39,12 @@ void Collect(const FrameContext& frame, const DrawItem& item, Scratch& s, Canvas
                                  : FrontFaces<false>(scene, cluster, body, s.front.data());
   if (count == 0) return;
   if (holes.empty()) bounds = Project(scene, cluster, body, s.pixels.data());
+  if (IsHidden(bounds, item.nearest, frame.view->intrinsics, canvas)) return;
   if (item.clip) {
     count = ClipCorners(frame, item, count, s, canvas);
   } else {
     if (!MarkTouched(bounds, frame.view->intrinsics, canvas.touched)) return;
-    if (both_sides) {
-      GatherCorners<true>(corners, count, s);
-    } else {
-      GatherCorners<false>(corners, count, s);
-    }
+    GatherCorners(corners, count, s);
   }
   Select(frame, item, count, s);
 }
@@ -55,11 +52,13 @@ void Collect(const FrameContext& frame, const DrawItem& item, Scratch& s, Canvas
 void Draw(const FrameContext& frame, std::span<const DrawItem> items, Scratch& s, Canvas& canvas) {
   const Target target{canvas.packed.data(), canvas.lanes_per_row,
                       hn::Set(di, ~frame.packing.id_mask)};
+  const DrawItem* last = nullptr;
   for (const DrawItem& item : items) {
-    if (item.body != s.survivor_body || s.survivors > Scratch::max_survivors) {
-      SetUpSurvivors(frame, s, target);
-      s.survivor_body = item.body;
-    }
+    const bool is_next = !last || item.group != last->group || item.second != last->second;
+    if (is_next || s.survivors > Scratch::max_survivors) SetUpSurvivors(frame, s, target);
+    if (is_next) Flush(s, target);
+    s.survivor_body = item.body;
+    last = &item;
     Collect(frame, item, s, canvas);
   }
   SetUpSurvivors(frame, s, target);

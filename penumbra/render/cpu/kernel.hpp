@@ -31,8 +31,10 @@ struct FrameContext {
 struct Kernel {
   int lanes;
 
-  /// Appends those clusters of a group to `items` that may be in view; returns how many.
-  std::size_t (*cull)(const FrameContext& frame, std::uint32_t group, Sides sides, DrawItem* items);
+  /// Appends those clusters of a group to `items` that may be in view, either those to be drawn
+  /// first or those that they may hide; returns how many.
+  std::size_t (*cull)(const FrameContext& frame, std::uint32_t group, Sides sides, bool second,
+                      DrawItem* items);
 
   /// Draws clusters into the canvas and marks the tiles it touches.
   void (*draw)(const FrameContext& frame, std::span<const DrawItem> items, Scratch& scratch,

@@ -23,7 +23,8 @@ HWY_BEFORE_NAMESPACE();
 namespace penumbra::cpu {
 namespace HWY_NAMESPACE {
 
-std::size_t Cull(const FrameContext& frame, std::uint32_t group_index, Sides sides,
+/// Whatever of an open mesh faces away is likely to be hidden by what does not.
+std::size_t Cull(const FrameContext& frame, std::uint32_t group_index, Sides sides, bool second,
                  DrawItem* items) {
   const ClusteredScene& scene = *frame.scene;
   const ClusterGroup& group = scene.groups[group_index];
@@ -53,13 +54,32 @@ std::size_t Cull(const FrameContext& frame, std::uint32_t group_index, Sides sid
     const auto tame = hn::And(hn::Gt(z_min, near),
                               hn::And(hn::Lt(hn::Add(hn::Abs(x), r), hn::Mul(tan_u, z_min)),
                                       hn::Lt(hn::Add(hn::Abs(y), r), hn::Mul(tan_v, z_min))));
+    // Of clusters of about one depth, so that no depth in the image exceeds their own by more than
+    // the margin of IsHidden.
+    const auto flat = hn::Lt(hn::Mul(r, hn::Set(df, 8.0F)), z_min);
+    const auto toward = hn::MulAdd(
+        hn::LoadU(df, &scene.normal_x[i]), hn::Sub(hn::Set(df, body.centre[0]), x0),
+        hn::MulAdd(hn::LoadU(df, &scene.normal_y[i]), hn::Sub(hn::Set(df, body.centre[1]), y0),
+                   hn::Mul(hn::LoadU(df, &scene.normal_z[i]),
+                           hn::Sub(hn::Set(df, body.centre[2]), z0))));
+    const auto away = hn::Lt(toward, hn::Zero(df));
+    HWY_ALIGN std::array<float, kStep> nearest_of;
+    hn::Store(hn::IfThenElse(hn::And(tame, flat), hn::Div(hn::Set(df, 1.0F), z_min),
+                             hn::Set(df, std::numeric_limits<float>::infinity())),
+              df, nearest_of.data());
     std::uint32_t visible_bits = Bits(visible);
     const std::uint32_t tame_bits = Bits(tame);
+    if (sides == Sides::both) visible_bits &= second ? Bits(away) : ~Bits(away);
     if (end - i < kStep) visible_bits &= (1U << (end - i)) - 1;
     for (; visible_bits != 0; visible_bits &= visible_bits - 1) {
       const int lane = std::countr_zero(visible_bits);
-      items[count++] = {i + static_cast<std::uint32_t>(lane), group_index, group.body, sides,
-                        ((tame_bits >> lane) & 1) == 0};
+      items[count++] = {i + static_cast<std::uint32_t>(lane),
+                        group_index,
+                        group.body,
+                        sides,
+                        ((tame_bits >> lane) & 1) == 0,
+                        second,
+                        nearest_of[static_cast<std::size_t>(lane)]};
     }
   }
   return count;
@@ -133,6 +153,33 @@ bool MeetsAny(std::span<const Bounds> holes, const Bounds& bounds) {
                      [&](const Bounds& hole) { return hole.meets(bounds); });
 }
 
+/// Whether all pixels inside the bounds hold something nearer than 1/z = `nearest`.
+bool IsHidden(const Bounds& b, float nearest, const Intrinsics& k, const Canvas& canvas) {
+  constexpr float margin = 1.004F;  // pixels of triangles seen edge-on: sliver_excess; lost low bits
+  constexpr float around = 1.0F;    // pixels: sliver_reach
+  constexpr float most = 512.0F;    // pixels
+  if (!(b.u1 - b.u0 < most && b.v1 - b.v0 < most)) return false;
+  const auto clamp = [](float at, int size) {
+    return static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(size - 1)));
+  };
+  const std::size_t first = clamp(b.u0 - around, k.width()) / block_width;
+  const std::size_t last = clamp(b.u1 + around, k.width()) / block_width;
+  const std::size_t end = clamp(b.v1 + around, k.height()) / kBlockHeight;
+  const auto at = [&](std::size_t column, std::size_t row) HWY_ATTR {
+    return hn::Load(di, canvas.packed.data() + row * canvas.lanes_per_row + column * kStep);
+  };
+  const auto bound = hn::Set(di, std::bit_cast<std::int32_t>(margin * nearest));
+  const std::size_t begin = clamp(b.v0 - around, k.height()) / kBlockHeight;
+  // Most that are not hidden are not so in their middle.
+  if (!hn::AllTrue(di, hn::Gt(at((first + last) / 2, (begin + end) / 2), bound))) return false;
+  for (std::size_t row = begin; row <= end; ++row) {
+    auto farthest = at(first, row);
+    for (std::size_t i = first + 1; i <= last; ++i) farthest = hn::Min(farthest, at(i, row));
+    if (!hn::AllTrue(di, hn::Gt(farthest, bound))) return false;
+  }
+  return true;
+}
+
 /// Marks the tiles of the pixel centres inside the bounds; false if there are none in the image.
 bool MarkTouched(const Bounds& b, const Intrinsics& k, TileMask& touched) {
   const float u0 = std::max(std::ceil(b.u0), 0.0F);
@@ -146,7 +193,6 @@ bool MarkTouched(const Bounds& b, const Intrinsics& k, TileMask& touched) {
 }
 
 /// Copies the image points of the listed triangles' corners side by side.
-template <bool kBothSides>
 void GatherCorners(const std::uint32_t* corners, std::size_t count, Scratch& s) {
   const auto copy = [&s](std::array<float, 2>& to, std::uint32_t vertex) HWY_ATTR {
     std::memcpy(to.data(), &s.pixels[std::size_t{2} * vertex], sizeof(to));
@@ -154,10 +200,12 @@ void GatherCorners(const std::uint32_t* corners, std::size_t count, Scratch& s) 
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t triangle = s.front[i] & 0x7fffffffU;
     const std::uint32_t packed = corners[triangle];
-    const bool turned = kBothSides && (s.front[i] >> 31) != 0;
+    // Where it is turned, the second and the third change places: without a branch, since half of
+    // them are.
+    const std::uint32_t turn = (packed >> 8 ^ packed >> 16) & (0U - (s.front[i] >> 31));
     copy(s.corner0[i], packed & 255U);
-    copy(turned ? s.corner2[i] : s.corner1[i], (packed >> 8) & 255U);
-    copy(turned ? s.corner1[i] : s.corner2[i], packed >> 16);
+    copy(s.corner1[i], (packed >> 8 ^ turn) & 255U);
+    copy(s.corner2[i], (packed >> 16 ^ turn) & 255U);
     s.corner_triangle[i] = triangle;
   }
 }
@@ -196,29 +244,76 @@ std::size_t ClipCorners(const FrameContext& frame, const DrawItem& item, std::si
   return out;
 }
 
-/// Keeps the triangles whose bounding box holds a pixel centre of the image.
+/// An edge's function at a pixel centre, and its slopes.
+struct EdgeAt {
+  VF value, du, dv;
+  HWY_INLINE EdgeAt(VF pu, VF pv, VF qu, VF qv, VF u, VF v, VF bias)
+      : du(hn::Sub(qv, pv)), dv(hn::Sub(pu, qu)) {
+    value = hn::MulAdd(du, hn::Sub(u, pu), hn::MulAdd(dv, hn::Sub(v, pv), bias));
+  }
+};
+
+/// Which triangles may cover one of the kSize x kSize pixel centres from (u, v) on. The bias is
+/// three times as large as that of the edge functions that decide (MakeEdge), which covers the
+/// roundings here and there: none is missed.
+template <int kSize>
+HWY_INLINE hn::Mask<DF> MayCover(const std::array<VF, 6>& p, VF u, VF v, VF width, VF height) {
+  const auto margin = hn::Set(df, edge_margin);
+  const auto bias = hn::Mul(hn::Set(df, 3.0F * edge_rounding),
+                            hn::MulAdd(width, hn::Add(height, margin),
+                                       hn::Mul(height, hn::Add(width, margin))));
+  const EdgeAt e0(p[0], p[1], p[2], p[3], u, v, bias);
+  const EdgeAt e1(p[2], p[3], p[4], p[5], u, v, bias);
+  const EdgeAt e2(p[4], p[5], p[0], p[1], u, v, bias);
+  auto row0 = e0.value, row1 = e1.value, row2 = e2.value;
+  auto missed = hn::Set(df, -0.0F);  // the sign: outside at every centre
+  HWY_UNROLL(4) for (int y = 0; y < kSize; ++y) {
+    auto at0 = row0, at1 = row1, at2 = row2;
+    HWY_UNROLL(4) for (int x = 0; x < kSize; ++x) {
+      missed = hn::And(missed, hn::Or(hn::Or(at0, at1), at2));
+      at0 = hn::Add(at0, e0.du);
+      at1 = hn::Add(at1, e1.du);
+      at2 = hn::Add(at2, e2.du);
+    }
+    row0 = hn::Add(row0, e0.dv);
+    row1 = hn::Add(row1, e1.dv);
+    row2 = hn::Add(row2, e2.dv);
+  }
+  return hn::Not(hn::MaskFromVec(hn::BitCast(df, hn::BroadcastSignBit(hn::BitCast(di, missed)))));
+}
+
+/// Keeps the triangles that may cover a pixel centre of the image: their bounding box holds one and,
+/// if it holds few, one of these is inside.
 void Select(const FrameContext& frame, const DrawItem& item, std::size_t count, Scratch& s) {
   const Cluster& cluster = frame.scene->clusters[item.cluster];
-  const auto width = hn::Set(df, static_cast<float>(frame.view->intrinsics.width() - 1));
-  const auto height = hn::Set(df, static_cast<float>(frame.view->intrinsics.height() - 1));
+  const auto last_column = hn::Set(df, static_cast<float>(frame.view->intrinsics.width() - 1));
+  const auto last_row = hn::Set(df, static_cast<float>(frame.view->intrinsics.height() - 1));
   std::size_t end = s.survivors;
   for (std::size_t i = 0; i < count; i += kStep) {
-    VF u0, v0, u1, v1, u2, v2;
-    hn::LoadInterleaved2(df, s.corner0[i].data(), u0, v0);
-    hn::LoadInterleaved2(df, s.corner1[i].data(), u1, v1);
-    hn::LoadInterleaved2(df, s.corner2[i].data(), u2, v2);
-    const auto first_u = hn::Max(hn::Ceil(hn::Min(hn::Min(u0, u1), u2)), hn::Zero(df));
-    const auto first_v = hn::Max(hn::Ceil(hn::Min(hn::Min(v0, v1), v2)), hn::Zero(df));
-    const auto last_u = hn::Min(hn::Floor(hn::Max(hn::Max(u0, u1), u2)), width);
-    const auto last_v = hn::Min(hn::Floor(hn::Max(hn::Max(v0, v1), v2)), height);
-    auto covers = hn::And(hn::Le(first_u, last_u), hn::Le(first_v, last_v));
+    std::array<VF, 6> p;
+    hn::LoadInterleaved2(df, s.corner0[i].data(), p[0], p[1]);
+    hn::LoadInterleaved2(df, s.corner1[i].data(), p[2], p[3]);
+    hn::LoadInterleaved2(df, s.corner2[i].data(), p[4], p[5]);
+    const auto u_min = hn::Min(hn::Min(p[0], p[2]), p[4]);
+    const auto v_min = hn::Min(hn::Min(p[1], p[3]), p[5]);
+    const auto u_max = hn::Max(hn::Max(p[0], p[2]), p[4]);
+    const auto v_max = hn::Max(hn::Max(p[1], p[3]), p[5]);
+    const auto first_u = hn::Max(hn::Ceil(u_min), hn::Zero(df));
+    const auto first_v = hn::Max(hn::Ceil(v_min), hn::Zero(df));
+    const auto columns = hn::Sub(hn::Min(hn::Floor(u_max), last_column), first_u);
+    const auto rows = hn::Sub(hn::Min(hn::Floor(v_max), last_row), first_v);
+    auto covers = hn::Ge(hn::Min(columns, rows), hn::Zero(df));
     if (count - i < kStep) covers = hn::And(covers, hn::FirstN(df, count - i));
+    if (hn::AllFalse(df, covers)) continue;
+    const auto size = hn::Max(columns, rows);
+    const auto width = hn::Sub(u_max, u_min), height = hn::Sub(v_max, v_min);
+    const auto tiny = hn::Lt(size, hn::Set(df, 2.0F));
+    covers = hn::And(covers, hn::Or(hn::Not(tiny), MayCover<2>(p, first_u, first_v, width, height)));
     const auto triangle = hn::LoadU(du32, &s.corner_triangle[i]);
     const auto absolute = hn::Add(triangle, hn::Set(du32, cluster.first_triangle));
-    const std::array<VF, 6> values{u0, v0, u1, v1, u2, v2};
     const Packer keep(covers);
-    for (std::size_t j = 0; j < values.size(); ++j) {
-      hn::StoreU(keep(values[j]), df, &s.survivor_pixels[j][end]);
+    for (std::size_t j = 0; j < p.size(); ++j) {
+      hn::StoreU(keep(p[j]), df, &s.survivor_pixels[j][end]);
     }
     hn::StoreU(hn::Set(du32, item.cluster), du32, &s.survivor_cluster[end]);
     hn::StoreU(keep(absolute), du32, &s.survivor_triangle[end]);

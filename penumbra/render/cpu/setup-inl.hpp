@@ -66,9 +66,6 @@ struct EdgeFunction {
   VF base, du, dv;
 };
 
-constexpr float edge_margin = 48.0F;  // pixels
-constexpr float edge_rounding = 0x1p-21F;
-
 /// The edge from p to q. Its bias exceeds the rounding of its value at any pixel: some six
 /// roundings (2^-24 each) of terms over the whole triangle, unclipped, and a dozen over the last 32
 /// pixels.

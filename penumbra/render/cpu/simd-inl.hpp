@@ -35,6 +35,10 @@ constexpr std::size_t kStep = static_cast<std::size_t>(kLanes);
 constexpr int kBlockHeight = kLanes / block_width;
 static_assert(kLanes >= 4 && kLanes <= 16);
 
+// Of the bias of edge functions: MakeEdge.
+constexpr float edge_margin = 48.0F;  // pixels
+constexpr float edge_rounding = 0x1p-21F;
+
 HWY_INLINE VF Dot3(const float* row, VF x, VF y, VF z) {
   return hn::MulAdd(hn::Set(df, row[0]), x,
                     hn::MulAdd(hn::Set(df, row[1]), y, hn::Mul(hn::Set(df, row[2]), z)));
