@@ -16,6 +16,7 @@ inline constexpr float millimetres_per_metre = 1000.0f;
 /// The buffers of the flood fill that finds the fringe (LabelRule), over blocks of 2 x 2 pixels.
 struct Fringe {
   static constexpr std::uint16_t farthest = 0x7ffe;  ///< millimetres; a robot farther has no fringe
+  static constexpr std::uint16_t unfilled = 0xffff;  ///< a block that no one has asked for
 
   Fringe(int width, int height, int reach_pixels);
 
@@ -42,17 +43,19 @@ struct Fringe {
   [[nodiscard]] std::uint16_t* block(int x, int y) {
     return &blocks[static_cast<std::size_t>(y + 1) * pitch + static_cast<std::size_t>(x + 1)];
   }
+  /// Marks as filled what lies at most `pixels` from the touched tiles, and empties all other blocks.
+  void begin(const TileMask& touched, int pixels);
   void add_source(const Rule& rule, int x, int y, std::uint16_t depth);
 
   int reach;  ///< pixels; 0: no fringe
   std::size_t pitch;
-  /// Near the robot, with a border of zeros: the nearest depth of the occluded pixels of each
+  /// In the tiles that are filled, with a border of zeros around the image: the nearest depth of the occluded pixels of each
   /// block, in millimetres; without any, that of its clear pixels, with the bit is_open until the
   /// flood reaches it; without any, 0.
   std::vector<std::uint16_t> blocks;
   std::vector<Source> sources;
   std::unique_ptr<Block[]> queue;  ///< the sources' blocks, then those that the flood reached
-  TileMask reachable;
+  TileMask filled;
 };
 
 /// Labels the fringe in a labelled image and marks its tiles as touched. Returns the number of its

@@ -91,32 +91,50 @@ HWY_INLINE V blocks_of(const Chunk& above, const Chunk& below, V near, V far) {
   return hn::IfThenZeroElse(hn::Eq(least, hn::Set(D(), nothing)), least);
 }
 
-/// Fills the blocks of all tiles that the flood may reach.
+/// Fills the blocks of some pixels of one tile row.
 template <typename T>
-void fill_blocks(Fringe& flood, const Work& work, ImageView<const T> measured) {
+void fill_blocks(Fringe& flood, const Work& work, ImageView<const T> measured, int u0, int u1,
+                 int v0, int v1) {
   constexpr int ahead = 4;  // rows to prefetch
   const ImageView<const std::uint8_t> labels = work.labels.view();
   const auto near = hn::Set(D(), work.rule.range.first);
   const auto far = hn::Set(D(), std::min(work.rule.range.last, farthest));
-  flood.reachable.tile_width = work.touched.tile_width;
-  for (std::size_t j = 0; j < flood.reachable.rows.size(); ++j)
-    flood.reachable.rows[j] = marked_around(work.touched, j, flood.reach);
-  flood.reachable.for_each_span([&](int u0, int u1, int v0, int v1) HWY_ATTR {
-    for (int v = v0; v < v1; v += 2) {
-      const int below = std::min(v + 1, v1 - 1);
-      const int next = std::min(v + ahead, measured.height - 2);
-      std::uint16_t* const out = flood.block(0, v / 2);
-      for (int u = u0; u < u1; u += chunk) {
-        const int count = std::min(chunk, u1 - u);
-        hwy::Prefetch(measured.row(next) + u);
-        hwy::Prefetch(measured.row(next + 1) + u);
-        const auto blocks =
-            blocks_of(Chunk(labels.row(v) + u, measured.row(v) + u, count),
-                      Chunk(labels.row(below) + u, measured.row(below) + u, count), near, far);
-        hn::StoreU(blocks, D(), out + u / 2);
-      }
+  for (int v = v0; v < v1; v += 2) {
+    const int below = std::min(v + 1, v1 - 1);
+    const int next = std::min(v + ahead, measured.height - 2);
+    std::uint16_t* const out = flood.block(0, v / 2);
+    for (int u = u0; u < u1; u += chunk) {
+      const int count = std::min(chunk, u1 - u);
+      hwy::Prefetch(measured.row(next) + u);
+      hwy::Prefetch(measured.row(next + 1) + u);
+      const auto blocks =
+          blocks_of(Chunk(labels.row(v) + u, measured.row(v) + u, count),
+                    Chunk(labels.row(below) + u, measured.row(below) + u, count), near, far);
+      hn::StoreU(blocks, D(), out + u / 2);
     }
+  }
+}
+
+/// Fills the tiles with sources and those around; the flood fills others as it reaches them.
+template <typename T>
+void fill_near_robot(Fringe& flood, const Work& work, ImageView<const T> measured) {
+  // The last blocks of an odd image share pixels with others, which paint() changes.
+  const bool is_odd = measured.width % 2 != 0 || measured.height % 2 != 0;
+  flood.begin(work.touched, is_odd ? flood.reach : 2);
+  flood.filled.for_each_span([&](int u0, int u1, int v0, int v1) {
+    fill_blocks(flood, work, measured, u0, u1, v0, v1);
   });
+}
+
+/// Fills the tile of a block.
+template <typename T>
+HWY_NOINLINE void fill_tile(Fringe& flood, const Work& work, ImageView<const T> measured, int x,
+                            int y) {
+  const int u0 = 2 * x / flood.filled.tile_width * flood.filled.tile_width;
+  const int v0 = 2 * y / TileMask::tile_height * TileMask::tile_height;
+  flood.filled.mark(u0, v0, u0, v0);
+  fill_blocks(flood, work, measured, u0, std::min(u0 + flood.filled.tile_width, work.width), v0,
+              std::min(v0 + TileMask::tile_height, work.height));
 }
 
 /// Finds the blocks of the robot with an open one among their eight neighbours.
@@ -238,10 +256,12 @@ std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured) {
     const auto span = static_cast<std::uint32_t>(most - least);
     for (const Step& to : steps) {  // without unpredictable branches
       std::uint16_t& next = here[to.offset];
+      queue[end].bits = from.bits + to.block;
+      if (HWY_UNLIKELY(next == Fringe::unfilled))
+        fill_tile(flood, work, measured, queue[end].x(), queue[end].y());
       // Whether first <= next <= first + span: a smaller one, such as a block without the flag
       // is_open, wraps around to a large number.
       const bool is_taken = next - first <= span;
-      queue[end].bits = from.bits + to.block;
       end += is_taken;
       next = static_cast<std::uint16_t>(next & ~(is_taken ? is_open : 0));
     }
@@ -253,7 +273,7 @@ std::size_t label_fringe(Fringe& flood, Work& work, const DepthView& measured) {
   if (flood.reach == 0) return 0;
   return std::visit(
       [&](const auto& depth) {
-        fill_blocks(flood, work, depth);
+        fill_near_robot(flood, work, depth);
         find_sources(flood, work);
         return fill(flood, work, depth);
       },
@@ -279,11 +299,22 @@ LabelFringe fringe_kernel(std::int64_t target) { return PENUMBRA_SIMD_FUNCTION(k
 Fringe::Fringe(int width, int height, int reach_pixels)
     : reach(width < 2 || height < 2 ? 0 : reach_pixels),
       pitch(static_cast<std::size_t>(width + 1) / 2 + 32),
-      reachable(width, height) {
+      filled(width, height) {
   if (reach == 0) return;
   blocks.resize(pitch * static_cast<std::size_t>((height + 1) / 2 + 2) + 32);
+  filled.mark(0, 0, width - 1, height - 1);  // so that begin() empties all
   sources.reserve(blocks.size());
   queue = std::make_unique_for_overwrite<Block[]>(blocks.size() + 1);
+}
+
+void Fringe::begin(const TileMask& touched, int pixels) {
+  filled.for_each_span([&](int u0, int u1, int v0, int v1) {
+    for (int y = v0 / 2; y < (v1 + 1) / 2; ++y)
+      std::fill(block(u0 / 2, y), block((u1 + 1) / 2, y), unfilled);
+  });
+  filled.tile_width = touched.tile_width;
+  for (std::size_t j = 0; j < filled.rows.size(); ++j)
+    filled.rows[j] = marked_around(touched, j, pixels);
 }
 
 void Fringe::add_source(const Rule& rule, int x, int y, std::uint16_t depth) {
