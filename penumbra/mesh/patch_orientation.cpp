@@ -168,9 +168,10 @@ int winding_around(const Vector3d& p, Eigen::Index axis, const std::array<Vector
 }
 
 /// Returns whether the capped patch's winding number is not negative in front of a sample. It is
-/// the sum of what a ray crosses, here along the axis next to the normal.
+/// the sum of what a ray crosses, here along the axis next to the normal. `boxes` are those of the
+/// patch's triangles.
 bool faces_outwards(const Sample& sample, const TriangleMesh& mesh, const SurfacePatch& patch,
-                    const Caps& caps) {
+                    const std::vector<Eigen::AlignedBox3f>& boxes, const Caps& caps) {
   const Vector3d front = normal_of(corners_of(mesh, sample.triangle));
   Eigen::Index axis = 0;
   front.cwiseAbs().maxCoeff(&axis);
@@ -183,8 +184,15 @@ bool faces_outwards(const Sample& sample, const TriangleMesh& mesh, const Surfac
         (normal.dot(corners[0] - sample.point) > 0.0) == (normal[axis] * front[axis] > 0.0);
     if (is_in_front) sum += winding;
   };
-  for (const std::uint32_t i : patch.triangles)
-    if (i != sample.triangle) cross(corners_of(mesh, i));
+  const Eigen::Index x = (axis + 1) % 3, y = (axis + 2) % 3;
+  const double px = sample.point[x], py = sample.point[y];
+  for (std::size_t k = 0; k < boxes.size(); ++k) {
+    const Eigen::Vector3f &least = boxes[k].min(), &most = boxes[k].max();
+    const bool may_cross =
+        (least[x] <= px) & (px <= most[x]) & (least[y] <= py) & (py <= most[y]);
+    if (may_cross && patch.triangles[k] != sample.triangle)
+      cross(corners_of(mesh, patch.triangles[k]));
+  }
   for (const auto& cap : caps.triangles) cross(cap);
   return front[axis] > 0.0 ? sum >= 0 : sum <= 0;
 }
@@ -194,8 +202,12 @@ Facing facing_of(const std::vector<Sample>& samples, const TriangleMesh& mesh,
                  const SurfacePatch& patch, const Caps& caps) {
   if (samples.empty() || samples.size() * patch.triangles.size() > most_work)
     return Facing::unknown;
+  std::vector<Eigen::AlignedBox3f> boxes(patch.triangles.size());
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    for (const std::uint32_t vertex : mesh.triangles[patch.triangles[k]])
+      boxes[k].extend(mesh.vertices[vertex]);
   const auto is_outwards = [&](const Sample& sample) {
-    return faces_outwards(sample, mesh, patch, caps);
+    return faces_outwards(sample, mesh, patch, boxes, caps);
   };
   const bool first = is_outwards(samples.front());
   const bool same = std::all_of(samples.begin() + 1, samples.end(),
