@@ -13,7 +13,7 @@ set -euo pipefail
 
 build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libmeshoptimizer-dev
        libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev libepoxy-dev pkgconf
-       libjpeg-dev libtiff-dev libopenexr-dev liblz4-dev libzstd-dev libsqlite3-dev libboost-dev zlib1g-dev)
+       libdeflate-dev libjpeg-dev libtiff-dev libopenexr-dev liblz4-dev libzstd-dev libsqlite3-dev libboost-dev zlib1g-dev)
 ros=(cyclonedds-dev nettle-dev)
 python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-venv python3-pip
         python3-matplotlib patchelf)

@@ -13,6 +13,7 @@
 
 #include <io/files/disk_file.hpp>
 #include <io/files/png.hpp>
+#include <io/files/png_depth.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -224,6 +225,8 @@ void write_image(const std::filesystem::path& file, ImageView<const T> image,
 template <typename T>
 std::optional<std::string> decode_png(std::span<const std::byte> bytes, Image<T>& image,
                                       std::optional<ImageSize> wanted) {
+  if constexpr (std::is_same_v<T, std::uint16_t>)
+    if (decode_depth_png(bytes, image, wanted)) return std::nullopt;
   constexpr bool as_rgb = std::is_same_v<T, Rgb8>;
   PngDecoder decoder(bytes);
   std::string fault = decoder.read_header();

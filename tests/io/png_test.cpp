@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 
 #include <io/files/png.hpp>
+#include <io/files/png_depth.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -186,6 +187,31 @@ TEST_F(Png, RefusesAbsurdSizesBeforeAllocating) {
                                    test::mini_png::header({c.width, c.height, 16, 0, false}) +
                                    test::mini_png::chunk("IDAT", "abc"));
     EXPECT_TRUE(expect_bad(file_, c.named).empty());
+  }
+}
+
+// Rows of Paeth's filter are decoded by fours, all others one by one.
+TEST_F(Png, DecodesDepthOfEveryFilterLikeTheSpecification) {
+  std::mt19937_64 random = test::seeded_random(7);
+  for (int i = 0; i < 2000; ++i) {
+    const auto width = static_cast<std::uint32_t>(1 + random() % 9);
+    const auto height = static_cast<std::uint32_t>(1 + random() % 13);
+    std::string raw;
+    for (std::uint32_t v = 0; v < height; ++v) {
+      raw += static_cast<char>(i % 2 == 0 ? random() % 5 : 4 - (random() % 16 == 0 ? 1 : 0));
+      for (std::uint32_t k = 0; k < 2 * width; ++k) raw += static_cast<char>(random());
+    }
+    const std::string packed = test::mini_png::deflated(raw);
+    const std::size_t cut = random() % packed.size();
+    const std::string file =
+        test::mini_png::signature() + test::mini_png::header({width, height, 16, 0, false}) +
+        test::mini_png::chunk("tEXt", "Title") +
+        test::mini_png::chunk("IDAT", packed.substr(0, cut)) +
+        test::mini_png::chunk("IDAT", packed.substr(cut)) + test::mini_png::chunk("IEND", "");
+    Image<std::uint16_t> read;
+    ASSERT_TRUE(decode_depth_png(std::as_bytes(std::span(file)), read, {}));
+    ASSERT_EQ(samples(read), test::mini_png::unfiltered(raw, 2 * width, 2))
+        << "round " << i << ", " << width << " x " << height;
   }
 }
 
