@@ -55,6 +55,9 @@ class PreparedMesh : public TriangleMesh {
   /// mesh, which may take a second for large meshes.
   [[nodiscard]] const std::vector<PatchOrientation>& orientations() const;
 
+  /// The same for all copies of a mesh, and for no other mesh while any holder of it lives.
+  [[nodiscard]] std::shared_ptr<const void> identity() const { return orientations_; }
+
  private:
   struct Orientations;
   std::shared_ptr<Orientations> orientations_;

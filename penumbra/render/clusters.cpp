@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <map>
+#include <mutex>
 #include <numeric>
+#include <utility>
 
 #include <meshoptimizer.h>
 
@@ -46,8 +49,8 @@ ClusteredScene::ClusteredScene(std::span<const Body> bodies) {
     }
   }
   const std::size_t padded = clusters.size() + padding;
-  for (auto* values : {&sphere_x, &sphere_y, &sphere_z, &sphere_radius, &normal_x, &normal_y,
-                       &normal_z})
+  for (auto* values :
+       {&sphere_x, &sphere_y, &sphere_z, &sphere_radius, &normal_x, &normal_y, &normal_z})
     values->resize(padded);
 }
 
@@ -116,6 +119,23 @@ Eigen::Vector3d ClusteredScene::add_triangle(const TriangleMesh& mesh,
   plane_d.push_back(static_cast<float>(n.dot(a + b + c) / 3.0));
   corners.push_back(local[0] + 256U * local[1] + 65536U * local[2]);
   return area;
+}
+
+std::shared_ptr<const ClusteredScene> shared_scene(std::span<const Body> bodies) {
+  using Meshes = std::vector<std::shared_ptr<const void>>;  // null after those of a body
+  static std::mutex mutex;
+  static std::map<Meshes, std::weak_ptr<const ClusteredScene>> scenes;
+  Meshes meshes;
+  for (const Body& body : bodies) {
+    for (const PreparedMesh& mesh : body.meshes) meshes.push_back(mesh.identity());
+    meshes.push_back(nullptr);
+  }
+  const std::lock_guard lock(mutex);
+  std::erase_if(scenes, [](const auto& entry) { return entry.second.expired(); });
+  std::weak_ptr<const ClusteredScene>& known = scenes[std::move(meshes)];
+  std::shared_ptr<const ClusteredScene> scene = known.lock();
+  if (!scene) known = scene = std::make_shared<const ClusteredScene>(bodies);
+  return scene;
 }
 
 void ClusteredScene::pad_vertices() {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -70,5 +71,9 @@ struct ClusteredScene {
   void pad_vertices();
   void pad_triangles();
 };
+
+/// Returns the scene of some bodies. Renderers of copies of the same meshes share it, in whichever
+/// thread they are made.
+[[nodiscard]] std::shared_ptr<const ClusteredScene> shared_scene(std::span<const Body> bodies);
 
 }  // namespace penumbra

@@ -53,15 +53,15 @@ class CpuRenderer final : public DepthRenderer {
             intrinsics, bodies,
             {.backend = Backend::cpu, .isa = simd_target_name(target), .threads = threads}),
         kernel_(cpu::kernel_for(target)),
-        scene_(bodies),
+        scene_(shared_scene(bodies)),
         view_(intrinsics),
         side_rule_(intrinsics),
         numbers_(bodies),
         packing_(numbers_.largest),
         touched_(intrinsics.width(), intrinsics.height()),
-        holes_(scene_.holes.size()),
-        order_(scene_.groups.size()),
-        items_(scene_.clusters.size()),
+        holes_(scene_->holes.size()),
+        order_(scene_->groups.size()),
+        items_(scene_->clusters.size()),
         workers_(threads) {
     for (int i = 0; i < threads; ++i) {
       canvases_.emplace_back(intrinsics, kernel_.lanes);
@@ -95,28 +95,28 @@ class CpuRenderer final : public DepthRenderer {
   }
 
   [[nodiscard]] cpu::FrameContext context() const {
-    return {&scene_, frames_.data(), holes_.data(), &view_, packing_};
+    return {scene_.get(), frames_.data(), holes_.data(), &view_, packing_};
   }
 
   void cull() {
     item_count_ = 0;
-    for (std::uint32_t i = 0; i < scene_.groups.size(); ++i) {
-      const ClusterGroup& group = scene_.groups[i];
+    for (std::uint32_t i = 0; i < scene_->groups.size(); ++i) {
+      const ClusterGroup& group = scene_->groups[i];
       const BodyFrame& body = frames_[group.body];
       for (std::size_t hole = group.first_hole; hole < group.first_hole + group.hole_count;
            ++hole) {
-        holes_[hole] = cpu::bounds_of(scene_.holes[hole], body, intrinsics());
+        holes_[hole] = cpu::bounds_of(scene_->holes[hole], body, intrinsics());
       }
     }
     for (std::size_t i = 0; i < order_.size(); ++i) {
-      const ClusterGroup& group = scene_.groups[i];
+      const ClusterGroup& group = scene_->groups[i];
       const Eigen::Vector3d middle = frames_[group.body].T_camera_body * group.bounds.center();
       order_[i] = {middle.z() - group.bounds.diagonal().norm() / 2.0,
                    static_cast<std::uint32_t>(i)};
     }
     std::sort(order_.begin(), order_.end());
     for (const auto& [nearest, i] : order_) {
-      const Sides sides = sides_of(scene_.groups[i]);
+      const Sides sides = sides_of(scene_->groups[i]);
       item_count_ += kernel_.cull(context(), i, sides, false, &items_[item_count_]);
       if (sides == Sides::both)
         item_count_ += kernel_.cull(context(), i, sides, true, &items_[item_count_]);
@@ -177,15 +177,15 @@ class CpuRenderer final : public DepthRenderer {
   }
 
   cpu::Kernel kernel_;
-  ClusteredScene scene_;
+  std::shared_ptr<const ClusteredScene> scene_;
   cpu::View view_;
   SideRule side_rule_;
   BodyNumbers numbers_;
   cpu::Packing packing_;
   TileMask touched_;
   std::vector<BodyFrame> frames_;
-  std::vector<cpu::Bounds> holes_;  // of scene_.holes
-  std::vector<std::pair<double, std::uint32_t>> order_;  // of scene_.groups, the nearest first
+  std::vector<cpu::Bounds> holes_;                       // of the scene's
+  std::vector<std::pair<double, std::uint32_t>> order_;  // of the scene's groups, the nearest first
   std::vector<DrawItem> items_;
   std::size_t item_count_ = 0;
   std::vector<Canvas> canvases_;          // one per thread
