@@ -85,6 +85,7 @@ const std::vector<Library>& libraries() {
                                         {"tiffio.h", "io/files", 1},
                                         {"OpenEXR/", "io/files", 1},
                                         {"nlohmann/", "io", 2},
+                                        {"libdeflate.h", "io/files", 1},
                                         {"lz4frame.h", "io/mcap", 1},
                                         {"zstd", "io/mcap", 1},
                                         {"zlib.h", "io/mcap", 1},

@@ -52,5 +52,17 @@ TEST(Clusters, OfSeparateTrianglesAroundOnePoint) {
   expect_quick(mesh);
 }
 
+TEST(Clusters, AreSharedByCopiesOfAMesh) {
+  const TriangleMesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  const PreparedMesh mesh(triangle), copy = mesh, other(triangle);
+  const auto scene_of = [](const PreparedMesh& one) {
+    const Body body{"triangle", {&one, 1}};
+    return shared_scene({&body, 1});
+  };
+  const auto scene = scene_of(mesh);
+  EXPECT_EQ(scene, scene_of(copy));
+  EXPECT_NE(scene, scene_of(other));
+}
+
 }  // namespace
 }  // namespace penumbra

@@ -5,8 +5,10 @@
 #include "render_test.hpp"
 #include "shapes.hpp"
 
+#include <algorithm>
 #include <random>
 #include <thread>
+#include <vector>
 
 #include <penumbra/base/simd_target.hpp>
 
@@ -53,6 +55,57 @@ TEST(Threads, AnyNumberGivesTheSameBits) {
       for (std::size_t i = 1; i < renderers.size(); ++i) {
         expect_same_bits(renderers[i]->render(scene.poses), expected);
       }
+    }
+  }
+}
+
+/// The half of a fine sphere that is below z = 0: open, so that both of its sides are drawn.
+TriangleMesh bowl(float radius) {
+  TriangleMesh mesh = sphere(radius, 40);
+  std::erase_if(mesh.triangles, [&](const auto& triangle) {
+    return std::ranges::any_of(triangle, [&](std::uint32_t v) { return mesh.vertices[v].z() > 0; });
+  });
+  return mesh;
+}
+
+// What is hidden by others is not drawn at all: every body drawn alone, the nearest of each pixel.
+TEST(Hiding, ChangesNoPixel) {
+  std::mt19937_64 random = seeded_random(73);
+  // A long floor that begins near the camera is drawn first; little of it hides what is on it.
+  Scene scene;
+  const auto floor = [] {
+    Eigen::Isometry3d pose = at(0, 0, 1.5);
+    pose.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitX()));
+    return pose;
+  }();
+  scene.add(box({2.0F, 0.01F, 2.5F}), floor);
+  for (int i = 0; i < 8; ++i) {
+    scene.add(bowl(0.02F + 0.005F * static_cast<float>(i)), floor);
+    scene.add(sphere(0.05F, 40), floor);
+  }
+  const auto behind = at(0, 0, -5);
+  for (const std::string& isa : simd_target_names()) {
+    const auto renderer = make({Backend::cpu, isa, 1}, camera, scene.bodies());
+    for (int round = 0; round < 20; ++round) {
+      auto poses = scene.poses;
+      for (std::size_t i = 1; i < poses.size(); ++i)
+        poses[i] = floor * random_pose(random, {-0.3, -0.1, -1.0}, {0.3, 0.05, 1.0});
+      Image<float> depth(camera.width(), camera.height(), 0.0F);
+      Image<std::uint16_t> links(camera.width(), camera.height(), 0);
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        std::vector<Eigen::Isometry3d> alone(poses.size(), behind);
+        alone[i] = poses[i];
+        const VirtualDepthView drawn = renderer->render(alone);
+        for (int v = 0; v < camera.height(); ++v)
+          for (int u = 0; u < camera.width(); ++u) {
+            const float z = drawn.depth(u, v);
+            // Of equal depths the last body counts.
+            if (z == 0.0F || (depth(u, v) > 0.0F && z > depth(u, v))) continue;
+            depth(u, v) = z;
+            links(u, v) = drawn.links(u, v);
+          }
+      }
+      expect_same_bits(renderer->render(poses), {depth.view(), links.view()});
     }
   }
 }

@@ -98,28 +98,23 @@ class CpuRenderer final : public DepthRenderer {
     return {scene_.get(), frames_.data(), holes_.data(), &view_, packing_};
   }
 
+  /// Lists the clusters to draw, those of the nearest groups first.
   void cull() {
-    item_count_ = 0;
     for (std::uint32_t i = 0; i < scene_->groups.size(); ++i) {
       const ClusterGroup& group = scene_->groups[i];
       const BodyFrame& body = frames_[group.body];
-      for (std::size_t hole = group.first_hole; hole < group.first_hole + group.hole_count;
-           ++hole) {
+      for (std::size_t hole = group.first_hole; hole < group.first_hole + group.hole_count; ++hole)
         holes_[hole] = cpu::bounds_of(scene_->holes[hole], body, intrinsics());
-      }
-    }
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-      const ClusterGroup& group = scene_->groups[i];
-      const Eigen::Vector3d middle = frames_[group.body].T_camera_body * group.bounds.center();
-      order_[i] = {middle.z() - group.bounds.diagonal().norm() / 2.0,
-                   static_cast<std::uint32_t>(i)};
+      const Eigen::Vector3d middle = body.T_camera_body * group.bounds.center();
+      order_[i] = {middle.z() - group.bounds.diagonal().norm() / 2.0, i};
     }
     std::sort(order_.begin(), order_.end());
+    item_count_ = 0;
     for (const auto& [nearest, i] : order_) {
       const Sides sides = sides_of(scene_->groups[i]);
-      item_count_ += kernel_.cull(context(), i, sides, false, &items_[item_count_]);
-      if (sides == Sides::both)
-        item_count_ += kernel_.cull(context(), i, sides, true, &items_[item_count_]);
+      for (const bool second : {false, true})
+        if (!second || sides == Sides::both)
+          item_count_ += kernel_.cull(context(), i, sides, second, &items_[item_count_]);
     }
   }
 

@@ -31,8 +31,9 @@ struct FrameContext {
 struct Kernel {
   int lanes;
 
-  /// Appends those clusters of a group to `items` that may be in view, either those to be drawn
-  /// first or those that they may hide; returns how many.
+  /// Appends those clusters of a group to `items` that may be in view; returns how many. Of a group
+  /// of which both sides are drawn, either those that face the camera, to be drawn first, or the
+  /// second ones, which the first are likely to hide.
   std::size_t (*cull)(const FrameContext& frame, std::uint32_t group, Sides sides, bool second,
                       DrawItem* items);
 

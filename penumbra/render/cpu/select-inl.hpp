@@ -23,7 +23,6 @@ HWY_BEFORE_NAMESPACE();
 namespace penumbra::cpu {
 namespace HWY_NAMESPACE {
 
-/// Whatever of an open mesh faces away is likely to be hidden by what does not.
 std::size_t Cull(const FrameContext& frame, std::uint32_t group_index, Sides sides, bool second,
                  DrawItem* items) {
   const ClusteredScene& scene = *frame.scene;
@@ -54,14 +53,13 @@ std::size_t Cull(const FrameContext& frame, std::uint32_t group_index, Sides sid
     const auto tame = hn::And(hn::Gt(z_min, near),
                               hn::And(hn::Lt(hn::Add(hn::Abs(x), r), hn::Mul(tan_u, z_min)),
                                       hn::Lt(hn::Add(hn::Abs(y), r), hn::Mul(tan_v, z_min))));
-    // Of clusters of about one depth, so that no depth in the image exceeds their own by more than
-    // the margin of IsHidden.
+    // Only of clusters of about one depth no pixel exceeds the margin of IsHidden.
     const auto flat = hn::Lt(hn::Mul(r, hn::Set(df, 8.0F)), z_min);
     const auto toward = hn::MulAdd(
         hn::LoadU(df, &scene.normal_x[i]), hn::Sub(hn::Set(df, body.centre[0]), x0),
-        hn::MulAdd(hn::LoadU(df, &scene.normal_y[i]), hn::Sub(hn::Set(df, body.centre[1]), y0),
-                   hn::Mul(hn::LoadU(df, &scene.normal_z[i]),
-                           hn::Sub(hn::Set(df, body.centre[2]), z0))));
+        hn::MulAdd(
+            hn::LoadU(df, &scene.normal_y[i]), hn::Sub(hn::Set(df, body.centre[1]), y0),
+            hn::Mul(hn::LoadU(df, &scene.normal_z[i]), hn::Sub(hn::Set(df, body.centre[2]), z0))));
     const auto away = hn::Lt(toward, hn::Zero(df));
     HWY_ALIGN std::array<float, kStep> nearest_of;
     hn::Store(hn::IfThenElse(hn::And(tame, flat), hn::Div(hn::Set(df, 1.0F), z_min),
@@ -155,9 +153,10 @@ bool MeetsAny(std::span<const Bounds> holes, const Bounds& bounds) {
 
 /// Whether all pixels inside the bounds hold something nearer than 1/z = `nearest`.
 bool IsHidden(const Bounds& b, float nearest, const Intrinsics& k, const Canvas& canvas) {
-  constexpr float margin = 1.004F;  // pixels of triangles seen edge-on: sliver_excess; lost low bits
-  constexpr float around = 1.0F;    // pixels: sliver_reach
-  constexpr float most = 512.0F;    // pixels
+  // Pixels of triangles seen edge-on exceed their depth (sliver_excess), and words lose low bits.
+  constexpr float margin = 1.004F;
+  constexpr float around = 1.0F;  // pixels: sliver_reach
+  constexpr float most = 512.0F;  // pixels
   if (!(b.u1 - b.u0 < most && b.v1 - b.v0 < most)) return false;
   const auto clamp = [](float at, int size) {
     return static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(size - 1)));
@@ -244,46 +243,35 @@ std::size_t ClipCorners(const FrameContext& frame, const DrawItem& item, std::si
   return out;
 }
 
-/// An edge's function at a pixel centre, and its slopes.
-struct EdgeAt {
-  VF value, du, dv;
-  HWY_INLINE EdgeAt(VF pu, VF pv, VF qu, VF qv, VF u, VF v, VF bias)
-      : du(hn::Sub(qv, pv)), dv(hn::Sub(pu, qu)) {
-    value = hn::MulAdd(du, hn::Sub(u, pu), hn::MulAdd(dv, hn::Sub(v, pv), bias));
-  }
-};
-
-/// Which triangles may cover one of the kSize x kSize pixel centres from (u, v) on. The bias is
-/// three times as large as that of the edge functions that decide (MakeEdge), which covers the
-/// roundings here and there: none is missed.
-template <int kSize>
-HWY_INLINE hn::Mask<DF> MayCover(const std::array<VF, 6>& p, VF u, VF v, VF width, VF height) {
-  const auto margin = hn::Set(df, edge_margin);
-  const auto bias = hn::Mul(hn::Set(df, 3.0F * edge_rounding),
-                            hn::MulAdd(width, hn::Add(height, margin),
-                                       hn::Mul(height, hn::Add(width, margin))));
-  const EdgeAt e0(p[0], p[1], p[2], p[3], u, v, bias);
-  const EdgeAt e1(p[2], p[3], p[4], p[5], u, v, bias);
-  const EdgeAt e2(p[4], p[5], p[0], p[1], u, v, bias);
-  auto row0 = e0.value, row1 = e1.value, row2 = e2.value;
-  auto missed = hn::Set(df, -0.0F);  // the sign: outside at every centre
-  HWY_UNROLL(4) for (int y = 0; y < kSize; ++y) {
-    auto at0 = row0, at1 = row1, at2 = row2;
-    HWY_UNROLL(4) for (int x = 0; x < kSize; ++x) {
-      missed = hn::And(missed, hn::Or(hn::Or(at0, at1), at2));
-      at0 = hn::Add(at0, e0.du);
-      at1 = hn::Add(at1, e1.du);
-      at2 = hn::Add(at2, e2.du);
-    }
-    row0 = hn::Add(row0, e0.dv);
-    row1 = hn::Add(row1, e1.dv);
-    row2 = hn::Add(row2, e2.dv);
-  }
-  return hn::Not(hn::MaskFromVec(hn::BitCast(df, hn::BroadcastSignBit(hn::BitCast(di, missed)))));
+/// Where the edge from p to q has the pixel centres (u, v) to (u + 1, v + 1) on its outer side: the
+/// signs of its function there.
+HWY_INLINE std::array<VF, 4> AtCentres(VF pu, VF pv, VF qu, VF qv, VF u, VF v, VF bias) {
+  const auto du = hn::Sub(qv, pv);
+  const auto dv = hn::Sub(pu, qu);
+  const auto first = hn::MulAdd(du, hn::Sub(u, pu), hn::MulAdd(dv, hn::Sub(v, pv), bias));
+  const auto below = hn::Add(first, dv);
+  return {first, hn::Add(first, du), below, hn::Add(below, du)};
 }
 
-/// Keeps the triangles that may cover a pixel centre of the image: their bounding box holds one and,
-/// if it holds few, one of these is inside.
+/// Which triangles may cover one of the pixel centres (u, v) to (u + 1, v + 1). The bias is three
+/// times as large as that of the edge functions that decide (MakeEdge), which covers the roundings
+/// here and there: none is missed.
+HWY_INLINE hn::Mask<DF> MayCover(const std::array<VF, 6>& p, VF u, VF v, VF width, VF height) {
+  const auto margin = hn::Set(df, edge_margin);
+  const auto terms =
+      hn::MulAdd(width, hn::Add(height, margin), hn::Mul(height, hn::Add(width, margin)));
+  const auto bias = hn::Mul(terms, hn::Set(df, 3.0F * edge_rounding));
+  const auto e0 = AtCentres(p[0], p[1], p[2], p[3], u, v, bias);
+  const auto e1 = AtCentres(p[2], p[3], p[4], p[5], u, v, bias);
+  const auto e2 = AtCentres(p[4], p[5], p[0], p[1], u, v, bias);
+  auto missed = hn::Or(hn::Or(e0[0], e1[0]), e2[0]);
+  for (std::size_t i = 1; i < e0.size(); ++i)
+    missed = hn::And(missed, hn::Or(hn::Or(e0[i], e1[i]), e2[i]));
+  return hn::RebindMask(df, hn::Gt(hn::BitCast(di, missed), hn::Set(di, -1)));
+}
+
+/// Keeps the triangles that may cover a pixel centre of the image: their bounding box holds one
+/// and, if it holds at most 2 x 2, one of these is inside.
 void Select(const FrameContext& frame, const DrawItem& item, std::size_t count, Scratch& s) {
   const Cluster& cluster = frame.scene->clusters[item.cluster];
   const auto last_column = hn::Set(df, static_cast<float>(frame.view->intrinsics.width() - 1));
@@ -308,7 +296,7 @@ void Select(const FrameContext& frame, const DrawItem& item, std::size_t count, 
     const auto size = hn::Max(columns, rows);
     const auto width = hn::Sub(u_max, u_min), height = hn::Sub(v_max, v_min);
     const auto tiny = hn::Lt(size, hn::Set(df, 2.0F));
-    covers = hn::And(covers, hn::Or(hn::Not(tiny), MayCover<2>(p, first_u, first_v, width, height)));
+    covers = hn::And(covers, hn::Or(hn::Not(tiny), MayCover(p, first_u, first_v, width, height)));
     const auto triangle = hn::LoadU(du32, &s.corner_triangle[i]);
     const auto absolute = hn::Add(triangle, hn::Set(du32, cluster.first_triangle));
     const Packer keep(covers);
