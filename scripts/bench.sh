@@ -19,7 +19,7 @@ esac
 
 cmake -S . -B build/bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DPENUMBRA_BUILD_BENCHMARKS=ON \
   -DPENUMBRA_BUILD_TESTS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF >/dev/null
-cmake --build build/bench --target compare_renderers scaling pipeline_benchmark fringe_benchmark look_ahead_benchmark penumbra_app
+cmake --build build/bench --target compare_renderers scaling pipeline_benchmark fringe_benchmark look_ahead_benchmark camera_load penumbra_app
 mkdir -p "$results"
 build/bench/bench/compare_renderers --rounds "$rounds" --json "$results/renderers.json" |
   tee "$results/renderers.txt"
@@ -29,6 +29,9 @@ build/bench/bench/pipeline_benchmark --benchmark_repetitions="$rounds" \
   --benchmark_report_aggregates_only=true | tee "$results/frames.txt"
 build/bench/bench/fringe_benchmark --benchmark_repetitions="$rounds" \
   --benchmark_report_aggregates_only=true | tee "$results/fringe.txt"
+for cameras in 25 40 50 100; do
+  build/bench/bench/camera_load --cameras "$cameras" --seconds 20
+done | tee "$results/cameras.txt"
 build/bench/bench/look_ahead_benchmark | tee "$results/look_ahead.txt"
 bench/run_benchmark.sh build/bench/apps/penumbra/penumbra "$rounds" | tee "$results/run.txt"
 [[ $page == docs ]] || cp docs/performance.md "$page/"
