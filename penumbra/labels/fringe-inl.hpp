@@ -43,15 +43,16 @@ struct Fringe {
   [[nodiscard]] std::uint16_t* block(int x, int y) {
     return &blocks[static_cast<std::size_t>(y + 1) * pitch + static_cast<std::size_t>(x + 1)];
   }
-  /// Marks as filled what lies at most `pixels` from the touched tiles, and empties all other blocks.
+  /// Marks as filled what lies at most `pixels` from the touched tiles, and empties all other
+  /// blocks.
   void begin(const TileMask& touched, int pixels);
   void add_source(const Rule& rule, int x, int y, std::uint16_t depth);
 
   int reach;  ///< pixels; 0: no fringe
   std::size_t pitch;
-  /// In the tiles that are filled, with a border of zeros around the image: the nearest depth of the occluded pixels of each
-  /// block, in millimetres; without any, that of its clear pixels, with the bit is_open until the
-  /// flood reaches it; without any, 0.
+  /// In the tiles that are filled, with a border of zeros around the image: the nearest depth of
+  /// the occluded pixels of each block, in millimetres; without any, that of its clear pixels, with
+  /// the bit is_open until the flood reaches it; without any, 0.
   std::vector<std::uint16_t> blocks;
   std::vector<Source> sources;
   std::unique_ptr<Block[]> queue;  ///< the sources' blocks, then those that the flood reached

@@ -121,9 +121,8 @@ void fill_near_robot(Fringe& flood, const Work& work, ImageView<const T> measure
   // The last blocks of an odd image share pixels with others, which paint() changes.
   const bool is_odd = measured.width % 2 != 0 || measured.height % 2 != 0;
   flood.begin(work.touched, is_odd ? flood.reach : 2);
-  flood.filled.for_each_span([&](int u0, int u1, int v0, int v1) {
-    fill_blocks(flood, work, measured, u0, u1, v0, v1);
-  });
+  flood.filled.for_each_span(
+      [&](int u0, int u1, int v0, int v1) { fill_blocks(flood, work, measured, u0, u1, v0, v1); });
 }
 
 /// Fills the tile of a block.

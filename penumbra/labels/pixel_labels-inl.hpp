@@ -98,7 +98,8 @@ HWY_INLINE VB label_chunk(const Criteria& rule, const float* HWY_RESTRICT virtua
   const auto z = [&](int i) HWY_ATTR { return hn::LoadU(F(), virtual_depth + i); };
   const VF all = hn::Or(hn::Or(z(0), z(lanes)), hn::Or(z(2 * lanes), z(3 * lanes)));
   if (hn::AllTrue(F(), hn::Eq(all, hn::Zero(F())))) {
-    hn::StoreU(hn::Zero(hn::Repartition<std::uint8_t, F>()), hn::Repartition<std::uint8_t, F>(), labels);
+    hn::StoreU(hn::Zero(hn::Repartition<std::uint8_t, F>()), hn::Repartition<std::uint8_t, F>(),
+               labels);
     return hn::Zero(B());
   }
   const auto at = [&](int i) HWY_ATTR {
