@@ -29,8 +29,9 @@ build/bench/bench/pipeline_benchmark --benchmark_repetitions="$rounds" \
   --benchmark_report_aggregates_only=true | tee "$results/frames.txt"
 build/bench/bench/fringe_benchmark --benchmark_repetitions="$rounds" \
   --benchmark_report_aggregates_only=true | tee "$results/fringe.txt"
-for cameras in 25 40 50 100; do
-  build/bench/bench/camera_load --cameras "$cameras" --seconds 20
+for load in "25 --threads 1" "40 --threads 1" "50 --threads 1" "100 --threads 1" "80 --threads 2"; do
+  # shellcheck disable=SC2086  # several arguments
+  build/bench/bench/camera_load --seconds 20 --cameras $load
 done | tee "$results/cameras.txt"
 build/bench/bench/look_ahead_benchmark | tee "$results/look_ahead.txt"
 bench/run_benchmark.sh build/bench/apps/penumbra/penumbra "$rounds" | tee "$results/run.txt"

@@ -43,7 +43,8 @@ bool split(Bytes file, PngParts& parts) {
     const Bytes data = rest.subspan(8, length);
     if (libdeflate_crc32(0, rest.data() + 4, 4 + length) != big_endian(data.data() + length))
       return false;
-    if (name == "IEND") return parts.width > 0;
+    if ((name == "IHDR") != (parts.width == 0)) return false;  // it is the first, and the only one
+    if (name == "IEND") return true;
     if (name == "IHDR") {
       constexpr std::array<Byte, 5> grey16 = {16, 0, 0, 0, 0};
       const auto is_possible = [](std::uint32_t size) {
@@ -112,7 +113,8 @@ void unfilter_paeth(const Byte* from, std::ptrdiff_t from_step, const Byte* abov
   const auto shift = [](int r) {
     return 16 * (std::endian::native == std::endian::little ? r : rows_at_once - 1 - r);
   };
-  Lanes last{}, last_above{};  // two lanes a row: its last pixel, and what was above that
+  std::uint64_t word = 0;      // the last pixel of each row
+  Lanes last{}, last_above{};  // the same in two lanes a row, and what was above those pixels
   const auto step = [&]<bool is_inside>(std::ptrdiff_t t) {
     const auto holds = [&](std::ptrdiff_t u) { return is_inside || (0 <= u && u < width); };
     // Whole words: to read back what was written in parts is slow.
@@ -121,14 +123,15 @@ void unfilter_paeth(const Byte* from, std::ptrdiff_t from_step, const Byte* abov
       std::memcpy(&two, p, pixel);
       return std::uint64_t{two};
     };
-    const auto lanes_of = [](std::uint64_t word) {
-      return __builtin_convertvector(std::bit_cast<LaneBytes>(word), Lanes);
+    const auto lanes_of = [](std::uint64_t bytes) {
+      return __builtin_convertvector(std::bit_cast<LaneBytes>(bytes), Lanes);
     };
-    std::uint64_t word = 0;
+    std::uint64_t above_them = std::endian::native == std::endian::little ? word << 16 : word >> 16;
+    if (holds(t)) above_them |= word_of(above + t * pixel) << shift(0);
+    const Lanes up = lanes_of(above_them);
+    word = 0;
     for (int r = 0; r < rows_at_once; ++r)
       if (holds(t - r)) word |= word_of(from + r * from_step + (t - r) * pixel) << shift(r);
-    const Lanes first = lanes_of(holds(t) ? word_of(above + t * pixel) << shift(0) : 0);
-    const Lanes up = __builtin_shufflevector(first, last, 0, 1, 8, 9, 10, 11, 12, 13);
     last = (lanes_of(word) + paeth(last, up, last_above)) & 255;
     last_above = up;
     word = std::bit_cast<std::uint64_t>(__builtin_convertvector(last, LaneBytes));
@@ -149,28 +152,25 @@ void unfilter_paeth(const Byte* from, std::ptrdiff_t from_step, const Byte* abov
 
 bool decode_depth_png(std::span<const std::byte> file, Image<std::uint16_t>& image,
                       std::optional<ImageSize> wanted) {
-  thread_local PngParts parts;
-  thread_local std::vector<Byte> filtered;
-  parts.width = 0;
-  parts.pixels.clear();
+  PngParts parts;
   if (!split({reinterpret_cast<const Byte*>(file.data()), file.size()}, parts)) return false;
   if (wanted && (wanted->width != parts.width || wanted->height != parts.height)) return false;
   const std::ptrdiff_t count = pixel * parts.width, step = count + 1;
   const auto size = static_cast<std::size_t>(step * parts.height);
   constexpr std::size_t most_expansion = 1032;  // of deflate
   if (size / most_expansion > parts.pixels.size()) return false;
-  filtered.resize(size);
+  const auto filtered = std::make_unique_for_overwrite<Byte[]>(size);
   const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> inflater(
       libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
   if (!inflater ||
       libdeflate_zlib_decompress(inflater.get(), parts.pixels.data(), parts.pixels.size(),
-                                 filtered.data(), size, nullptr) != LIBDEFLATE_SUCCESS)
+                                 filtered.get(), size, nullptr) != LIBDEFLATE_SUCCESS)
     return false;
   image.fit(parts.width, parts.height);
   const std::vector<Byte> nothing(static_cast<std::size_t>(count));
   auto* const rows = reinterpret_cast<Byte*>(image.data());
   for (int v = 0; v < parts.height;) {
-    const Byte* const from = filtered.data() + v * step;
+    const Byte* const from = filtered.get() + v * step;
     Byte* const to = rows + v * count;
     const Byte* const above = v == 0 ? nothing.data() : to - count;
     const auto is_paeth = [&](int row) { return from[row * step] == paeth_filter; };

@@ -16,7 +16,7 @@ inline constexpr float millimetres_per_metre = 1000.0f;
 /// The buffers of the flood fill that finds the fringe (LabelRule), over blocks of 2 x 2 pixels.
 struct Fringe {
   static constexpr std::uint16_t farthest = 0x7ffe;  ///< millimetres; a robot farther has no fringe
-  static constexpr std::uint16_t unfilled = 0xffff;  ///< a block that no one has asked for
+  static constexpr std::uint16_t unfilled = 0xffff;  ///< a block whose tile is not filled yet
 
   Fringe(int width, int height, int reach_pixels);
 
@@ -43,8 +43,8 @@ struct Fringe {
   [[nodiscard]] std::uint16_t* block(int x, int y) {
     return &blocks[static_cast<std::size_t>(y + 1) * pitch + static_cast<std::size_t>(x + 1)];
   }
-  /// Marks as filled what lies at most `pixels` from the touched tiles, and empties all other
-  /// blocks.
+  /// Makes all blocks of the last image unfilled, and marks the tiles at most `pixels` from the
+  /// touched ones, for the caller to fill.
   void begin(const TileMask& touched, int pixels);
   void add_source(const Rule& rule, int x, int y, std::uint16_t depth);
 

@@ -28,7 +28,7 @@ static_assert(clear == 0);  // fringe is written by or
 
 constexpr std::uint16_t is_open = 0x8000;  // a flag at the depth of a clear block
 constexpr std::uint16_t farthest = Fringe::farthest;
-constexpr std::uint16_t nothing = 0xffff;
+constexpr std::uint16_t nothing = 0xffff;  // a pixel's rank: neither
 
 HWY_INLINE std::uint16_t millimetres(std::uint16_t depth) { return depth; }
 

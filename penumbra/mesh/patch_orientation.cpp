@@ -188,7 +188,7 @@ bool faces_outwards(const Sample& sample, const TriangleMesh& mesh, const Surfac
   const double px = sample.point[x], py = sample.point[y];
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     const Eigen::Vector3f &least = boxes[k].min(), &most = boxes[k].max();
-    const bool may_cross = (least[x] <= px) & (px <= most[x]) & (least[y] <= py) & (py <= most[y]);
+    const bool may_cross = least[x] <= px && px <= most[x] && least[y] <= py && py <= most[y];
     if (may_cross && patch.triangles[k] != sample.triangle)
       cross(corners_of(mesh, patch.triangles[k]));
   }

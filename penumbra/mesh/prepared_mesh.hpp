@@ -55,7 +55,8 @@ class PreparedMesh : public TriangleMesh {
   /// mesh, which may take a second for large meshes.
   [[nodiscard]] const std::vector<PatchOrientation>& orientations() const;
 
-  /// The same for all copies of a mesh, and for no other mesh while any holder of it lives.
+  /// The same for all copies of a mesh, and for no other mesh while any holder of it lives. What is
+  /// made of a mesh is kept by it.
   [[nodiscard]] std::shared_ptr<const void> identity() const { return orientations_; }
 
  private:

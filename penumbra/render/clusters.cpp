@@ -111,7 +111,7 @@ Eigen::Vector3d ClusteredScene::add_triangle(const TriangleMesh& mesh,
   const Eigen::Vector3d a = mesh.vertices[cluster_vertices[local[0]]].cast<double>();
   const Eigen::Vector3d b = mesh.vertices[cluster_vertices[local[1]]].cast<double>();
   const Eigen::Vector3d c = mesh.vertices[cluster_vertices[local[2]]].cast<double>();
-  const Eigen::Vector3d area = (b - a).cross(c - a);
+  Eigen::Vector3d area = (b - a).cross(c - a);
   const Eigen::Vector3d n = area.normalized();
   plane_x.push_back(static_cast<float>(n.x()));
   plane_y.push_back(static_cast<float>(n.y()));

@@ -73,7 +73,7 @@ struct ClusteredScene {
 };
 
 /// Returns the scene of some bodies. Renderers of copies of the same meshes share it, in whichever
-/// thread they are made.
+/// thread they are made; others wait while it is built.
 [[nodiscard]] std::shared_ptr<const ClusteredScene> shared_scene(std::span<const Body> bodies);
 
 }  // namespace penumbra

@@ -31,9 +31,8 @@ struct FrameContext {
 struct Kernel {
   int lanes;
 
-  /// Appends those clusters of a group to `items` that may be in view; returns how many. Of a group
-  /// of which both sides are drawn, either those that face the camera, to be drawn first, or the
-  /// second ones, which the first are likely to hide.
+  /// Appends those clusters of a group to `items` that may be in view; returns how many. If both
+  /// sides are drawn, `second` selects the clusters that face away: the others often hide them.
   std::size_t (*cull)(const FrameContext& frame, std::uint32_t group, Sides sides, bool second,
                       DrawItem* items);
 

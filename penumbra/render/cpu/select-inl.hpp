@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -53,7 +54,7 @@ std::size_t Cull(const FrameContext& frame, std::uint32_t group_index, Sides sid
     const auto tame = hn::And(hn::Gt(z_min, near),
                               hn::And(hn::Lt(hn::Add(hn::Abs(x), r), hn::Mul(tan_u, z_min)),
                                       hn::Lt(hn::Add(hn::Abs(y), r), hn::Mul(tan_v, z_min))));
-    // Only of clusters of about one depth no pixel exceeds the margin of IsHidden.
+    // The margin of IsHidden holds only for clusters whose depth varies little.
     const auto flat = hn::Lt(hn::Mul(r, hn::Set(df, 8.0F)), z_min);
     const auto toward = hn::MulAdd(
         hn::LoadU(df, &scene.normal_x[i]), hn::Sub(hn::Set(df, body.centre[0]), x0),
@@ -155,7 +156,7 @@ bool MeetsAny(std::span<const Bounds> holes, const Bounds& bounds) {
 bool IsHidden(const Bounds& b, float nearest, const Intrinsics& k, const Canvas& canvas) {
   // Pixels of triangles seen edge-on exceed their depth (sliver_excess), and words lose low bits.
   constexpr float margin = 1.004F;
-  constexpr float around = 1.0F;  // pixels: sliver_reach
+  constexpr float around = 1.0F;  // pixels: more than sliver_reach
   constexpr float most = 512.0F;  // pixels
   if (!(b.u1 - b.u0 < most && b.v1 - b.v0 < most)) return false;
   const auto clamp = [](float at, int size) {
@@ -163,13 +164,13 @@ bool IsHidden(const Bounds& b, float nearest, const Intrinsics& k, const Canvas&
   };
   const std::size_t first = clamp(b.u0 - around, k.width()) / block_width;
   const std::size_t last = clamp(b.u1 + around, k.width()) / block_width;
+  const std::size_t begin = clamp(b.v0 - around, k.height()) / kBlockHeight;
   const std::size_t end = clamp(b.v1 + around, k.height()) / kBlockHeight;
   const auto at = [&](std::size_t column, std::size_t row) HWY_ATTR {
     return hn::Load(di, canvas.packed.data() + row * canvas.lanes_per_row + column * kStep);
   };
   const auto bound = hn::Set(di, std::bit_cast<std::int32_t>(margin * nearest));
-  const std::size_t begin = clamp(b.v0 - around, k.height()) / kBlockHeight;
-  // Most that are not hidden are not so in their middle.
+  // The middle block usually decides.
   if (!hn::AllTrue(di, hn::Gt(at((first + last) / 2, (begin + end) / 2), bound))) return false;
   for (std::size_t row = begin; row <= end; ++row) {
     auto farthest = at(first, row);
@@ -255,7 +256,8 @@ HWY_INLINE std::array<VF, 4> AtCentres(VF pu, VF pv, VF qu, VF qv, VF u, VF v, V
 
 /// Which triangles may cover one of the pixel centres (u, v) to (u + 1, v + 1). The bias is three
 /// times as large as that of the edge functions that decide (MakeEdge), which covers the roundings
-/// here and there: none is missed.
+/// here and there: none that covers one is missed. A pixel outside the bounding box, which only
+/// that bias would reach, may be.
 HWY_INLINE hn::Mask<DF> MayCover(const std::array<VF, 6>& p, VF u, VF v, VF width, VF height) {
   const auto margin = hn::Set(df, edge_margin);
   const auto terms =
