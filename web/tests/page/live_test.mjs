@@ -196,8 +196,12 @@ test(
 
     await stop(view.child);
     await page.locator('#state', { hasText: 'no connection: trying again' }).waitFor();
+    const fetched = page.waitForRequest((request) => request.url().includes('/api/scene.bin'), {
+      timeout: timeout_,
+    });
     await serveLive(new URL(view.url).port);
     await showsLive(page);
+    await fetched; // the robot may come after the first frame
     assert.equal(scenes, 2, 'the new server’s robot is fetched, although its version is the same');
     assert.deepEqual(faults, []);
     await context.close();
