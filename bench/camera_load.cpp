@@ -29,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t frames = 60;
 constexpr std::uint64_t seed = 7;
 constexpr double rate = 30.0;  // Hz
+constexpr auto usage = "expected [--cameras N] [--threads N] [--seconds S]";
 
 struct Load {
   std::size_t cameras = 100;
@@ -46,9 +47,9 @@ struct Load {
       else if (name == "--seconds" && value > 0)
         seconds = value;
       else
-        throw std::runtime_error("unknown or too small: " + name);
+        throw std::runtime_error(usage);
     }
-    if (argc % 2 == 0) throw std::runtime_error("a value is missing");
+    if (argc % 2 == 0) throw std::runtime_error(usage);
   }
 };
 

@@ -109,7 +109,7 @@ using LaneBytes [[gnu::vector_size(8)]] = Byte;
 /// ones on its left and above. Rows begin `from_step` and `to_step` bytes after each other.
 void unfilter_paeth(const Byte* from, std::ptrdiff_t from_step, const Byte* above, Byte* to,
                     std::ptrdiff_t to_step, std::ptrdiff_t width) {
-  // Of a row's two bytes in a word, of which a vector's first lanes are the first bytes in memory.
+  // Where a row's two bytes are in a word: a vector's first lanes are the first bytes in memory.
   const auto shift = [](int r) {
     return 16 * (std::endian::native == std::endian::little ? r : rows_at_once - 1 - r);
   };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The renderer's kernel, compiled once per SIMD target.
 //
-// A frame's clusters, of which the nearest groups come first, go through: cull (bounding spheres
-// against the view), front faces (planes against the camera's centre), project (vertices), hide
-// (what is drawn already), select (triangles that may cover a pixel centre), set up (edge functions
-// and depth planes, sorted by size into bins), fill (one unrolled routine per size), resolve
-// (packed 1/z to depth and link images).
+// A frame's clusters, those of the nearest groups first, go through: cull (bounding spheres against
+// the view), front faces (planes against the camera's centre), project (vertices), hide (what is
+// drawn already), select (triangles that may cover a pixel centre), set up (edge functions and
+// depth planes, sorted by size into bins), fill (one unrolled routine per size), resolve (packed
+// 1/z to depth and link images).
 //
 // Edge functions are those of Pineda 1988, "A parallel algorithm for polygon rasterization". They
 // get a bias above their rounding error, 5e-7 of the triangle's size, so that a pixel on a
