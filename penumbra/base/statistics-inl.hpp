@@ -32,11 +32,14 @@ template <typename T>
   return ranked(values, values.size() / 2);
 }
 
+/// The standard deviation of normal errors as a multiple of the median of their absolute values.
+inline constexpr double normal_sigma = 1.4826;
+
 /// Returns the standard deviation of normal errors from their absolute values. Otherwise as
 /// ranked().
 template <typename T>
 [[nodiscard]] double robust_sigma(std::vector<T>& sizes) {
-  return 1.4826 * static_cast<double>(median(sizes));
+  return normal_sigma * static_cast<double>(median(sizes));
 }
 
 /// Sigmas at which Tukey's weight is 0; 95 % efficient for normal residuals.
