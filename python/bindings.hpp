@@ -33,6 +33,7 @@ void bind_robot(py::module_& m);
 void bind_joint_buffer(py::module_& m);
 void bind_renderer(py::module_& m);
 void bind_labels(py::module_& m);
+void bind_cloud(py::module_& m);
 void bind_trackers(py::module_& m);
 void bind_regions(py::module_& m);
 void bind_targets(py::module_& m);

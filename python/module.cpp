@@ -15,6 +15,7 @@ PYBIND11_MODULE(_core, m) {
   bind_joint_buffer(m);
   bind_renderer(m);
   bind_labels(m);
+  bind_cloud(m);
   bind_trackers(m);
   bind_regions(m);
   bind_targets(m);

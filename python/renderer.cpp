@@ -7,26 +7,12 @@
 #include <penumbra/render/gl/gl_devices.hpp>
 
 namespace penumbra::python {
-namespace {
-
-std::unique_ptr<DepthRenderer> make_bodies_renderer(Backend backend, const Intrinsics& intrinsics,
-                                                    const std::vector<OwnedBody>& owned,
-                                                    const RendererOptions& options) {
-  std::vector<std::vector<PreparedMesh>> meshes;
-  for (const OwnedBody& body : owned) {
-    auto& of_body = meshes.emplace_back();
-    for (const Mesh& mesh : body.meshes) of_body.push_back(*mesh.prepared);
-  }
-  std::vector<Body> bodies;
-  for (std::size_t i = 0; i < owned.size(); ++i) bodies.push_back({owned[i].name, meshes[i]});
-  return make_depth_renderer(backend, intrinsics, bodies, options);
-}
-
-}  // namespace
 
 Renderer::Renderer(Backend backend, const Intrinsics& intrinsics,
                    const std::vector<OwnedBody>& bodies, const RendererOptions& options)
-    : renderer_(make_bodies_renderer(backend, intrinsics, bodies, options)),
+    : renderer_(with_bodies(
+          bodies,
+          [&](auto all) { return make_depth_renderer(backend, intrinsics, all, options); })),
       frames_(static_cast<std::size_t>(renderer_->max_pending())) {}
 
 void Renderer::submit(const Poses& T_camera_body) {

@@ -22,7 +22,7 @@ HEADERS = {
                "camera/rectification.hpp", "camera/registration.hpp"],
     "Renderers": ["render/depth_renderer.hpp"],
     "Labels and verdicts": ["labels/labels.hpp", "targets/region.hpp",
-                            "targets/target_judge.hpp"],
+                            "targets/target_judge.hpp", "cloud/cloud_labels.hpp"],
     "Tracking": ["tracking/trackers.hpp"],
     "Calibration": ["calibration/calibration.hpp"],
     "Planning": ["scene/look_ahead.hpp", "robot/trajectory.hpp", "scene/view_planning.hpp"],

@@ -86,21 +86,6 @@ std::optional<Caps> make_caps(const TriangleMesh& mesh, const SurfacePatch& patc
   return caps;
 }
 
-double distance_to_segment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
-  const double t = (p - a).dot(b - a) / (b - a).squaredNorm();
-  return (a + std::clamp(t, 0.0, 1.0) * (b - a) - p).norm();
-}
-
-double distance_to_triangle(const Vector3d& p, const std::array<Vector3d, 3>& corners) {
-  const auto& [a, b, c] = corners;
-  const Vector3d n = (b - a).cross(c - a);
-  const bool above = n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 &&
-                     n.dot((a - c).cross(p - c)) >= 0;
-  if (above) return std::abs(n.dot(p - a)) / n.norm();
-  return std::min(
-      {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
-}
-
 bool touches(const std::vector<Ball>& balls, const std::array<Vector3d, 3>& corners) {
   return std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) {
     return distance_to_triangle(ball.centre, corners) <= ball.radius;

@@ -2,6 +2,7 @@
 // The parts of PreparedMesh.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -56,6 +57,23 @@ inline std::array<Eigen::Vector3d, 3> corners_of(const TriangleMesh& mesh, std::
   const auto& [a, b, c] = mesh.triangles[triangle];
   return {mesh.vertices[a].cast<double>(), mesh.vertices[b].cast<double>(),
           mesh.vertices[c].cast<double>()};
+}
+
+inline double distance_to_segment(const Eigen::Vector3d& p, const Eigen::Vector3d& a,
+                                  const Eigen::Vector3d& b) {
+  const double t = (p - a).dot(b - a) / (b - a).squaredNorm();
+  return (a + std::clamp(t, 0.0, 1.0) * (b - a) - p).norm();
+}
+
+inline double distance_to_triangle(const Eigen::Vector3d& p,
+                                   const std::array<Eigen::Vector3d, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Eigen::Vector3d n = (b - a).cross(c - a);
+  const bool above = n.dot((b - a).cross(p - a)) >= 0 && n.dot((c - b).cross(p - b)) >= 0 &&
+                     n.dot((a - c).cross(p - c)) >= 0;
+  if (above) return std::abs(n.dot(p - a)) / n.norm();
+  return std::min(
+      {distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
 }
 
 /// Returns the solid angle of a triangle seen from `eye`, steradians; positive if `eye` sees its

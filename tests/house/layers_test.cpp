@@ -15,7 +15,7 @@ using Names = std::set<std::string>;
 const std::map<std::string, Names>& allowed_rooms() {
   static const Names core{"base",        "mesh",      "robot",    "time",    "camera",   "render",
                           "labels",      "poses",     "tracking", "targets", "pipeline", "tuning",
-                          "calibration", "diagnosis", "session",  "scene"};
+                          "calibration", "diagnosis", "session",  "scene",   "cloud"};
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", {"base"}},
       {"penumbra/mesh", {"base", "mesh"}},
@@ -37,6 +37,7 @@ const std::map<std::string, Names>& allowed_rooms() {
       {"penumbra/diagnosis", core},
       {"penumbra/session", core},
       {"penumbra/scene", core},
+      {"penumbra/cloud", {"base", "camera", "mesh", "render", "labels", "cloud"}},
       {"io", core},
       {"sim", core},
       {"apps", core},

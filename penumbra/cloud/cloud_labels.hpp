@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/base/setting.hpp>
+#include <penumbra/labels/labels.hpp>
+#include <penumbra/render/depth_renderer.hpp>
+
+namespace penumbra {
+
+/// Points in memory: x, y, z as float32, metres. Coordinates that are not finite, and the sensor's
+/// origin, are "no measurement".
+struct PointsView {
+  const std::byte* data = nullptr;  ///< the first x
+  std::size_t count = 0;
+  std::size_t stride = 3 * sizeof(float);  ///< bytes from a point to the next
+
+  [[nodiscard]] Eigen::Vector3f operator[](std::size_t i) const;
+};
+
+/// The rule of labelling points. r is a point's distance from the sensor's origin, s that of the
+/// robot's first surface on the point's ray.
+///
+/// 1. A point whose ray meets the robot is front if r < s - e(s), beyond if r > s + k e(s), else
+///    occluded.
+/// 2. A point whose ray misses the robot is clear.
+/// 3. A beam is as wide as `beam` to all sides, and may return a mixture of what it meets. Clear
+///    and front points become fringe if a ray at most `beam` beside theirs meets the robot at s,
+///    and s - e(s) <= r <= s + mixing.
+struct CloudRule {
+  Tolerance tolerance{.a = 0.03, .b = 0.0, .c = 0.0};  ///< e(s)
+  double beyond_factor = 2.0;                          ///< k
+  double beam = 0.003;                                 ///< radians
+  double mixing = 0.5;                                 ///< metres
+
+  static constexpr double max_beam = 0.01;
+
+  static constexpr auto settings() {
+    return std::tuple(
+        Setting("tolerance", &CloudRule::tolerance, {}, "m, m/m, m/m^2",
+                "A, B, C of e(s) = A + B s + C s^2 >= 0 metres: a range that differs by less is "
+                "the same"),
+        Setting("beyond_factor", &CloudRule::beyond_factor, {1, 100}, "",
+                "how many tolerances behind the model beyond starts"),
+        Setting("beam", &CloudRule::beam, {0, max_beam}, "rad",
+                "how far beside a point's ray its return may come from: half of the beam, and "
+                "errors of the robot's pose"),
+        Setting("mixing", &CloudRule::mixing, {0, 100}, "m",
+                "how far behind the robot a return may lie that mixes it with what is behind"));
+  }
+
+  /// Throws InputError for settings out of range.
+  void check() const;
+};
+
+/// The labels of a scan, in the order of its points. unknown: no measurement.
+struct CloudLabels {
+  std::vector<std::uint8_t> labels;  ///< values of Label
+  std::vector<std::uint16_t>
+      links;  ///< body index + 1 of the robot that decided; 0: clear, unknown
+  std::optional<std::size_t> enclosing;  ///< body that the origin lies in: all labels are unknown
+};
+
+/// Says of each point of a cloud whether it is the robot's. Decides most points by virtual depth on
+/// the faces of a cube around the sensor, and those next to an edge by casting their rays. What is
+/// thinner than 0.1 degrees, and stands alone, may be missed.
+class CloudLabeller {
+ public:
+  /// The spans need only live during the call. Throws InputError as make_depth_renderer() and for
+  /// an invalid rule.
+  explicit CloudLabeller(std::span<const Body> bodies, const CloudRule& rule = {});
+  ~CloudLabeller();
+  CloudLabeller(CloudLabeller&&) noexcept;
+  CloudLabeller& operator=(CloudLabeller&&) noexcept;
+
+  /// Labels points that a sensor at `origin` measured, by the bodies' poses T_points_body, all in
+  /// the frame of the points. The result is valid until the next call. Allocates nothing for clouds
+  /// no larger than earlier ones. Throws std::logic_error for a wrong number of poses.
+  const CloudLabels& label(const PointsView& points, const Eigen::Vector3d& origin,
+                           std::span<const Eigen::Isometry3d> T_points_body);
+
+  /// The same for points without rays, as of merged clouds: those at most e(0) from the robot's
+  /// surface, and those inside, are occluded, the others clear.
+  const CloudLabels& label(const PointsView& points,
+                           std::span<const Eigen::Isometry3d> T_points_body);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace penumbra

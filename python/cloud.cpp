@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+#include <optional>
+
+#include <python/arrays.hpp>
+#include <python/bindings.hpp>
+#include <python/fields.hpp>
+#include <python/renderer.hpp>
+
+#include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/cloud/cloud_labels.hpp>
+
+namespace penumbra::python {
+namespace {
+
+using PointArray = Shown<"Annotated[NDArray[float32], '(N, 3)']">;
+using LabelArray = Shown<"Annotated[NDArray[uint8], '(N,)']">;
+using LinkArray = Shown<"Annotated[NDArray[uint16], '(N,)']">;
+
+struct PointLabeller {
+  PointLabeller(const std::vector<OwnedBody>& owned, const CloudRule& rule)
+      : labeller(with_bodies(owned, [&](auto all) { return CloudLabeller(all, rule); })),
+        bodies(owned.size()) {}
+
+  CloudLabeller labeller;
+  std::size_t bodies;
+  OneThread thread;
+};
+
+/// The labels of a cloud.
+struct PointLabels {
+  LabelArray labels;
+  LinkArray links;
+  std::optional<std::size_t> enclosing;
+};
+
+PointsView points_of(const py::object& source) {
+  const std::string expected =
+      "points: expected numpy.ndarray of float32 with shape (N, 3) or more columns, those of a row "
+      "side by side; got " +
+      description_of(source);
+  if (!py::isinstance<py::array>(source)) throw py::type_error(expected);
+  if (is_masked(source)) throw py::type_error(expected + mask_fault);
+  const py::array array(source);
+  if (!is_native(array.dtype(), py::dtype::of<float>().num())) throw py::type_error(expected);
+  constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
+  const bool is_cloud =
+      array.ndim() == 2 && array.shape(1) >= 3 && array.strides(1) == size && array.strides(0) >= 0;
+  if (!is_cloud) throw py::value_error(expected);
+  return {static_cast<const std::byte*>(array.data()), static_cast<std::size_t>(array.shape(0)),
+          static_cast<std::size_t>(array.strides(0))};
+}
+
+template <typename Array, typename T>
+Array copied_array(const std::vector<T>& values) {
+  return Array(read_only(py::array(static_cast<py::ssize_t>(values.size()), values.data())));
+}
+
+PointLabels label(PointLabeller& self, const PointArray& points, const Poses& T_points_body,
+                  const std::optional<Eigen::Vector3d>& origin) {
+  const OneThread::Use use(self.thread, "CloudLabeller.label");
+  const PointsView view = points_of(points);
+  if (T_points_body.size() != self.bodies)
+    throw py::value_error("T_points_body: expected shape (" + std::to_string(self.bodies) +
+                          ", 4, 4), a pose for each body; got " +
+                          std::to_string(T_points_body.size()) + " poses");
+  for (const Eigen::Isometry3d& T : T_points_body)
+    if (!is_rigid(T))
+      throw py::value_error("T_points_body: expected finite rotations (to 1e-4) and translations");
+  if (origin && !origin->allFinite()) throw py::value_error("origin: expected finite numbers");
+  const CloudLabels* found = nullptr;
+  {
+    const py::gil_scoped_release others;
+    found = origin ? &self.labeller.label(view, *origin, T_points_body)
+                   : &self.labeller.label(view, T_points_body);
+  }
+  return {copied_array<LabelArray>(found->labels), copied_array<LinkArray>(found->links),
+          found->enclosing};
+}
+
+std::shared_ptr<PointLabeller> make_labeller(const std::vector<OwnedBody>& bodies,
+                                             const CloudRule& rule) {
+  const py::gil_scoped_release others;
+  return std::make_shared<PointLabeller>(bodies, rule);
+}
+
+}  // namespace
+
+void bind_cloud(py::module_& m) {
+  py::class_<CloudRule> rule(
+      m, "CloudRule",
+      "The rule of labelling points. On a ray that meets the robot at range s, a point is front if "
+      "it is nearer than s - e(s), beyond if it is farther than s + beyond_factor e(s), else "
+      "occluded. Clear and front points that a beam may have mixed with robot next to their ray "
+      "are fringe.");
+  bind_settings(rule);
+  py::class_<PointLabels> labels(m, "CloudLabels",
+                                 "The labels of a cloud, in the order of its points.");
+  show_fields(labels,
+              Field{"labels", &PointLabels::labels, "Values of Label; unknown: no measurement."},
+              Field{"links", &PointLabels::links,
+                    "Body index + 1 of the robot that decided; 0: clear, or no measurement."},
+              Field{"enclosing", &PointLabels::enclosing,
+                    "Index of the body that the sensor lies in: all labels are unknown; or None."});
+  py::class_<PointLabeller, std::shared_ptr<PointLabeller>>(
+      m, "CloudLabeller",
+      "Says of each point of a cloud whether it is the robot's. Serves one thread at a time.")
+      .def(py::init(&make_labeller), py::arg("bodies"), py::arg("rule") = CloudRule(),
+           "bodies: Robot.bodies, say. Raises InputError for settings out of bounds.")
+      .def("label", &label, py::arg("points"), py::arg("T_points_body"),
+           py::arg("origin") = py::none(),
+           "PointLabels points by the poses of the bodies, both in the same frame, metres. origin: "
+           "where the sensor that measured the points stood. None: points without rays, as of "
+           "merged clouds: those on or in the robot are occluded, the others clear. Coordinates "
+           "that are not finite are no measurement.");
+}
+
+}  // namespace penumbra::python

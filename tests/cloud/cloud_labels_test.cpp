@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+// Labels of points against Embree's rays and closed forms.
+#include "allocations.hpp"
+#include "embree_oracle.hpp"
+#include "errors.hpp"
+#include "random.hpp"
+#include "scene.hpp"
+#include "shapes.hpp"
+
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/cloud/cloud_labels.hpp>
+
+namespace penumbra::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double tolerance = 0.02;  // metres
+
+/// Distances and directions within which Embree and the code may round to different sides: those of
+/// float32 at some metres.
+constexpr double rounding = 5e-6;
+
+/// Where a ray from the origin meets the bodies first.
+struct Surface {
+  double range;
+  std::size_t body;
+};
+
+/// Embree looks forwards only: one scene for each direction of the axes.
+class AllAround {
+ public:
+  AllAround(std::span<const Body> bodies, std::span<const Eigen::Isometry3d> poses) {
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Vector3d axis = (i < 3 ? 1.0 : -1.0) * Vector3d::Unit(static_cast<int>(i % 3));
+      turns_.emplace_back(turn(axis, Vector3d::UnitZ()));
+      std::vector<Eigen::Isometry3d> turned;
+      for (const Eigen::Isometry3d& pose : poses) turned.push_back(turns_.back() * pose);
+      oracles_.emplace_back(bodies, turned);
+    }
+  }
+
+  [[nodiscard]] std::optional<Surface> first(const Vector3d& direction) const {
+    Eigen::Index axis = 0;
+    direction.cwiseAbs().maxCoeff(&axis);
+    const auto i = static_cast<std::size_t>(axis + (direction[axis] > 0 ? 0 : 3));
+    const Vector3d turned = turns_[i] * direction;
+    const auto hit = oracles_[i].first_hit(turned / turned.z(), 0.0);
+    if (!hit) return std::nullopt;
+    return Surface{hit->z * (turned / turned.z()).norm(), hit->body};
+  }
+
+ private:
+  std::vector<Eigen::Quaterniond> turns_;
+  std::vector<EmbreeOracle> oracles_;
+};
+
+/// A cloud with an intensity after each point.
+class Points {
+ public:
+  void add(const Vector3d& point) {
+    for (int i = 0; i < 3; ++i) values_.push_back(static_cast<float>(point[i]));
+    values_.push_back(1.0F);
+  }
+  [[nodiscard]] Vector3d operator[](std::size_t i) const { return view()[i].cast<double>(); }
+  [[nodiscard]] std::size_t size() const { return values_.size() / 4; }
+  [[nodiscard]] PointsView view() const {
+    return {reinterpret_cast<const std::byte*>(values_.data()), size(), 4 * sizeof(float)};
+  }
+
+ private:
+  std::vector<float> values_;
+};
+
+Vector3d random_direction(std::mt19937_64& random) {
+  std::normal_distribution<double> number;
+  return Vector3d(number(random), number(random), number(random)).normalized();
+}
+
+/// Bodies of many kinds around the origin, none around it.
+Scene random_scene(std::mt19937_64& random) {
+  Scene scene;
+  std::uniform_real_distribution<float> size(0.05F, 0.4F);
+  std::uniform_real_distribution<double> distance(0.8, 3.0);
+  const auto place = [&](const TriangleMesh& mesh) {
+    Eigen::Isometry3d pose = random_pose(random, Vector3d::Zero(), Vector3d::Zero());
+    pose.translation() = distance(random) * random_direction(random);
+    scene.add(mesh, pose);
+  };
+  for (int i = 0; i < 4; ++i) {
+    place(box({size(random), size(random), size(random)}));
+    place(sphere(size(random), 12));
+    place(torus(12, 24, 0.3, 0.08));
+    place(revolved({{0.0F, -0.3F}, {0.2F, -0.3F}, {0.0F, 0.3F}}, 16));  // a cone
+  }
+  return scene;
+}
+
+/// Directions, half of them at corners of the bodies, where outlines are.
+std::vector<Vector3d> random_directions(std::mt19937_64& random, const Scene& scene, int count) {
+  constexpr double beside = 2e-3;  // radians
+  std::vector<Vector3d> corners;
+  const std::vector<Body> bodies = scene.bodies();
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (const PreparedMesh& mesh : bodies[i].meshes)
+      for (const Eigen::Vector3f& vertex : mesh.vertices)
+        corners.push_back((scene.poses[i] * vertex.cast<double>()).normalized());
+  std::uniform_int_distribution<std::size_t> any(0, corners.size() - 1);
+  std::vector<Vector3d> directions;
+  for (int i = 0; i < count; ++i)
+    directions.push_back(
+        i % 2 == 0 ? random_direction(random)
+                   : (corners[any(random)] + beside * random_direction(random)).normalized());
+  return directions;
+}
+
+/// Ranges before, on and behind the robot.
+double random_range(std::mt19937_64& random, const std::optional<Surface>& surface) {
+  std::uniform_real_distribution<double> far(0.3, 6.0), near(-5 * tolerance, 5 * tolerance);
+  if (!surface || random() % 2 == 0) return far(random);
+  return surface->range + near(random);
+}
+
+CloudRule rule_of(double beam) {
+  return {.tolerance = {tolerance, 0, 0}, .beyond_factor = 2, .beam = beam, .mixing = 0.5};
+}
+
+/// Labels that a point may have: where it lies by rounding on a limit, several.
+std::vector<Label> expected_labels(double range, const std::optional<Surface>& surface) {
+  if (!surface) return {Label::clear};
+  std::vector<Label> labels;
+  for (const double r : {range - rounding, range + rounding})
+    labels.push_back(r < surface->range - tolerance       ? Label::front
+                     : r > surface->range + 2 * tolerance ? Label::beyond
+                                                          : Label::occluded);
+  return labels;
+}
+
+bool fits(Label label, std::uint16_t link, double range, const std::optional<Surface>& surface) {
+  const std::vector<Label> labels = expected_labels(range, surface);
+  return std::find(labels.begin(), labels.end(), label) != labels.end() &&
+         link == (surface ? surface->body + 1 : 0);
+}
+
+TEST(CloudLabels, AreThoseOfEmbreesRays) {
+  std::mt19937_64 random = seeded_random(42);
+  std::array<int, label_count> counts{};
+  for (int round = 0; round < 10; ++round) {
+    const Scene scene = random_scene(random);
+    const AllAround oracle(scene.bodies(), scene.poses);
+    CloudLabeller labeller(scene.bodies(), rule_of(0.0));
+    Points points;
+    for (const Vector3d& direction : random_directions(random, scene, 20'000))
+      points.add(random_range(random, oracle.first(direction)) * direction);
+    const CloudLabels& found = labeller.label(points.view(), Vector3d::Zero(), scene.poses);
+    if (found.enclosing) continue;
+    ASSERT_EQ(found.labels.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto label = static_cast<Label>(found.labels[i]);
+      const double range = points[i].norm();
+      ++counts[found.labels[i]];
+      bool fits_one = fits(label, found.links[i], range, oracle.first(points[i]));
+      for (int beside = 0; beside < 20 && !fits_one; ++beside)  // rays through an edge
+        fits_one = fits(label, found.links[i], range,
+                        oracle.first(points[i] + rounding * random_direction(random)));
+      ASSERT_TRUE(fits_one) << "round " << round << ", point " << points[i].transpose()
+                            << ", label " << static_cast<int>(label) << ", link " << found.links[i];
+    }
+  }
+  for (const Label label : {Label::clear, Label::front, Label::occluded, Label::beyond})
+    EXPECT_GT(counts[static_cast<std::size_t>(label)], 5'000);
+}
+
+TEST(CloudLabels, FringeIsWhatABeamMixesWithTheRobot) {
+  constexpr double beam = 0.004;
+  constexpr double grid = 0.0025;       // radians: rays are tested about 0.1 degrees apart
+  constexpr double most_missed = 0.02;  // tips between these rays
+  std::mt19937_64 random = seeded_random(43);
+  int fringe = 0, clear = 0, missed = 0;
+  for (int round = 0; round < 5; ++round) {
+    const Scene scene = random_scene(random);
+    const AllAround oracle(scene.bodies(), scene.poses);
+    CloudLabeller labeller(scene.bodies(), rule_of(beam));
+    Points points;
+    for (const Vector3d& direction : random_directions(random, scene, 4'000))
+      points.add(random_range(random, oracle.first(direction)) * direction);
+    const CloudLabels& found = labeller.label(points.view(), Vector3d::Zero(), scene.poses);
+    if (found.enclosing) continue;
+    // Whether a ray at most `within` beside a point's meets robot that the point may be mixed of.
+    const auto may_be_mixed = [&](const Vector3d& point, double within) {
+      const double range = point.norm();
+      for (int ring = 0; ring <= 8; ++ring)
+        for (int k = 0; k < 24; ++k) {
+          const Vector3d across = point.unitOrthogonal();
+          const Vector3d beside =
+              Eigen::AngleAxisd(k * std::numbers::pi / 12, point / range) * across;
+          const auto surface = oracle.first(point / range + within * ring / 8 * beside);
+          if (surface && surface->range - tolerance <= range && range <= surface->range + 0.5)
+            return true;
+        }
+      return false;
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto label = static_cast<Label>(found.labels[i]);
+      if (label == Label::fringe) {
+        ++fringe;
+        ASSERT_TRUE(may_be_mixed(points[i], beam + 1e-4)) << points[i].transpose();
+      } else if (is_trusted(label)) {
+        clear += label == Label::clear ? 1 : 0;
+        missed += may_be_mixed(points[i], beam - grid) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(fringe, 300);
+  std::cout << fringe << " fringe, " << missed << " missed\n";
+  EXPECT_LT(missed, most_missed * fringe);
+  EXPECT_GT(clear, 3'000);
+}
+
+TEST(CloudLabels, WithoutRaysAreByDistance) {
+  std::mt19937_64 random = seeded_random(44);
+  Scene scene;
+  const Eigen::Isometry3d pose = random_pose(random, {1, 1, 1}, {2, 2, 2});
+  scene.add(box({0.3F, 0.2F, 0.5F}), pose);
+  CloudLabeller labeller(scene.bodies(), rule_of(0.0));
+  Points points;
+  for (int i = 0; i < 20'000; ++i) points.add(pose * (Vector3d::Random() * 0.7));
+  const CloudLabels& found = labeller.label(points.view(), scene.poses);
+  int on = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Array3d q =
+        (pose.inverse() * points[i]).array().abs() - Eigen::Array3d(0.3, 0.2, 0.5);
+    const double distance = q.max(0.0).matrix().norm() - tolerance;
+    if (std::abs(distance) < rounding) continue;
+    on += distance < 0 ? 1 : 0;
+    ASSERT_EQ(found.labels[i],
+              static_cast<std::uint8_t>(distance < 0 ? Label::occluded : Label::clear));
+    ASSERT_EQ(found.links[i], distance < 0 ? 1 : 0);
+  }
+  EXPECT_GT(on, 1'000);
+}
+
+TEST(CloudLabels, PointsWithoutMeasurementAreUnknown) {
+  Scene scene;
+  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
+  CloudLabeller labeller(scene.bodies());
+  Points points;
+  points.add({0, 0, std::numeric_limits<double>::quiet_NaN()});
+  points.add({0, std::numeric_limits<double>::infinity(), 1});
+  points.add({0.5, 0, 0});  // the origin
+  points.add({0, 0, 1.5});
+  const CloudLabels& found = labeller.label(points.view(), {0.5, 0, 0}, scene.poses);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(found.labels[i], static_cast<std::uint8_t>(Label::unknown));
+  EXPECT_EQ(found.labels[3], static_cast<std::uint8_t>(Label::clear));
+}
+
+TEST(CloudLabels, SensorInsideABodyLeavesAllUnknown) {
+  Scene scene;
+  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
+  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 1, 0));
+  CloudLabeller labeller(scene.bodies());
+  Points points;
+  points.add({0, 0, 3});
+  const CloudLabels& found = labeller.label(points.view(), {0, 1.05, 0}, scene.poses);
+  EXPECT_EQ(found.enclosing, std::optional<std::size_t>(1));
+  EXPECT_EQ(found.labels[0], static_cast<std::uint8_t>(Label::unknown));
+  EXPECT_FALSE(labeller.label(points.view(), {0, 0, 0}, scene.poses).enclosing);
+}
+
+TEST(CloudLabels, BadUseIsRefused) {
+  Scene scene;
+  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
+  EXPECT_THROW((CloudLabeller(scene.bodies(), {.beam = 0.1})), InputError);
+  EXPECT_THROW((CloudLabeller(scene.bodies(), {.tolerance = {-1, 0, 0}})), InputError);
+  CloudLabeller labeller(scene.bodies());
+  EXPECT_THROW(labeller.label({}, Vector3d::Zero(), {}), std::logic_error);
+}
+
+TEST(CloudLabels, AllocateNothingOnceWarm) {
+  std::mt19937_64 random = seeded_random(45);
+  const Scene scene = random_scene(random);
+  CloudLabeller labeller(scene.bodies());
+  Points points;
+  for (const Vector3d& direction : random_directions(random, scene, 5'000))
+    points.add(2.0 * direction);
+  static_cast<void>(labeller.label(points.view(), Vector3d::Zero(), scene.poses));
+  const std::size_t before = allocations();
+  static_cast<void>(labeller.label(points.view(), Vector3d::Zero(), scene.poses));
+  EXPECT_EQ(allocations(), before);
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Clouds against what the recording's depth images say, and against a box by hand."""
+
+import numpy as np
+import pytest
+
+import penumbra
+from conftest import SHIPPED, Opened
+from test_stages import box_mesh, pose
+
+L = penumbra.Label
+
+
+def box_labeller(**rule):
+    return penumbra.CloudLabeller(
+        [penumbra.Body("box", [box_mesh(0.2)])], penumbra.CloudRule(**rule)
+    )
+
+
+def test_points_before_on_and_behind_a_box():
+    points = np.array(
+        [[0, 0, 0.5, 7], [0, 0, 0.91, 7], [0, 0, 3, 7], [0, 2, 1, 7], [np.nan] * 4], np.float32
+    )
+    found = box_labeller().label(points, [pose(0, 0, 1)], origin=[0, 0, 0])
+    assert found.labels.tolist() == [L.front, L.occluded, L.beyond, L.clear, L.unknown]
+    assert found.links.tolist() == [1, 1, 1, 0, 0] and found.enclosing is None
+
+
+def test_points_without_rays_and_a_sensor_in_the_box():
+    points = np.array([[0, 0, 1], [0, 0, 0.88], [0, 0, 0.8]], np.float32)
+    labeller = box_labeller(tolerance=penumbra.Tolerance(a=0.05, b=0, c=0))
+    assert labeller.label(points, [pose(0, 0, 1)]).labels.tolist() == [
+        L.occluded,
+        L.occluded,
+        L.clear,
+    ]
+    assert labeller.label(points[:0], [pose(0, 0, 1)]).labels.shape == (0,)
+    inside = labeller.label(points, [pose(0, 0, 1)], origin=[0, 0, 1])
+    assert inside.enclosing == 0 and set(inside.labels) == {L.unknown}
+
+
+def test_a_depth_image_as_a_cloud_has_the_labels_of_the_image():
+    """But at outlines, and where a range lies at the tolerance that the image measures as depth."""
+    rule = penumbra.LabelRule(
+        tolerance=penumbra.Tolerance(a=0.03, b=0, c=0), front_min_width=0, fringe_reach=0
+    )
+    opened = Opened(SHIPPED, rule=rule)
+    cloud = penumbra.CloudLabeller(
+        opened.robot.bodies, penumbra.CloudRule(tolerance=rule.tolerance, beam=0)
+    )
+    same = total = 0
+    for recorded in opened.frames:
+        report = opened.pipeline.process(recorded.frame)
+        depth = np.asarray(recorded.depth, np.float64) * 1e-3
+        v, u = np.nonzero(depth)
+        rays = np.array([opened.camera.intrinsics.ray(a, b) for a, b in zip(u[::50], v[::50])])
+        points = (rays * depth[v, u][::50, None]).astype(np.float32)
+        T_camera_root = np.linalg.inv(report.T_root_camera)
+        found = cloud.label(points, T_camera_root @ report.T_root_link, origin=[0, 0, 0])
+        expected = report.labels[v, u][::50]
+        assert (expected != L.clear).sum() > 100
+        same += (found.labels == expected).sum()
+        total += len(expected)
+    print(f"{total - same} of {total} differ")
+    assert total - same < 0.002 * total
+
+
+@pytest.mark.parametrize(
+    "points, fault",
+    [
+        ([[0, 0, 1]], TypeError),
+        (np.zeros((2, 3)), TypeError),
+        (np.zeros((2, 2), np.float32), ValueError),
+        (np.zeros(3, np.float32), ValueError),
+        (np.zeros((3, 2), np.float32).T, ValueError),
+    ],
+)
+def test_other_arrays_are_refused(points, fault):
+    with pytest.raises(fault, match="points: expected numpy.ndarray of float32 with shape"):
+        box_labeller().label(points, [pose(0, 0, 1)], origin=[0, 0, 0])
+
+
+def test_other_poses_and_rules_are_refused():
+    points = np.zeros((1, 3), np.float32)
+    with pytest.raises(ValueError, match="a pose for each body; got 2 poses"):
+        box_labeller().label(points, [pose(0, 0, 1)] * 2)
+    with pytest.raises(penumbra.InputError, match="beam 1: expected a number from 0 to 0.01"):
+        box_labeller(beam=1)
