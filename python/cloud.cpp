@@ -5,9 +5,8 @@
 #include <python/arrays.hpp>
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
-#include <python/renderer.hpp>
+#include <python/robot.hpp>
 
-#include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/cloud/cloud_labels.hpp>
 
 namespace penumbra::python {
@@ -18,12 +17,10 @@ using LabelArray = Shown<"Annotated[NDArray[uint8], '(N,)']">;
 using LinkArray = Shown<"Annotated[NDArray[uint16], '(N,)']">;
 
 struct PointLabeller {
-  PointLabeller(const std::vector<OwnedBody>& owned, const CloudRule& rule)
-      : labeller(with_bodies(owned, [&](auto all) { return CloudLabeller(all, rule); })),
-        bodies(owned.size()) {}
+  PointLabeller(const std::vector<OwnedBody>& bodies, const CloudRule& rule)
+      : labeller(with_bodies(bodies, [&](auto all) { return CloudLabeller(all, rule); })) {}
 
   CloudLabeller labeller;
-  std::size_t bodies;
   OneThread thread;
 };
 
@@ -44,11 +41,10 @@ PointsView points_of(const py::object& source) {
   const py::array array(source);
   if (!is_native(array.dtype(), py::dtype::of<float>().num())) throw py::type_error(expected);
   constexpr auto size = static_cast<py::ssize_t>(sizeof(float));
-  const bool is_cloud =
-      array.ndim() == 2 && array.shape(1) >= 3 && array.strides(1) == size && array.strides(0) >= 0;
+  const bool is_cloud = array.ndim() == 2 && array.shape(1) >= 3 && array.strides(1) == size;
   if (!is_cloud) throw py::value_error(expected);
   return {static_cast<const std::byte*>(array.data()), static_cast<std::size_t>(array.shape(0)),
-          static_cast<std::size_t>(array.strides(0))};
+          array.strides(0)};
 }
 
 template <typename Array, typename T>
@@ -60,13 +56,6 @@ PointLabels label(PointLabeller& self, const PointArray& points, const Poses& T_
                   const std::optional<Eigen::Vector3d>& origin) {
   const OneThread::Use use(self.thread, "CloudLabeller.label");
   const PointsView view = points_of(points);
-  if (T_points_body.size() != self.bodies)
-    throw py::value_error("T_points_body: expected shape (" + std::to_string(self.bodies) +
-                          ", 4, 4), a pose for each body; got " +
-                          std::to_string(T_points_body.size()) + " poses");
-  for (const Eigen::Isometry3d& T : T_points_body)
-    if (!is_rigid(T))
-      throw py::value_error("T_points_body: expected finite rotations (to 1e-4) and translations");
   if (origin && !origin->allFinite()) throw py::value_error("origin: expected finite numbers");
   const CloudLabels* found = nullptr;
   {
@@ -96,12 +85,13 @@ void bind_cloud(py::module_& m) {
   bind_settings(rule);
   py::class_<PointLabels> labels(m, "CloudLabels",
                                  "The labels of a cloud, in the order of its points.");
-  show_fields(labels,
-              Field{"labels", &PointLabels::labels, "Values of Label; unknown: no measurement."},
-              Field{"links", &PointLabels::links,
-                    "Body index + 1 of the robot that decided; 0: clear, or no measurement."},
-              Field{"enclosing", &PointLabels::enclosing,
-                    "Index of the body that the sensor lies in: all labels are unknown; or None."});
+  show_fields(
+      labels, Field{"labels", &PointLabels::labels, "Values of Label; unknown: no measurement."},
+      Field{"links", &PointLabels::links,
+            "Body index + 1 of the robot that decided; 0: clear, or no measurement."},
+      Field{"enclosing", &PointLabels::enclosing,
+            "Index of the body that the sensor lies in, or less than 2 cm from: all labels are "
+            "unknown; or None."});
   py::class_<PointLabeller, std::shared_ptr<PointLabeller>>(
       m, "CloudLabeller",
       "Says of each point of a cloud whether it is the robot's. Serves one thread at a time.")
@@ -109,10 +99,10 @@ void bind_cloud(py::module_& m) {
            "bodies: Robot.bodies, say. Raises InputError for settings out of bounds.")
       .def("label", &label, py::arg("points"), py::arg("T_points_body"),
            py::arg("origin") = py::none(),
-           "PointLabels points by the poses of the bodies, both in the same frame, metres. origin: "
+           "Labels points by the poses of the bodies, both in the same frame, metres. origin: "
            "where the sensor that measured the points stood. None: points without rays, as of "
            "merged clouds: those on or in the robot are occluded, the others clear. Coordinates "
-           "that are not finite are no measurement.");
+           "that are not finite, and points less than 2 cm from the origin, are no measurement.");
 }
 
 }  // namespace penumbra::python

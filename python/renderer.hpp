@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include <python/arrays.hpp>
@@ -12,19 +11,6 @@
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::python {
-
-/// Returns make(bodies) for bodies of Python.
-template <typename Make>
-auto with_bodies(const std::vector<OwnedBody>& owned, const Make& make) {
-  std::vector<std::vector<PreparedMesh>> meshes;
-  for (const OwnedBody& body : owned) {
-    auto& of_body = meshes.emplace_back();
-    for (const Mesh& mesh : body.meshes) of_body.push_back(*mesh.prepared);
-  }
-  std::vector<Body> bodies;
-  for (std::size_t i = 0; i < owned.size(); ++i) bodies.push_back({owned[i].name, meshes[i]});
-  return make(std::span<const Body>(bodies));
-}
 
 /// A renderer and its last frames.
 class Renderer {

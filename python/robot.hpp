@@ -2,12 +2,14 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <python/values.hpp>
 
 #include <penumbra/mesh/prepared_mesh.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra::python {
@@ -25,6 +27,19 @@ struct OwnedBody {
   std::string name;
   std::vector<Mesh> meshes;
 };
+
+/// Returns make(bodies) for bodies of Python.
+template <typename Make>
+auto with_bodies(const std::vector<OwnedBody>& owned, const Make& make) {
+  std::vector<std::vector<PreparedMesh>> meshes;
+  for (const OwnedBody& body : owned) {
+    auto& of_body = meshes.emplace_back();
+    for (const Mesh& mesh : body.meshes) of_body.push_back(*mesh.prepared);
+  }
+  std::vector<Body> bodies;
+  for (std::size_t i = 0; i < owned.size(); ++i) bodies.push_back({owned[i].name, meshes[i]});
+  return make(std::span<const Body>(bodies));
+}
 
 /// Returns the message of a KeyError for an unknown variable.
 [[nodiscard]] std::string no_variable(const Robot& robot, const std::string& name);

@@ -19,7 +19,7 @@ esac
 
 cmake -S . -B build/bench -G Ninja -DCMAKE_BUILD_TYPE=Release -DPENUMBRA_BUILD_BENCHMARKS=ON \
   -DPENUMBRA_BUILD_TESTS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF >/dev/null
-cmake --build build/bench --target compare_renderers scaling pipeline_benchmark fringe_benchmark look_ahead_benchmark camera_load penumbra_app
+cmake --build build/bench --target compare_renderers scaling pipeline_benchmark fringe_benchmark look_ahead_benchmark cloud_benchmark camera_load penumbra_app
 mkdir -p "$results"
 build/bench/bench/compare_renderers --rounds "$rounds" --json "$results/renderers.json" |
   tee "$results/renderers.txt"
@@ -29,11 +29,12 @@ build/bench/bench/pipeline_benchmark --benchmark_repetitions="$rounds" \
   --benchmark_report_aggregates_only=true | tee "$results/frames.txt"
 build/bench/bench/fringe_benchmark --benchmark_repetitions="$rounds" \
   --benchmark_report_aggregates_only=true | tee "$results/fringe.txt"
-for load in "25 --threads 1" "40 --threads 1" "50 --threads 1" "100 --threads 1" "80 --threads 2"; do
+for load in "40 --threads 1" "60 --threads 1" "100 --threads 1" "100 --threads 2"; do
   # shellcheck disable=SC2086  # several arguments
-  build/bench/bench/camera_load --seconds 20 --cameras $load
+  build/bench/bench/camera_load --seconds 60 --cameras $load
 done | tee "$results/cameras.txt"
 build/bench/bench/look_ahead_benchmark | tee "$results/look_ahead.txt"
+build/bench/bench/cloud_benchmark | tee "$results/cloud.txt"
 bench/run_benchmark.sh build/bench/apps/penumbra/penumbra "$rounds" | tee "$results/run.txt"
 [[ $page == docs ]] || cp docs/performance.md "$page/"
 scripts/performance_page.py "$results" "$page"

@@ -2,10 +2,12 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/cloud/cloud_labels.hpp>
 #include <penumbra/cloud/cube_face-inl.hpp>
 #include <penumbra/mesh/triangle_tree.hpp>
@@ -18,7 +20,7 @@ using cloud::PointLabel;
 
 Eigen::Vector3f PointsView::operator[](std::size_t i) const {
   Eigen::Vector3f point;
-  std::memcpy(point.data(), data + i * stride, 3 * sizeof(float));
+  std::memcpy(point.data(), data + static_cast<std::ptrdiff_t>(i) * stride, 3 * sizeof(float));
   return point;
 }
 
@@ -31,12 +33,18 @@ void CloudRule::check() const {
 }
 
 struct CloudLabeller::State {
+  struct Measurement {
+    Eigen::Vector3f ray;  // from the origin to the point
+    std::uint32_t point;
+  };
+
   State(std::span<const Body> bodies, const CloudRule& cloud_rule);
 
   void begin(std::size_t points, std::span<const Eigen::Isometry3d> T_points_body);
-  [[nodiscard]] std::optional<std::size_t> enclosing(const Eigen::Vector3d& point) const;
+  [[nodiscard]] std::optional<std::size_t> enclosing(const Eigen::Vector3d& point,
+                                                     double margin = 0.0) const;
   void sort_points(const PointsView& points, const Eigen::Vector3f& origin);
-  void label_face(std::size_t number, const PointsView& points, const Eigen::Vector3d& origin);
+  void label_face(std::size_t number, const Eigen::Vector3d& origin);
   [[nodiscard]] PointLabel look(const FacePoint& point) const;
   [[nodiscard]] PointLabel cast(const FacePoint& point) const;
   [[nodiscard]] std::uint16_t touching(const Eigen::Vector3d& point) const;
@@ -50,7 +58,7 @@ struct CloudLabeller::State {
   std::vector<std::vector<TriangleTree>> bodies;  // a tree for each mesh
   std::unique_ptr<DepthRenderer> renderer;
   CubeFace face;
-  std::array<std::vector<std::uint32_t>, CubeFace::count> of_face;  // points
+  std::array<std::vector<Measurement>, CubeFace::count> of_face;
   std::vector<Eigen::Isometry3d> T_body_points, T_face_body, T_body_face;
   CloudLabels result;
 };
@@ -68,19 +76,28 @@ CloudLabeller::State::State(std::span<const Body> given, const CloudRule& cloud_
 
 void CloudLabeller::State::begin(std::size_t points,
                                  std::span<const Eigen::Isometry3d> T_points_body) {
+  const auto fail = [](const std::string& fault) {
+    throw std::invalid_argument("CloudLabeller::label(): " + fault);
+  };
   if (T_points_body.size() != bodies.size())
-    throw std::logic_error("CloudLabeller::label(): " + std::to_string(T_points_body.size()) +
-                           " poses for " + std::to_string(bodies.size()) + " bodies");
+    fail(std::to_string(T_points_body.size()) + " poses for " + std::to_string(bodies.size()) +
+         " bodies");
+  for (const Eigen::Isometry3d& pose : T_points_body)
+    if (!is_rigid(pose)) fail("a pose is not finite and rigid");
+  if (points > std::numeric_limits<std::uint32_t>::max()) fail("too many points");
   result.labels.assign(points, static_cast<std::uint8_t>(Label::unknown));
   result.links.assign(points, 0);
   result.enclosing.reset();
   for (std::size_t i = 0; i < bodies.size(); ++i) T_body_points[i] = T_points_body[i].inverse();
 }
 
-std::optional<std::size_t> CloudLabeller::State::enclosing(const Eigen::Vector3d& point) const {
+std::optional<std::size_t> CloudLabeller::State::enclosing(const Eigen::Vector3d& point,
+                                                           double margin) const {
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (const TriangleTree& mesh : bodies[i])
-      if (mesh.encloses(T_body_points[i] * point)) return i;
+      if (mesh.encloses(T_body_points[i] * point) ||
+          mesh.distance(T_body_points[i] * point, margin) < margin)
+        return i;
   return std::nullopt;
 }
 
@@ -89,13 +106,13 @@ void CloudLabeller::State::sort_points(const PointsView& points, const Eigen::Ve
   for (auto& some : of_face) some.clear();
   for (std::size_t i = 0; i < points.count; ++i) {
     const Eigen::Vector3f ray = points[i] - origin;
-    if (!ray.allFinite() || ray.isZero(0.0F)) continue;
-    of_face[CubeFace::of(ray)].push_back(static_cast<std::uint32_t>(i));
+    const float range = ray.norm();
+    if (!(range >= static_cast<float>(least_range) && std::isfinite(range))) continue;
+    of_face[CubeFace::of(ray)].push_back({ray, static_cast<std::uint32_t>(i)});
   }
 }
 
-void CloudLabeller::State::label_face(std::size_t number, const PointsView& points,
-                                      const Eigen::Vector3d& origin) {
+void CloudLabeller::State::label_face(std::size_t number, const Eigen::Vector3d& origin) {
   const Eigen::Isometry3d T_face_points =
       Eigen::Isometry3d(CubeFace::frame(number)) * Eigen::Translation3d(-origin);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -104,9 +121,8 @@ void CloudLabeller::State::label_face(std::size_t number, const PointsView& poin
   }
   face.show(renderer->render(T_face_body));
   const Eigen::Matrix3f R = T_face_points.linear().cast<float>();
-  const Eigen::Vector3f from = origin.cast<float>();
-  for (const std::uint32_t i : of_face[number]) {
-    const FacePoint point = CubeFace::place(R * (points[i] - from));
+  for (const auto& [ray, i] : of_face[number]) {
+    const FacePoint point = CubeFace::place(R * ray);
     set(i, face.holds_robot(point) ? look(point) : PointLabel{});
   }
 }
@@ -141,7 +157,7 @@ PointLabel CloudLabeller::State::cast(const FacePoint& point) const {
 
 /// Returns the body, + 1, on or in which a point lies; 0: none.
 std::uint16_t CloudLabeller::State::touching(const Eigen::Vector3d& point) const {
-  double nearest = std::nextafter(tolerance, 1e9);
+  double nearest = std::nextafter(tolerance, TriangleTree::nowhere);
   std::uint16_t link = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (const TriangleTree& mesh : bodies[i]) {
@@ -165,11 +181,11 @@ const CloudLabels& CloudLabeller::label(const PointsView& points, const Eigen::V
                                         std::span<const Eigen::Isometry3d> T_points_body) {
   State& s = *state_;
   s.begin(points.count, T_points_body);
-  s.result.enclosing = s.enclosing(origin);
+  s.result.enclosing = s.enclosing(origin, least_range);
   if (s.result.enclosing) return s.result;
   s.sort_points(points, origin.cast<float>());
   for (std::size_t i = 0; i < CubeFace::count; ++i)
-    if (!s.of_face[i].empty()) s.label_face(i, points, origin);
+    if (!s.of_face[i].empty()) s.label_face(i, origin);
   return s.result;
 }
 

@@ -17,12 +17,12 @@
 
 namespace penumbra {
 
-/// Points in memory: x, y, z as float32, metres. Coordinates that are not finite, and the sensor's
-/// origin, are "no measurement".
+/// Points in memory: x, y, z as float32, metres. Coordinates that are not finite, and points less
+/// than CloudLabeller::least_range from the sensor, are "no measurement".
 struct PointsView {
   const std::byte* data = nullptr;  ///< the first x
   std::size_t count = 0;
-  std::size_t stride = 3 * sizeof(float);  ///< bytes from a point to the next
+  std::ptrdiff_t stride = 3 * sizeof(float);  ///< bytes from a point to the next
 
   [[nodiscard]] Eigen::Vector3f operator[](std::size_t i) const;
 };
@@ -34,8 +34,8 @@ struct PointsView {
 ///    occluded.
 /// 2. A point whose ray misses the robot is clear.
 /// 3. A beam is as wide as `beam` to all sides, and may return a mixture of what it meets. Clear
-///    and front points become fringe if a ray at most `beam` beside theirs meets the robot at s,
-///    and s - e(s) <= r <= s + mixing.
+///    and front points become fringe if a ray at most `beam` beside theirs (or up to 0.14 degrees
+///    more) meets the robot at s, and s - e(s) <= r <= s + mixing.
 struct CloudRule {
   Tolerance tolerance{.a = 0.03, .b = 0.0, .c = 0.0};  ///< e(s)
   double beyond_factor = 2.0;                          ///< k
@@ -67,14 +67,19 @@ struct CloudLabels {
   std::vector<std::uint8_t> labels;  ///< values of Label
   std::vector<std::uint16_t>
       links;  ///< body index + 1 of the robot that decided; 0: clear, unknown
-  std::optional<std::size_t> enclosing;  ///< body that the origin lies in: all labels are unknown
+  /// Body that the origin lies in, or less than least_range from: all labels are unknown.
+  std::optional<std::size_t> enclosing;
 };
 
 /// Says of each point of a cloud whether it is the robot's. Decides most points by virtual depth on
 /// the faces of a cube around the sensor, and those next to an edge by casting their rays. What is
-/// thinner than 0.1 degrees, and stands alone, may be missed.
+/// thinner than 0.17 degrees may be missed: its points are then clear or, before other robot,
+/// front. Serves one thread at a time.
 class CloudLabeller {
  public:
+  /// Metres. Robot that is nearer may not be drawn: the near plane's farthest point is at 0.018.
+  static constexpr double least_range = 0.02;
+
   /// The spans need only live during the call. Throws InputError as make_depth_renderer() and for
   /// an invalid rule.
   explicit CloudLabeller(std::span<const Body> bodies, const CloudRule& rule = {});
@@ -83,13 +88,14 @@ class CloudLabeller {
   CloudLabeller& operator=(CloudLabeller&&) noexcept;
 
   /// Labels points that a sensor at `origin` measured, by the bodies' poses T_points_body, all in
-  /// the frame of the points. The result is valid until the next call. Allocates nothing for clouds
-  /// no larger than earlier ones. Throws std::logic_error for a wrong number of poses.
+  /// the frame of the points. The result is valid until the next call. Allocates nothing
+  /// once its lists are long enough. Throws std::invalid_argument for a wrong number of poses, one
+  /// that is not rigid, and more than 2^32 - 1 points.
   const CloudLabels& label(const PointsView& points, const Eigen::Vector3d& origin,
                            std::span<const Eigen::Isometry3d> T_points_body);
 
   /// The same for points without rays, as of merged clouds: those at most e(0) from the robot's
-  /// surface, and those inside, are occluded, the others clear.
+  /// surface, and those inside a closed surface, are occluded, the others clear.
   const CloudLabels& label(const PointsView& points,
                            std::span<const Eigen::Isometry3d> T_points_body);
 

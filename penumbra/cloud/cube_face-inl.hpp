@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include <Eigen/Core>
@@ -28,9 +27,9 @@ class RangeRule {
     if (r < s - e) return Label::front;
     return r > s + k_ * e ? Label::beyond : Label::occluded;
   }
-  /// `s`: the robot's range on a ray beside it.
-  [[nodiscard]] bool is_mixed(float r, float s) const {
-    return s - tolerance(s) <= r && r <= s + mixing_;
+  /// `s`: the robot's range on a ray beside it; known to `spare`.
+  [[nodiscard]] bool is_mixed(float r, float s, float spare = 0.0F) const {
+    return s - tolerance(s) - spare <= r && r <= s + mixing_ + spare;
   }
 
  private:
@@ -79,7 +78,7 @@ class CubeFace {
 
   /// Returns whether robot may be in reach of a beam.
   [[nodiscard]] bool holds_robot(const FacePoint& point) const {
-    return around_(static_cast<int>(point.u) / cell, static_cast<int>(point.v) / cell) != nothing;
+    return around_(static_cast<int>(point.u) / cell, static_cast<int>(point.v) / cell) != 0;
   }
   /// Returns the label if the 4 x 4 pixels around the point's ray agree on it: not next to an edge.
   [[nodiscard]] std::optional<PointLabel> label(const FacePoint& point,
@@ -89,12 +88,11 @@ class CubeFace {
 
  private:
   static constexpr int cell = 4;  // pixels
-  static constexpr float nothing = std::numeric_limits<float>::infinity();
 
-  float beam_;  // radians
+  float beam_;  // radians, with the least that lets every outline in it hold a pixel's centre
   int reach_;   // pixels
   VirtualDepthView seen_;
-  Image<float> nearest_, around_;  // least depth in a cell, and in those in reach of it
+  Image<std::uint8_t> cells_, around_;  // 1: robot in a cell, or in reach of it
 };
 
 }  // namespace penumbra::cloud

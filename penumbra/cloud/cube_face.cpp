@@ -22,36 +22,33 @@ std::size_t CubeFace::of(const Eigen::Vector3f& ray) {
   return static_cast<std::size_t>(axis) + (ray[axis] > 0.0F ? 0 : 3);
 }
 
-/// A radian takes the most pixels at the corner of a face: focal / cos^2.
+/// A radian takes the most pixels at the corner of a face: focal / cos^2. A half disc of 1.12
+/// pixels holds a pixel's centre.
 CubeFace::CubeFace(double beam)
-    : beam_(static_cast<float>(beam)),
-      reach_(static_cast<int>(std::ceil(3.0 * focal * beam)) + 1),
-      nearest_(size / cell, size / cell, nothing),
-      around_(nearest_) {}
+    : beam_(beam > 0.0 ? static_cast<float>(beam) + 1.2F / focal : 0.0F),
+      reach_(static_cast<int>(std::ceil(3.0F * focal * static_cast<float>(beam) + 1.2F)) + 1),
+      cells_(size / cell, size / cell),
+      around_(size / cell, size / cell) {}
 
 void CubeFace::show(const VirtualDepthView& seen) {
   seen_ = seen;
-  std::fill_n(nearest_.data(), nearest_.size(), nothing);
-  std::fill_n(around_.data(), around_.size(), nothing);
+  std::fill_n(cells_.data(), cells_.size(), std::uint8_t{0});
+  std::fill_n(around_.data(), around_.size(), std::uint8_t{0});
   seen.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
     for (int v = v0; v < v1; ++v) {
-      const float* const depth = seen.depth.row(v);
-      float* const cells = &nearest_(0, v / cell);
-      for (int u = u0; u < u1; ++u) {
-        const float z = depth[u] > 0.0F ? depth[u] : nothing;
-        cells[u / cell] = std::min(cells[u / cell], z);
-      }
+      const std::uint16_t* const links = seen.links.row(v);
+      std::uint8_t* const cells = &cells_(0, v / cell);
+      for (int u = u0; u < u1; ++u) cells[u / cell] |= links[u] != 0 ? 1 : 0;
     }
   });
-  const int cells = (reach_ + cell - 1) / cell, last = nearest_.width() - 1;
+  const int reach = (reach_ + cell - 1) / cell, last = cells_.width() - 1;
   seen.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
     for (int j = v0 / cell; j < v1 / cell; ++j)
       for (int i = u0 / cell; i < u1 / cell; ++i) {
-        const float z = nearest_(i, j);
-        if (z == nothing) continue;
-        for (int y = std::max(0, j - cells); y <= std::min(last, j + cells); ++y)
-          for (int x = std::max(0, i - cells); x <= std::min(last, i + cells); ++x)
-            around_(x, y) = std::min(around_(x, y), z);
+        if (cells_(i, j) == 0) continue;
+        const int first = std::max(0, i - reach), wide = std::min(last, i + reach) + 1 - first;
+        for (int y = std::max(0, j - reach); y <= std::min(last, j + reach); ++y)
+          std::fill_n(&around_(first, y), wide, std::uint8_t{1});
       }
   });
 }
@@ -59,7 +56,7 @@ void CubeFace::show(const VirtualDepthView& seen) {
 std::optional<PointLabel> CubeFace::label(const FacePoint& point, const RangeRule& rule) const {
   const int u = static_cast<int>(point.u) - 1, v = static_cast<int>(point.v) - 1;
   const std::uint16_t link = seen_.links(u, v);
-  float low = nothing, high = 0.0F;
+  float low = seen_.depth(u, v), high = low;
   bool is_one_body = true;
   for (int j = v; j < v + 4; ++j) {
     const std::uint16_t* const links = seen_.links.row(j) + u;
@@ -82,12 +79,15 @@ std::uint16_t CubeFace::mixed_link(const FacePoint& point, const RangeRule& rule
   const auto middle_u = static_cast<int>(std::lround(point.u)),
              middle_v = static_cast<int>(std::lround(point.v));
   const Eigen::Vector3f ray = point.ray / point.range;
+  const float range_of_depth = point.range / point.ray.z();
+  constexpr float apart = 0.03F;  // share by which ranges of rays in reach differ at most
   float nearest = beam_ * beam_;  // squared angle
   std::uint16_t link = 0;
   for (int v = std::max(0, middle_v - reach_); v <= std::min(size - 1, middle_v + reach_); ++v)
     for (int u = std::max(0, middle_u - reach_); u <= std::min(size - 1, middle_u + reach_); ++u) {
       const float z = seen_.depth(u, v);
-      if (!(z > 0.0F)) continue;
+      const float near = z * range_of_depth;
+      if (!(z > 0.0F) || !rule.is_mixed(point.range, near, apart * near)) continue;
       const Eigen::Vector3f beside((static_cast<float>(u) - centre) / focal,
                                    (static_cast<float>(v) - centre) / focal, 1.0F);
       const float length = beside.norm();

@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::uint32_t leaf_size = 4;  // triangles
-constexpr std::size_t most_levels = 64;
+constexpr std::uint32_t leaf_size = 4;   // triangles
+constexpr std::size_t most_levels = 64;  // halves of 2^32 triangles make 32
 
 /// Where a ray meets a triangle.
 struct Hit {
@@ -89,26 +89,26 @@ TriangleTree::TriangleTree(const PreparedMesh& mesh) {
   }
 }
 
-/// Splits at the middle of the longest side.
+/// Splits at the median along the longest side of the centroids' box.
 void TriangleTree::add_node(const std::vector<Corners>& corners, std::vector<std::uint32_t>& order,
                             std::uint32_t first, std::uint32_t end) {
   const std::size_t node = nodes_.size();
   nodes_.push_back({{}, first, end - first});
-  Eigen::AlignedBox3f middles;
-  const auto middle = [&](std::uint32_t i) -> Eigen::Vector3f {
+  Eigen::AlignedBox3f centroids;
+  const auto centroid = [&](std::uint32_t i) -> Eigen::Vector3f {
     return (corners[i][0] + corners[i][1] + corners[i][2]) / 3.0F;
   };
   for (std::uint32_t i = first; i < end; ++i) {
     for (const Eigen::Vector3f& corner : corners[order[i]]) nodes_[node].box.extend(corner);
-    middles.extend(middle(order[i]));
+    centroids.extend(centroid(order[i]));
   }
   if (end - first <= leaf_size) return;
   int axis = 0;
-  middles.sizes().maxCoeff(&axis);
+  centroids.sizes().maxCoeff(&axis);
   const std::uint32_t half = first + (end - first) / 2;
   std::nth_element(
       order.begin() + first, order.begin() + half, order.begin() + end,
-      [&](std::uint32_t a, std::uint32_t b) { return middle(a)[axis] < middle(b)[axis]; });
+      [&](std::uint32_t a, std::uint32_t b) { return centroid(a)[axis] < centroid(b)[axis]; });
   add_node(corners, order, first, half);
   nodes_[node].first = static_cast<std::uint32_t>(nodes_.size());
   nodes_[node].count = 0;
@@ -157,12 +157,17 @@ double TriangleTree::distance(const Vector3d& point, double limit) const {
 }
 
 bool TriangleTree::encloses(const Vector3d& point) const {
-  const Vector3d direction(0.3571, 0.5673, 0.7421);  // along no axis
+  if (nodes_.empty() || !nodes_[0].box.cast<double>().contains(point)) return false;
+  const Vector3d direction(0.3571, 0.5673, 0.7421);                        // along no axis
+  return winding(point, direction) > 0 || winding(point, -direction) > 0;  // one may pass a hole
+}
+
+int TriangleTree::winding(const Vector3d& point, const Vector3d& direction) const {
   const Ray ray(point, direction);
   int winding = 0;
   visit([&](const Eigen::AlignedBox3f& box) { return ray.crosses(box, nowhere); },
         [&](std::uint32_t i) { winding -= facing_[i] * ray.meet(triangles_[i]).side; });
-  return winding > 0;
+  return winding;
 }
 
 }  // namespace penumbra

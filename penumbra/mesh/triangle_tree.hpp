@@ -21,14 +21,14 @@ class TriangleTree {
 
   /// Returns t of the first point origin + t * direction on a triangle, seen from either side, with
   /// 0 < t < limit; nowhere if there is none. A ray through an edge that two triangles share meets
-  /// one of them.
+  /// at least one of them.
   [[nodiscard]] double first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                  double limit = nowhere) const;
 
   /// Returns the distance from a point to the nearest triangle if it is below limit, else nowhere.
   [[nodiscard]] double distance(const Eigen::Vector3d& point, double limit = nowhere) const;
 
-  /// Returns whether a patch whose outer side is known encloses a point.
+  /// Returns whether patches that bound a body, with small holes at most, enclose a point.
   [[nodiscard]] bool encloses(const Eigen::Vector3d& point) const;
 
  private:
@@ -40,6 +40,8 @@ class TriangleTree {
     std::uint32_t count = 0;  // triangles of a leaf; 0: not a leaf
   };
 
+  /// Returns how often the patches wind around a point, counted along a ray.
+  [[nodiscard]] int winding(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
   void add_node(const std::vector<Corners>& corners, std::vector<std::uint32_t>& order,
                 std::uint32_t first, std::uint32_t end);
 

@@ -81,6 +81,20 @@ TEST(TriangleTree, DistanceAndInsideAreThoseOfABox) {
   }
 }
 
+TEST(TriangleTree, ASmallHoleLetsNoPointOut) {
+  std::mt19937_64 random = seeded_random(424);
+  TriangleMesh mesh = sphere(0.5F, 24);
+  mesh.triangles.erase(mesh.triangles.begin() + 500);
+  const TriangleTree tree{PreparedMesh(mesh)};
+  for (int i = 0; i < 20'000; ++i) {
+    const Vector3d point = random_vector(random, 1.0);
+    const bool is_inside = point.norm()<0.45, is_outside = point.cwiseAbs().maxCoeff()> 0.5;
+    if (is_inside || is_outside) {
+      ASSERT_EQ(tree.encloses(point), is_inside) << point.transpose();
+    }
+  }
+}
+
 TEST(TriangleTree, WithoutTrianglesIsNowhere) {
   const TriangleTree tree{PreparedMesh(TriangleMesh{})};
   EXPECT_EQ(tree.first_hit(Vector3d::Zero(), Vector3d::UnitX()), TriangleTree::nowhere);

@@ -44,12 +44,16 @@ def check_masks(out):
     assert re.fullmatch(r"12 frames, \d{5} pixels in the last one\nepisode_000007 12\n", out)
 
 
+def check_cloud(out):
+    assert re.fullmatch(r"9\d{4} of 100000 points stay\n", out)
+
+
 def check_look_ahead(out):
     assert re.search(r"^lid \d\.\d\d s to \d\.\d\d s: hidden \w+$", out, re.MULTILINE)
 
 
 # What the programs of a document print, read once more.
-SAID = {"batch.md": check_batch, "look_ahead.md": check_look_ahead, "robot_masks.md": check_masks,
+SAID = {"batch.md": check_batch, "look_ahead.md": check_look_ahead, "point_clouds.md": check_cloud, "robot_masks.md": check_masks,
         "targets.md": check_detector, "python.md": check_manual}
 
 
