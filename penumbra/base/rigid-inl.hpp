@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
 #include <Eigen/Geometry>
 
 namespace penumbra {
@@ -21,6 +25,14 @@ namespace penumbra {
   constexpr double lever = 0.1;
   return (a.translation() - b.translation()).norm() +
          lever * Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
+}
+
+/// Returns the largest difference of as many poses.
+[[nodiscard]] inline double pose_difference(std::span<const Eigen::Isometry3d> a,
+                                            std::span<const Eigen::Isometry3d> b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, pose_difference(a[i], b[i]));
+  return most;
 }
 
 }  // namespace penumbra

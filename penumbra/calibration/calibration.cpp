@@ -40,12 +40,6 @@ constexpr double untold = 0.02;           // rad, half axis of the 95 % region o
 /// Of the square of how far another pose is: the 95 % region reaches a little farther.
 constexpr double covering = 1.0 / 6.0;
 
-double moved(std::span<const Eigen::Isometry3d> a, std::span<const Eigen::Isometry3d> b) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, pose_difference(a[i], b[i]));
-  return most;
-}
-
 std::string number(double value, int digits) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(digits) << value;
@@ -407,7 +401,7 @@ double Calibration::rotation_error() const {
 
 bool CalibrationFrames::wants(std::span<const Eigen::Isometry3d> T_root_link) const {
   return std::all_of(frames_.begin(), frames_.end(), [&](const CalibrationFrame& frame) {
-    return moved(frame.T_root_link, T_root_link) >= motion_;
+    return pose_difference(frame.T_root_link, T_root_link) >= motion_;
   });
 }
 

@@ -19,12 +19,6 @@ Intrinsics thinned(const Intrinsics& camera, int block) {
           camera.fy() / block,    (camera.cx() - middle) / block, (camera.cy() - middle) / block};
 }
 
-double moved(std::span<const Eigen::Isometry3d> a, std::span<const Eigen::Isometry3d> b) {
-  double most = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, pose_difference(a[i], b[i]));
-  return most;
-}
-
 }  // namespace
 
 SetupCheck::SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent)
@@ -37,7 +31,7 @@ SetupCheck::SetupCheck(const Robot& robot, const Camera& camera, std::size_t cam
 
 bool SetupCheck::wants(std::span<const Eigen::Isometry3d> T_root_link) const {
   return std::ranges::all_of(frames_, [&](const DiagnosisFrame& frame) {
-    return moved(frame.T_root_link, T_root_link) >= motion_;
+    return pose_difference(frame.T_root_link, T_root_link) >= motion_;
   });
 }
 

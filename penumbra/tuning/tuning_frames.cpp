@@ -67,11 +67,7 @@ void TuningFrames::check() const {
 
 bool TuningFrames::differs(const TuningFrame& frame, std::span<const TuningFrame> from) const {
   return std::all_of(from.begin(), from.end(), [&](const TuningFrame& other) {
-    double most_moved = 0.0;
-    for (std::size_t i = 0; i < frame.T_camera_link.size(); ++i)
-      most_moved =
-          std::max(most_moved, pose_difference(frame.T_camera_link[i], other.T_camera_link[i]));
-    return most_moved >= motion_;
+    return pose_difference(frame.T_camera_link, other.T_camera_link) >= motion_;
   });
 }
 
