@@ -145,11 +145,11 @@ unity=ON  # many sources at once
 quick='-DCMAKE_CXX_FLAGS=--param ggc-min-expand=300 --param ggc-min-heapsize=500000'
 # AddressSanitizer watches the code that reads files or writes images, ThreadSanitizer the renderer's
 # threads. Their trees hold only those rooms. Most rooms are tested in one tree.
-asan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;camera;render;labels'
+asan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;camera;render;labels;cloud'
 tsan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;camera;render'
 not_in_release=-DPENUMBRA_SKIP_TESTS='base;mesh;robot'
 not_in_asan=-DPENUMBRA_SKIP_TESTS='time;camera;targets;tracking;pipeline;scene;house'
-not_in_tsan=-DPENUMBRA_SKIP_TESTS='base;mesh;robot;time;camera;labels;targets;tracking;pipeline;scene;house'
+not_in_tsan=-DPENUMBRA_SKIP_TESTS='base;mesh;robot;time;camera;labels;targets;tracking;pipeline;scene;cloud;house'
 if $full; then
   export PENUMBRA_FULL=1
   sanitizer_scope=("${everything[@]}")
