@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Google Benchmark of labelling scans: a lidar of 64 beams, which looks 100 degrees wide, beside a
+// Google Benchmark of labelling scans: a lidar of 64 beams, which looks 100 degrees wide, near a
 // robot that moves in a room. One thread.
 #include "scenes.hpp"
 

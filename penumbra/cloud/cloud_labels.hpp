@@ -34,7 +34,7 @@ struct PointsView {
 ///    occluded.
 /// 2. A point whose ray misses the robot is clear.
 /// 3. A beam is as wide as `beam` to all sides, and may return a mixture of what it meets. Clear
-///    and front points become fringe if a ray at most `beam` beside theirs (or up to 0.14 degrees
+///    and front points become fringe if a ray at most `beam` from theirs (or up to 0.14 degrees
 ///    more) meets the robot at s, and s - e(s) <= r <= s + mixing.
 struct CloudRule {
   Tolerance tolerance{.a = 0.03, .b = 0.0, .c = 0.0};  ///< e(s)
@@ -52,7 +52,7 @@ struct CloudRule {
         Setting("beyond_factor", &CloudRule::beyond_factor, {1, 100}, "",
                 "how many tolerances behind the model beyond starts"),
         Setting("beam", &CloudRule::beam, {0, max_beam}, "rad",
-                "how far beside a point's ray its return may come from: half of the beam, and "
+                "how far from a point's ray its return may come: half of the beam, and "
                 "errors of the robot's pose"),
         Setting("mixing", &CloudRule::mixing, {0, 100}, "m",
                 "how far behind the robot a return may lie that mixes it with what is behind"));

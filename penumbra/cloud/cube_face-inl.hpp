@@ -27,7 +27,7 @@ class RangeRule {
     if (r < s - e) return Label::front;
     return r > s + k_ * e ? Label::beyond : Label::occluded;
   }
-  /// `s`: the robot's range on a ray beside it; known to `spare`.
+  /// `s`: the robot's range on a ray next to it; known to `spare`.
   [[nodiscard]] bool is_mixed(float r, float s, float spare = 0.0F) const {
     return s - tolerance(s) - spare <= r && r <= s + mixing_ + spare;
   }

@@ -88,10 +88,10 @@ std::uint16_t CubeFace::mixed_link(const FacePoint& point, const RangeRule& rule
       const float z = seen_.depth(u, v);
       const float near = z * range_of_depth;
       if (!(z > 0.0F) || !rule.is_mixed(point.range, near, apart * near)) continue;
-      const Eigen::Vector3f beside((static_cast<float>(u) - centre) / focal,
+      const Eigen::Vector3f nearby((static_cast<float>(u) - centre) / focal,
                                    (static_cast<float>(v) - centre) / focal, 1.0F);
-      const float length = beside.norm();
-      const float angle = (beside / length - ray).squaredNorm();  // of small ones
+      const float length = nearby.norm();
+      const float angle = (nearby / length - ray).squaredNorm();  // of small ones
       if (angle > nearest || !rule.is_mixed(point.range, z * length)) continue;
       nearest = angle;
       link = seen_.links(u, v);

@@ -106,7 +106,7 @@ Scene random_scene(std::mt19937_64& random) {
 
 /// Directions, half of them at corners of the bodies, where outlines are.
 std::vector<Vector3d> random_directions(std::mt19937_64& random, const Scene& scene, int count) {
-  constexpr double beside = 2e-3;  // radians
+  constexpr double nearby = 2e-3;  // radians
   std::vector<Vector3d> corners;
   const std::vector<Body> bodies = scene.bodies();
   for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -119,7 +119,7 @@ std::vector<Vector3d> random_directions(std::mt19937_64& random, const Scene& sc
   for (int i = 0; i < count; ++i)
     directions.push_back(
         i % 2 == 0 ? random_direction(random)
-                   : (corners[any(random)] + beside * random_direction(random)).normalized());
+                   : (corners[any(random)] + nearby * random_direction(random)).normalized());
   return directions;
 }
 
@@ -177,7 +177,7 @@ TEST(CloudLabels, AreThoseOfEmbreesRays) {
       const double range = point.norm();
       ++counts[found.labels[i]];
       bool fits_one = fits(label, found.links[i], range, oracle.first(point));
-      for (int beside = 0; beside < 20 && !fits_one; ++beside)  // rays through an edge
+      for (int nearby = 0; nearby < 20 && !fits_one; ++nearby)  // rays through an edge
         fits_one = fits(label, found.links[i], range,
                         oracle.first(point + rounding * random_direction(random)));
       ASSERT_TRUE(fits_one) << "round " << round << ", point " << points[i].transpose()
@@ -203,15 +203,15 @@ TEST(CloudLabels, FringeIsWhatABeamMixesWithTheRobot) {
       points.add(random_range(random, oracle.first(direction)) * direction);
     const CloudLabels& found = labeller.label(points.view(), Vector3d::Zero(), scene.poses);
     ASSERT_FALSE(found.enclosing);
-    // Whether a ray at most `within` beside a point's meets robot that the point may be mixed of.
+    // Whether a ray at most `within` from a point's meets robot that the point may be mixed of.
     const auto may_be_mixed = [&](const Vector3d& point, double within) {
       const double range = point.norm();
       for (int ring = 0; ring <= 8; ++ring)
         for (int k = 0; k < 24; ++k) {
           const Vector3d across = point.unitOrthogonal();
-          const Vector3d beside =
+          const Vector3d nearby =
               Eigen::AngleAxisd(k * std::numbers::pi / 12, point / range) * across;
-          const auto surface = oracle.first(point / range + within * ring / 8 * beside);
+          const auto surface = oracle.first(point / range + within * ring / 8 * nearby);
           if (surface && surface->range - tolerance <= range && range <= surface->range + 0.5)
             return true;
         }
