@@ -16,6 +16,7 @@
 
 #include <io/dds/participant.hpp>
 #include <io/run/calibration_input.hpp>
+#include <io/run/cloud_run.hpp>
 #include <io/run/init_recording.hpp>
 #include <io/run/input_session.hpp>
 #include <io/run/look_ahead_input.hpp>
@@ -145,10 +146,11 @@ struct ViewArguments {
   ServerArguments server;
 };
 
-using Command = std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
-                             SimulateArguments, TopicsArguments, PlayArguments, LiveArguments,
-                             ViewArguments, TuneArguments, CalibrateArguments,
-                             ViewPlanningArguments, LookAheadArguments, io::InitOptions>;
+using Command =
+    std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
+                 SimulateArguments, TopicsArguments, PlayArguments, LiveArguments, ViewArguments,
+                 TuneArguments, CalibrateArguments, ViewPlanningArguments, LookAheadArguments,
+                 io::CloudRunOptions, io::InitOptions>;
 
 /// Reads the command line. Returns nothing after --help or --version, which it prints. Throws
 /// InputError that names the argument.

@@ -193,6 +193,19 @@ Examples:
   penumbra live --camera left=/left/depth/image_rect_raw --camera right=/right/depth/image_rect_raw
   penumbra live --namespace cell --remap /tf:=/cell/tf --publish mask,targets --summary live.json)";
 
+inline constexpr const char* cloud_examples = R"(
+INPUT is a bag with PointCloud2, LaserScan or Livox's CustomMsg, or a recording folder whose
+recording.yaml has `sensor` and `frames.cloud` (docs/point_clouds.md). Points that are neither clear nor front
+are removed: in organised clouds and scans they become NaN. OUT is a bag with topics
+/penumbra/TOPIC, or a folder with files of the same names and report.json. Points of clouds whose
+poses are not known are all removed. Exit status 2: no cloud was labelled.
+
+Examples:
+  penumbra cloud walk.mcap -o walk_clean.mcap --sensor ouster_os1
+  penumbra cloud bag.mcap -o clean.mcap --topic /scan --removed-ranges inf
+  penumbra cloud scans -o clean
+  penumbra cloud scans -o labelled --label)";
+
 inline constexpr const char* topics_examples = R"(
 Lists what other programs publish and subscribe to, with QoS. Programs whose QoS or type differ do
 not receive each other's messages. Other machines and ROS_DOMAIN_ID are handled as ROS 2 does;

@@ -3,6 +3,7 @@
 // and what is wanted.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <filesystem>
 #include <limits>
@@ -21,6 +22,9 @@ namespace penumbra::app {
 
 [[noreturn]] void refuse_option(const std::string& option, const std::string& value,
                                 const std::string& wanted);
+
+/// Returns the numbers between commas; none if one of them is no number.
+[[nodiscard]] std::vector<double> to_numbers(const std::string& text);
 
 /// Splits NAME=VALUE at the first '='.
 [[nodiscard]] std::pair<std::string, std::string> to_pair(const std::string& option,
@@ -124,11 +128,31 @@ struct BagHelp {
   std::string joints = "/joint_states, or the only one";  ///< default of --joint-topic
   std::string poses = "joints, else tf";                  ///< default of --poses
   bool time_offset = true;                                ///< has --time-offset S
+  std::string sensor = "camera", frame = "optical frame", data = "images";
 };
 
 /// How run, tune, view and live judge frames: renderer, geometry, tolerance, labels.
 void add_session(CLI::App& app, io::SessionOptions& session,
                  const std::string& geometry_default = "the recording's, else collision");
+/// Adds an option for each setting of a struct: front_min_width as --front-min-width. `take` gets
+/// the setting and its numbers, and returns whether they are a value of it. `unit`: what stands for
+/// numbers that have one.
+template <typename Struct, typename Take>
+void add_settings(CLI::App& app, const char* unit, Take take) {
+  for_each_setting<Struct>([&]<typename Value>(const Setting<Struct, Value>& setting) {
+    std::string option = std::string("--") + setting.name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    const char* const value = !NumberSetting<Value> ? "A,B,C" : *setting.unit != 0 ? unit : "N";
+    add_option(app, option, setting.meaning, value,
+               [take, setting, option](const std::string& text) {
+                 if (!take(setting, to_numbers(text)))
+                   refuse_option(option, text, expected_of(setting));
+               });
+  });
+}
+
+/// How a bag says where the robot is, and options in place of that.
+void add_bag_robot(CLI::App& app, io::BagOptions& bag, const BagHelp& help = {});
 /// Which topics run, tune, view and live use, and values that they lack.
 void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help = {});
 
@@ -146,12 +170,14 @@ void add_calibrate(CLI::App& app, CalibrateArguments& calibrate);
 void add_view(CLI::App& app, ViewArguments& view);
 void add_view_planning(CLI::App& app, ViewPlanningArguments& planning);
 void add_look_ahead(CLI::App& app, LookAheadArguments& ahead);
+void add_cloud(CLI::App& app, io::CloudRunOptions& cloud);
 void add_topics(CLI::App& app, TopicsArguments& topics);
 void add_play(CLI::App& app, PlayArguments& play);
 void add_live(CLI::App& app, LiveArguments& live);
 
 // Each refuses options of its command that exclude each other, and derives the rest from them.
 void check_run(const CLI::App& app, RunArguments& run);
+void check_cloud(const CLI::App& app, io::CloudRunOptions& cloud);
 void check_tune(const CLI::App& app, TuneArguments& tune);
 void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate);
 void check_view(const CLI::App& app, ViewArguments& view);

@@ -76,8 +76,10 @@ void catch_interrupts() {
 
 bool was_interrupted() { return interrupted_by != 0; }
 
+int interrupt_status() { return 128 + interrupted_by; }
+
 int status_of(const io::RunResult& result, bool force) {
-  if (result.is_stopped) return 128 + interrupted_by;
+  if (result.is_stopped) return interrupt_status();
   if (!result.device_fault.empty()) return device_failed;
   const bool is_good =
       result.statistics.usable_frames() > 0 && (force || result.statistics.shows_robot());

@@ -26,6 +26,8 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
 /// program.
 void catch_interrupts();
 [[nodiscard]] bool was_interrupted();
+/// Returns the exit status of a program that a signal ended.
+[[nodiscard]] int interrupt_status();
 
 [[nodiscard]] int status_of(const io::RunResult& result, bool force);
 

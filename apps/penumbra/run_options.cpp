@@ -58,17 +58,6 @@ void add_sequence(CLI::App& app, io::SessionOptions& session) {
              });
 }
 
-/// Returns the numbers between commas; none if one of them is no number.
-std::vector<double> to_numbers(const std::string& text) {
-  std::vector<double> numbers;
-  for (const std::string& part : split(text, ',')) {
-    const auto number = io::parse_number<double>(part);
-    if (!number) return {};
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
-
 DriftLimits to_drift_limits(const std::string& text) {
   const std::vector<double> limits = to_numbers(text);
   if (limits.size() != 2) refuse_option("--drift-limits", text, "MM,DEGREES: two numbers");
@@ -80,15 +69,8 @@ DriftLimits to_drift_limits(const std::string& text) {
 
 /// Adds an option for each setting of the label rule: front_min_width as --front-min-width.
 void add_rule(CLI::App& app, io::RuleOptions& rule) {
-  for_each_setting<LabelRule>([&]<typename Value>(const Setting<LabelRule, Value>& setting) {
-    std::string option = std::string("--") + setting.name;
-    std::replace(option.begin(), option.end(), '_', '-');
-    const char* const value = !NumberSetting<Value> ? "A,B,C" : *setting.unit != 0 ? "PX" : "N";
-    add_option(app, option, setting.meaning, value,
-               [&rule, setting, option](const std::string& text) {
-                 if (!rule.give(setting, to_numbers(text)))
-                   refuse_option(option, text, expected_of(setting));
-               });
+  add_settings<LabelRule>(app, "PX", [&rule](const auto& setting, const auto& numbers) {
+    return rule.give(setting, numbers);
   });
 }
 
@@ -152,27 +134,9 @@ void check_session(const CLI::App& app, io::SessionOptions& session) {
 
 }  // namespace
 
-void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
-  const std::size_t first = app.get_options().size();
-  add_text(app, "--depth-topic", "depth images; default: the only ones called depth", "TOPIC",
-           bag.depth_topic);
-  add_text(app, "--camera-info-topic", "default: next to the depth images", "TOPIC",
-           bag.camera_info_topic);
-  add_text(app, "--color-topic",
-           "judge in this camera's image: depth is brought there by tf, if it is another's",
-           "TOPIC", bag.color_topic);
-  app.add_flag("--no-depth", bag.no_depth,
-               "the camera measures no depth: judge its colour images by the robot's model alone");
+void add_bag_robot(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
   add_list(app, "--joint-topic", "default: " + help.joints + "; may be given several times",
            "TOPIC", [&](const std::string& text) { bag.joint_topics.push_back(text); });
-  add_list(app, "--target-topic",
-           "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge; may be given "
-           "several times",
-           "TOPIC", [&](const std::string& text) { bag.target_topics.push_back(text); });
-  add_list(app, "--plan-topic",
-           "JointTrajectory that the robot follows; default: MoveIt's display_planned_path; may be "
-           "given several times",
-           "TOPIC", [&](const std::string& text) { bag.plan_topics.push_back(text); });
   add_choice<PoseSource>(
       app, "--poses",
       "where the links' poses come from: joints, tf, or both, which must agree; default: " +
@@ -198,22 +162,45 @@ void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
                if (text.empty()) refuse_option("--frame-prefix", text, "a TEXT");
                bag.frame_prefix = text.substr(text[0] == '/');
              });
-  add_text(app, "--camera-frame", "the images' frame in tf, in place of their frame_id", "FRAME",
-           bag.camera_frame);
-  add_text(app, "--parent", "link that the camera is on; default: the first above its frame in tf",
-           "LINK", bag.parent);
-  add_text(app, "--pose",
-           "4x4 pose of the optical frame in the parent link, metres, in place of tf's", "FILE",
-           bag.pose);
   app.add_flag("--first-publisher", bag.first_publisher,
                "do not compare several publishers of one joint or transform: use the first one "
                "heard; default: where they disagree, the pose is unknown");
-  app.add_flag("--rectified", bag.rectified,
-               "the images are free of distortion already, as those called image_rect... are");
+  add_text(app, "--parent",
+           "link that the " + help.sensor + " is on; default: the first above its frame in tf",
+           "LINK", bag.parent);
+  add_text(app, "--pose",
+           "4x4 pose of the " + help.frame + " in the parent link, metres, in place of tf's",
+           "FILE", bag.pose);
   if (help.time_offset)
     add_number(app, "--time-offset",
-               "added to the images' stamps before poses are looked up; default 0", "S",
-               bag.time_offset, -10.0, 10.0);
+               "added to the stamps of " + help.data + " before poses are looked up; default 0",
+               "S", bag.time_offset, -10.0, 10.0);
+}
+
+void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
+  const std::size_t first = app.get_options().size();
+  add_text(app, "--depth-topic", "depth images; default: the only ones called depth", "TOPIC",
+           bag.depth_topic);
+  add_text(app, "--camera-info-topic", "default: next to the depth images", "TOPIC",
+           bag.camera_info_topic);
+  add_text(app, "--color-topic",
+           "judge in this camera's image: depth is brought there by tf, if it is another's",
+           "TOPIC", bag.color_topic);
+  app.add_flag("--no-depth", bag.no_depth,
+               "the camera measures no depth: judge its colour images by the robot's model alone");
+  add_list(app, "--target-topic",
+           "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge; may be given "
+           "several times",
+           "TOPIC", [&](const std::string& text) { bag.target_topics.push_back(text); });
+  add_list(app, "--plan-topic",
+           "JointTrajectory that the robot follows; default: MoveIt's display_planned_path; may be "
+           "given several times",
+           "TOPIC", [&](const std::string& text) { bag.plan_topics.push_back(text); });
+  add_text(app, "--camera-frame", "the images' frame in tf, in place of their frame_id", "FRAME",
+           bag.camera_frame);
+  app.add_flag("--rectified", bag.rectified,
+               "the images are free of distortion already, as those called image_rect... are");
+  add_bag_robot(app, bag, help);
   const auto options = app.get_options();
   for (std::size_t i = first; i < options.size(); ++i) options[i]->group(help.group);
 }
@@ -366,6 +353,8 @@ void check_tune(const CLI::App& app, TuneArguments& tune) {
   tune.session.no_targets = true;
   tune.session.image = ImageSpace::rectified;  // tuning takes a pinhole camera's images
 }
+
+void check_cloud(const CLI::App& app, io::CloudRunOptions& cloud) { check_input(app, cloud.input); }
 
 void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate) {
   check_input(app, calibrate.input.input);

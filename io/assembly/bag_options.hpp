@@ -18,6 +18,9 @@ struct BagOptions {
   std::optional<std::string> color_topic;  ///< depth is judged in its image
   /// The camera measures no depth: its colour images are judged by the model alone.
   bool no_depth = false;
+  /// Of clouds in place of images: all of their topics, or only these.
+  bool clouds = false;
+  std::vector<std::string> cloud_topics;
   std::vector<std::string> joint_topics, target_topics, plan_topics;
   std::optional<PoseSource> poses;             ///< nothing: joints, or tf where there are none
   std::optional<std::filesystem::path> robot;  ///< in place of /robot_description

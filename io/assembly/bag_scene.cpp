@@ -6,6 +6,7 @@
 
 #include <io/assembly/bag_scene.hpp>
 #include <io/files/printable.hpp>
+#include <io/ros/lidar_messages.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -70,6 +71,9 @@ MessageHandler BagSceneReader::handler_of(const BagTopic& topic) {
   const auto take_image = [this](const auto& image, const auto&, auto) {
     if (!scene_.depth_frame) scene_.depth_frame = image.header.frame_id;
   };
+  const auto take_cloud = [this, name = topic.name](const auto& cloud, const auto&, auto) {
+    scene_.cloud_frames.emplace(name, cloud.header.frame_id);
+  };
   const auto take_info = [](std::optional<CameraInfoMessage>& kept) {
     return [&kept](const CameraInfoMessage& info, const auto&, auto) {
       if (!kept) kept = info;
@@ -87,6 +91,12 @@ MessageHandler BagSceneReader::handler_of(const BagTopic& topic) {
         if (topic.type == message_type<ImageMessage>())
           return make_handler<ImageMessage>(topic.definition, take_image);
         return make_handler<CompressedImageMessage>(topic.definition, take_image);
+      case TopicRole::cloud:
+        if (topic.type == message_type<LaserScanMessage>())
+          return make_handler<LaserScanMessage>(topic.definition, take_cloud);
+        if (topic.type == message_type<LivoxMessage>())
+          return make_handler<LivoxMessage>(topic.definition, take_cloud);
+        return make_handler<PointCloud2Message>(topic.definition, take_cloud);
       case TopicRole::camera_info:
         return make_handler<CameraInfoMessage>(topic.definition, take_info(scene_.camera_info));
       case TopicRole::color_info:
@@ -132,6 +142,9 @@ std::string BagSceneReader::lacking() const {
     if (!use.robot.empty() && !is_mounted(use.robot))
       return "a static transform to robot '" + use.robot + "'";
   }
+  for (const TopicUse& use : topics_.clouds)
+    if (!scene_.cloud_frames.contains(use.name)) return use.name;
+  if (!topics_.clouds.empty()) return {};
   if (!scene_.depth_frame) return topics_.depth.name;
   if (!scene_.camera_info) return topics_.camera_info.name;
   if (topics_.color_info && !scene_.color_info) return topics_.color_info->name;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@ struct BagScene {
   std::vector<RobotDescription> descriptions;  ///< in the order of BagTopics::descriptions
   std::optional<std::string> depth_frame;      ///< frame_id of the first depth image
   std::optional<CameraInfoMessage> camera_info, color_info;
+  std::map<std::string, std::string> cloud_frames;  ///< frame_id of the first cloud, by topic
   std::vector<TransformMessage> static_transforms;
   FrameTree frames;  ///< the frames of TF
 };
@@ -38,8 +40,8 @@ class BagSceneReader {
   [[nodiscard]] const BagTopics& topics() const { return topics_; }
   [[nodiscard]] const BagScene& scene() const { return scene_; }
 
-  /// Reads until robot and camera are known. Throws InputError that names the topic if the bag
-  /// lacks one.
+  /// Reads until robot and camera, or the clouds' frames, are known. Throws InputError that names
+  /// the topic if the bag lacks one.
   void read_robot_and_camera();
 
   /// Reads on until `found` returns true or the bag ends. Returns whether it was found.

@@ -29,6 +29,9 @@ constexpr std::string_view plan_type = "moveit_msgs/msg/DisplayTrajectory";
 constexpr std::string_view motion_type = "trajectory_msgs/msg/JointTrajectory";
 constexpr std::string_view text_type = "std_msgs/msg/String";
 
+constexpr std::array<std::string_view, 3> cloud_types = {
+    "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan", "livox_ros_driver2/msg/CustomMsg"};
+
 using TopicTypes = std::span<const std::string_view>;
 constexpr std::array<std::string_view, 4> target_types = {
     "vision_msgs/msg/Detection2DArray", "vision_msgs/msg/Detection3DArray",
@@ -166,6 +169,17 @@ TopicUse choose_depth(const Chooser& chooser, const BagOptions& options) {
                  "; choose one with --depth-topic, or judge colour images alone with --no-depth");
 }
 
+std::vector<TopicUse> choose_clouds(const Chooser& chooser, const BagOptions& options) {
+  std::vector<TopicUse> uses;
+  for (const std::string& name : options.cloud_topics)
+    uses.push_back(chooser.named("cloud", "--topic", name, cloud_types));
+  if (options.cloud_topics.empty())
+    for (const BagTopic* topic : chooser.of(cloud_types))
+      uses.push_back(Chooser::use("cloud", *topic, "by its type"));
+  if (uses.empty()) chooser.refuse("has no clouds (" + one_of(cloud_types) + ")");
+  return uses;
+}
+
 /// Returns the camera_info topic next to an image topic, or null.
 const BagTopic* find_info(const Chooser& chooser, const std::string& image) {
   const std::string wanted = camera_info_topic(image);
@@ -285,7 +299,7 @@ PoseSource choose_poses(const Chooser& chooser, const BagOptions& options,
   if (poses == PoseSource::transforms)
     chooser.refuse("has neither joint states nor tf: the robot's poses are not known");
   if (poses == PoseSource::both) chooser.refuse("has no tf, which --poses both asks for");
-  if (!options.pose)
+  if (!options.pose && !options.clouds)
     chooser.refuse("has no tf, which would say where the camera is; give --pose and --parent");
   return poses;
 }
@@ -293,7 +307,8 @@ PoseSource choose_poses(const Chooser& chooser, const BagOptions& options,
 }  // namespace
 
 std::vector<TopicUse> BagTopics::all() const {
-  std::vector<TopicUse> uses = {depth, camera_info};
+  std::vector<TopicUse> uses = clouds;
+  if (clouds.empty()) uses = {depth, camera_info};
   for (const auto* one : {&color, &color_info})
     if (*one) uses.push_back(**one);
   for (const auto* several : {&descriptions, &joints, &transforms, &targets, &attached, &plans})
@@ -308,6 +323,7 @@ std::optional<TopicRole> BagTopics::role_of(const BagTopic& topic) const {
   const auto is_one_of = [&](const std::vector<TopicUse>& uses) {
     return std::any_of(uses.begin(), uses.end(), is);
   };
+  if (is_one_of(clouds)) return TopicRole::cloud;
   if (is(depth)) return TopicRole::depth;
   if (is(camera_info)) return TopicRole::camera_info;
   if (color_info && is(*color_info)) return TopicRole::color_info;
@@ -347,8 +363,12 @@ BagTopics choose_camera_topics(const std::string& source, std::span<const BagTop
 
 BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics,
                         const BagOptions& options, bool with_color) {
-  BagTopics chosen = choose_camera_topics(bag, topics, options, with_color);
   const Chooser chooser(bag, topics);
+  BagTopics chosen;
+  if (options.clouds)
+    chosen.clouds = choose_clouds(chooser, options);
+  else
+    chosen = choose_camera_topics(bag, topics, options, with_color);
   choose_joints(chooser, options, chosen);
   choose_transforms(chooser, chosen);
   chosen.poses = choose_poses(chooser, options, chosen);

@@ -34,6 +34,7 @@ struct BagTopics {
   TopicUse camera_info;
   std::optional<TopicUse> color;
   std::optional<TopicUse> color_info;  ///< if depth is registered to the color camera
+  std::vector<TopicUse> clouds;        ///< of a bag that is read for them; no images then
   std::vector<TopicUse> joints, transforms, targets, attached, plans, descriptions;
 
   /// Returns all topics, in the order in which they are printed.

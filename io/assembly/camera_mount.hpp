@@ -15,11 +15,12 @@ namespace penumbra::io {
 
 /// The user's options for the camera's pose.
 struct MountOptions {
-  std::optional<std::string> camera_frame;  ///< in place of the images' frame_id
-  std::optional<std::string> parent;        ///< link
-  std::optional<Eigen::Isometry3d> pose;    ///< of the optical frame in the link, in place of TF's
-  std::string pose_source = {};             ///< "--pose FILE"
-  std::string frame_prefix = {};            ///< PoseOptions::frame_prefix
+  std::optional<std::string> camera_frame = {};  ///< in place of the images' frame_id
+  std::optional<std::string> parent = {};        ///< link
+  std::optional<Eigen::Isometry3d> pose =
+      {};                         ///< of the optical frame in the link, in place of TF's
+  std::string pose_source = {};   ///< "--pose FILE"
+  std::string frame_prefix = {};  ///< PoseOptions::frame_prefix
 };
 
 /// Returns the mount's part of these options. Throws InputError of the pose's file.

@@ -27,10 +27,13 @@ std::span<const std::string> FrameAssembler::target_types() {
 }
 
 FrameAssembler::FrameAssembler(RobotInputOptions robot,
-                               const std::vector<CameraInputOptions>& cameras)
+                               const std::vector<CameraInputOptions>& cameras,
+                               const std::vector<CloudInputOptions>& clouds)
     : robot_(std::move(robot)) {
   for (const CameraInputOptions& camera : cameras)
     cameras_.push_back(std::make_unique<CameraInput>(camera, robot_));
+  for (const CloudInputOptions& cloud : clouds)
+    clouds_.push_back(std::make_unique<CloudInput>(cloud, robot_));
 }
 
 std::size_t FrameAssembler::add_topic(InputTopic topic) {
@@ -75,10 +78,12 @@ void FrameAssembler::set_robot(MadeRobot made) {
 
 void FrameAssembler::follow_robot() {
   for (const auto& camera : cameras_) camera->refresh();
+  for (const auto& cloud : clouds_) cloud->refresh();
 }
 
 void FrameAssembler::finish() {
   for (const auto& camera : cameras_) camera->finish();
+  for (const auto& cloud : clouds_) cloud->finish();
 }
 
 template <typename M, typename F>
@@ -125,6 +130,12 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
           });
     case TopicRole::targets:
       return handler_of_targets(topic);
+    case TopicRole::cloud:
+      if (from.type == message_type<LaserScanMessage>())
+        return handler_of_clouds<LaserScanMessage>(topic);
+      return from.type == message_type<LivoxMessage>()
+                 ? handler_of_clouds<LivoxMessage>(topic)
+                 : handler_of_clouds<PointCloud2Message>(topic);
     case TopicRole::attached:
       return from.type == message_type<PlanningSceneMessage>()
                  ? handler_of_attached<PlanningSceneMessage>(topic)
@@ -135,6 +146,13 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
                  : handler_of_plans<JointTrajectoryMessage>(topic);
   }
   return {};
+}
+
+template <typename M>
+MessageHandler FrameAssembler::handler_of_clouds(std::size_t topic) {
+  return handler<M>(topic, [this, topic](M& cloud, const auto& message, std::int64_t now) {
+    clouds_[topics_[topic].camera]->take(std::move(cloud), message, now);
+  });
 }
 
 template <typename M>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <io/assembly/camera_input.hpp>
+#include <io/assembly/cloud_input.hpp>
 #include <io/assembly/input_topic.hpp>
 #include <io/assembly/message_faults.hpp>
 #include <io/assembly/message_handler.hpp>
@@ -18,7 +19,7 @@
 
 namespace penumbra::io {
 
-/// Makes frames of ROS 2 messages: one robot and its cameras.
+/// Makes frames of ROS 2 messages: one robot, its cameras, and its sensors that measure points.
 ///
 /// In: serialised messages, each with the topic's role, and the time at which it arrived on any
 /// clock of the caller: a steady clock, or a bag's log time.
@@ -37,7 +38,8 @@ class FrameAssembler {
  public:
   /// Throws InputError for options that FrameQueue refuses, if a camera is known; otherwise its
   /// frames have the fault.
-  FrameAssembler(RobotInputOptions robot, const std::vector<CameraInputOptions>& cameras);
+  FrameAssembler(RobotInputOptions robot, const std::vector<CameraInputOptions>& cameras,
+                 const std::vector<CloudInputOptions>& clouds = {});
   FrameAssembler(const FrameAssembler&) = delete;
   FrameAssembler& operator=(const FrameAssembler&) = delete;
   virtual ~FrameAssembler() = default;
@@ -82,6 +84,9 @@ class FrameAssembler {
   [[nodiscard]] std::optional<std::int64_t> wake_at(std::size_t camera) const {
     return cameras_[camera]->wake_at();
   }
+  /// The clouds of a sensor: CloudInput::next() and label().
+  [[nodiscard]] CloudInput& cloud(std::size_t i) { return *clouds_[i]; }
+  [[nodiscard]] std::size_t cloud_count() const { return clouds_.size(); }
   /// Ends all waits: no further message will come.
   void finish();
 
@@ -106,6 +111,8 @@ class FrameAssembler {
   template <typename M>
   [[nodiscard]] MessageHandler handler_of_targets_as(std::size_t topic);
   template <typename M>
+  [[nodiscard]] MessageHandler handler_of_clouds(std::size_t topic);
+  template <typename M>
   [[nodiscard]] MessageHandler handler_of_attached(std::size_t topic);
   template <typename M>
   [[nodiscard]] MessageHandler handler_of_plans(std::size_t topic);
@@ -115,6 +122,7 @@ class FrameAssembler {
 
   RobotInput robot_;
   std::vector<std::unique_ptr<CameraInput>> cameras_;
+  std::vector<std::unique_ptr<CloudInput>> clouds_;
   std::vector<InputTopic> topics_;
   std::vector<MessageHandler> handlers_;  // of each topic
   std::vector<std::size_t> received_;     // likewise

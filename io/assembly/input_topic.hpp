@@ -17,6 +17,7 @@ enum class TopicRole {
   color,
   color_info,
   targets,
+  cloud,     ///< points: PointCloud2, LaserScan or Livox's CustomMsg
   attached,  ///< what MoveIt attaches to the robot
   plan       ///< motions that the robot will follow
 };
@@ -24,7 +25,7 @@ enum class TopicRole {
 /// A topic whose messages FrameAssembler takes.
 struct InputTopic {
   TopicRole role = TopicRole::depth;
-  std::size_t camera = 0;  ///< for topics of one camera
+  std::size_t camera = 0;  ///< for topics of one camera; for clouds: the number of the sensor
   std::string robot = {};  ///< for topics of one of several robots: its name
   std::string name = {};
   std::string type = {};        ///< empty if there are several, see FrameAssembler::set_type

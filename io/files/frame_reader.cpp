@@ -122,23 +122,29 @@ std::vector<std::int64_t> FrameReader::numbers_of_images() const {
   return {};
 }
 
+RobotPose pose_of(const JointRow& row, std::span<const RobotPart> parts,
+                  std::span<const RecordedBody> bodies) {
+  RobotPose pose;
+  pose.positions = row.positions;
+  // A joint row is of the frame's own stamp.
+  if (row.stamp && !row.positions.empty()) pose.age = 0;
+  if (!row.fault.empty() && row.faulty_parts.empty()) {
+    pose.status = FrameStatus::missing_joints;
+    pose.message = row.fault;
+  }
+  pose.uncertain_reason = row.fault;
+  for (const std::size_t part : row.faulty_parts)
+    for (std::size_t link = parts[part].first_link; link < parts[part].end_link; ++link)
+      pose.uncertain_links.push_back(link);
+  for (const RecordedBody& each : bodies)
+    if (each.first <= row.index && row.index < each.end) pose.attached.push_back(each.body);
+  return pose;
+}
+
 Frame FrameReader::read(std::size_t i, bool with_color) const {
   const JointRow& row = rows_[i];
   Frame frame{.index = static_cast<std::size_t>(row.index), .stamp = row.stamp};
-  frame.pose.positions = row.positions;
-  // A joint row is of the frame's own stamp.
-  if (row.stamp && !row.positions.empty()) frame.pose.age = 0;
-  if (!row.fault.empty() && row.faulty_parts.empty()) {
-    frame.pose.status = FrameStatus::missing_joints;
-    frame.pose.message = row.fault;
-  }
-  frame.pose.uncertain_reason = row.fault;
-  for (const std::size_t part : row.faulty_parts)
-    for (std::size_t link = parts_[part].first_link; link < parts_[part].end_link; ++link)
-      frame.pose.uncertain_links.push_back(link);
-  for (const RecordedBody& each : bodies_)
-    if (each.first <= row.index && row.index < each.end) frame.pose.attached.push_back(each.body);
-
+  frame.pose = pose_of(row, parts_, bodies_);
   const FileResult depth = files_.depth ? read_depth_image(row.index, frame.depth) : FileResult{};
   if (!depth.ok()) {
     frame.source_status =

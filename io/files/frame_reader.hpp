@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@
 #include <io/files/video_file.hpp>
 
 namespace penumbra::io {
+
+/// Returns the pose of a joint row, with what is attached in its frame.
+[[nodiscard]] RobotPose pose_of(const JointRow& row, std::span<const RobotPart> parts,
+                                std::span<const RecordedBody> bodies);
 
 /// Reads a recording's frames. Faults of a frame's data become its status and are never thrown.
 class FrameReader {

@@ -200,9 +200,11 @@ std::vector<std::string> names_of(const YamlNode& cameras) {
 /// Returns the wanted one of several cameras; null if the recording has one only.
 const YamlNode* wanted_camera(const YamlNode& root, const std::string& wanted) {
   const YamlNode* const cameras = root.find("cameras");
+  const YamlNode& frames = root.at("frames");
+  if (const YamlNode* clouds = frames.find("cloud"))
+    clouds->fail("is for `penumbra cloud`; all other commands take images");
   root.allow_only({"robot", "robots", cameras != nullptr ? "cameras" : "camera", "frames",
                    "targets", "attached"});
-  const YamlNode& frames = root.at("frames");
   if (cameras == nullptr) {
     frames.allow_only({"joints", "depth", "color"});
     if (!wanted.empty())
@@ -296,6 +298,38 @@ Recording Recording::open(const std::filesystem::path& folder_or_yaml, const std
           .attached = std::move(attached)};
 }
 
+std::optional<CloudRecording> CloudRecording::open(const std::filesystem::path& folder_or_yaml) {
+  const std::filesystem::path file = yaml_of(folder_or_yaml);
+  const std::filesystem::path folder = file.parent_path();
+  const YamlNode root = YamlNode::read(file);
+  const YamlNode& frames = root.at("frames");
+  const YamlNode* const clouds = frames.find("cloud");
+  if (clouds == nullptr) return std::nullopt;
+  root.allow_only({"robot", "robots", "sensor", "frames", "attached"});
+  frames.allow_only({"joints", "cloud"});
+  const YamlNode& sensor = root.at("sensor");
+  CloudRecording recording{.file = file,
+                           .robots = robots_of(root, folder),
+                           .parent = {},
+                           .pose = {},
+                           .rule = {},
+                           .joints = file_of(frames.at("joints"), folder),
+                           .clouds = pattern_of(*clouds, folder),
+                           .attached = {}};
+  if (const YamlNode* model = sensor.find("model"))
+    recording.rule = model->with_context([&] { return CloudRule::for_sensor(model->text()); });
+  read_settings(sensor, recording.rule, {"model", "parent", "pose", "merged"});
+  if (const YamlNode* parent = sensor.find("parent")) recording.parent = parent->text();
+  if (const YamlNode* pose = sensor.find("pose")) {
+    recording.pose = file_of(*pose, folder);
+    recording.T_parent_sensor = read_pose_csv(recording.pose);
+  }
+  if (const YamlNode* merged = sensor.find("merged")) recording.has_rays = !merged->boolean();
+  if (const YamlNode* bodies = root.find("attached"))
+    recording.attached = bodies_of(*bodies, folder);
+  return recording;
+}
+
 std::vector<ExtraMesh> extra_of(const std::vector<ExtraMesh>& extra, const std::string& robot) {
   const std::string prefix = robot.empty() ? "" : robot + "/";
   std::vector<ExtraMesh> own;
@@ -304,7 +338,7 @@ std::vector<ExtraMesh> extra_of(const std::vector<ExtraMesh>& extra, const std::
   return own;
 }
 
-Robot Recording::load_robot() const {
+Robot load_robot(const std::vector<RecordedRobot>& robots) {
   if (robots.size() == 1 && robots.front().name.empty())
     return Robot::load(robots.front().urdf, robots.front().options);
   std::vector<PlacedRobot> all;

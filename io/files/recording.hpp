@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/camera/camera.hpp>
+#include <penumbra/cloud/cloud_labels.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
@@ -31,6 +32,9 @@ struct RecordedRobot {
   RobotOptions options;
   Eigen::Isometry3d T_world_root = Eigen::Isometry3d::Identity();
 };
+
+/// Loads the robot, or joins the robots (Robot::join). Throws InputError.
+[[nodiscard]] Robot load_robot(const std::vector<RecordedRobot>& robots);
 
 /// Returns the parts of one of several robots: those of links ROBOT/LINK, as of LINK.
 [[nodiscard]] std::vector<ExtraMesh> extra_of(const std::vector<ExtraMesh>& extra,
@@ -87,14 +91,32 @@ struct Recording {
   [[nodiscard]] static std::vector<std::string> cameras(
       const std::filesystem::path& folder_or_yaml);
 
-  /// Loads the robot, or joins the robots (Robot::join). Throws InputError.
-  [[nodiscard]] Robot load_robot() const;
+  [[nodiscard]] Robot load_robot() const { return io::load_robot(robots); }
   /// Returns the options of the robot, or of all robots, with their names before those of links.
   [[nodiscard]] RobotOptions robot_options() const;
 
   /// Returns a pipeline's defaults with the recording's camera pose and label rule. Throws
   /// InputError if it has no camera pose.
   [[nodiscard]] PipelineConfig pipeline_config() const;
+};
+
+/// A recording of point clouds: a recording.yaml with `sensor` in place of `camera`, and
+/// `frames.cloud`.
+struct CloudRecording {
+  std::filesystem::path file;  ///< the recording.yaml
+  std::vector<RecordedRobot> robots;
+  std::string parent;          ///< link that carries the sensor; empty: the root
+  std::filesystem::path pose;  ///< of the points' frame in that link; empty: the identity
+  Eigen::Isometry3d T_parent_sensor = Eigen::Isometry3d::Identity();
+  CloudRule rule;
+  bool has_rays = true;  ///< false: `merged: true`, see Scan::origin
+  std::filesystem::path joints;
+  FramePattern clouds;
+  std::vector<RecordedBody> attached;
+
+  /// As Recording::open. Returns nothing for a recording without `frames.cloud`.
+  [[nodiscard]] static std::optional<CloudRecording> open(
+      const std::filesystem::path& folder_or_yaml);
 };
 
 }  // namespace penumbra::io

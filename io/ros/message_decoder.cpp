@@ -5,6 +5,7 @@
 
 #include <io/files/printable.hpp>
 #include <io/ros/cdr_reader.hpp>
+#include <io/ros/lidar_messages.hpp>
 #include <io/ros/message_decoder.hpp>
 #include <io/ros/message_definition.hpp>
 #include <io/ros/moveit_messages.hpp>
@@ -117,6 +118,8 @@ template class Decoder<PoseStampedMessage>;
 template class Decoder<Detection2DArrayMessage>;
 template class Decoder<Detection3DArrayMessage>;
 template class Decoder<PointCloud2Message>;
+template class Decoder<LaserScanMessage>;
+template class Decoder<LivoxMessage>;
 template class Decoder<DiagnosticArrayMessage>;
 template class Decoder<KeypointsMessage>;
 template class Decoder<TargetsMessage>;

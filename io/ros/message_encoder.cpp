@@ -2,6 +2,7 @@
 #include <type_traits>
 
 #include <io/ros/cdr_writer.hpp>
+#include <io/ros/lidar_messages.hpp>
 #include <io/ros/message_encoder.hpp>
 #include <io/ros/moveit_messages.hpp>
 #include <io/ros/wire_values-inl.hpp>
@@ -67,6 +68,8 @@ template void encode(const TfMessage&, std::vector<std::byte>&);
 template void encode(const StringMessage&, std::vector<std::byte>&);
 template void encode(const PoseStampedMessage&, std::vector<std::byte>&);
 template void encode(const PointCloud2Message&, std::vector<std::byte>&);
+template void encode(const LaserScanMessage&, std::vector<std::byte>&);
+template void encode(const LivoxMessage&, std::vector<std::byte>&);
 template void encode(const DiagnosticArrayMessage&, std::vector<std::byte>&);
 template void encode(const KeypointsMessage&, std::vector<std::byte>&);
 template void encode(const TargetsMessage&, std::vector<std::byte>&);

@@ -11,6 +11,7 @@
 #include <io/assembly/camera_mount.hpp>
 #include <io/assembly/judged_cameras.hpp>
 #include <io/files/printable.hpp>
+#include <io/run/cloud_run.hpp>
 #include <io/run/run_input.hpp>
 
 namespace penumbra::io {
@@ -99,6 +100,27 @@ UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const Cam
 }
 
 }  // namespace
+
+BagClouds open_bag_clouds(const InputOptions& options, const LineSink& print) {
+  BagSceneReader reader(options.path, options.bag, false);
+  print_topics(reader.topics(), false, print);
+  reader.read_robot_and_camera();
+  RobotOptions robot_options;
+  robot_options.packages = options.bag.packages;
+  options.apply_to(robot_options);
+  BagClouds clouds{.robot = load_robot(options, reader, robot_options),
+                   .topics = reader.topics(),
+                   .mounts = {},
+                   .static_transforms = {}};
+  for (const TopicUse& use : clouds.topics.clouds) {
+    const std::string frame = reader.scene().cloud_frames.at(use.name);
+    clouds.mounts.push_back(mount_in_bag(options, reader, clouds.robot, frame));
+    print(use.name + ": frame '" + printable(frame) + "' on link '" + clouds.mounts.back().parent +
+          "', by " + clouds.mounts.back().source);
+  }
+  clouds.static_transforms = reader.scene().static_transforms;
+  return clouds;
+}
 
 RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
   BagSceneReader reader(options.path, options.bag, options.with_color);

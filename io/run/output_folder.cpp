@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -10,7 +11,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 
-#include <io/files/cloud_file.hpp>
+#include <io/cloud/cloud_file.hpp>
 #include <io/files/disk_file.hpp>
 #include <io/files/json-inl.hpp>
 #include <io/files/npy.hpp>
@@ -60,6 +61,32 @@ Image<std::uint16_t> millimetres_of(const DepthImage& image) {
     converted.data()[i] = fits ? static_cast<std::uint16_t>(rounded) : std::uint16_t{0};
   }
   return converted;
+}
+
+/// Returns points with x, y, z and, if there is an image of their pixels, its colour as PCL packs
+/// it.
+StoredCloud stored_cloud(const PointCloud& points, ImageView<const Rgb8> color) {
+  StoredCloud stored;
+  stored.cloud.fields = {{"x", 0}, {"y", 4}, {"z", 8}};
+  if (!color.empty()) stored.cloud.fields.push_back({"rgb", 12});
+  const std::size_t step = sizeof(float) * stored.cloud.fields.size();
+  stored.data.resize(step * points.points.size());
+  std::byte* to = stored.data.data();
+  for (std::size_t i = 0; i < points.points.size(); ++i, to += step) {
+    std::memcpy(to, points.points[i].data(), 3 * sizeof(float));
+    if (color.empty()) continue;
+    const auto width = static_cast<std::uint32_t>(color.width);
+    const Rgb8 c = color(static_cast<int>(points.pixels[i] % width),
+                         static_cast<int>(points.pixels[i] / width));
+    const auto packed = static_cast<std::uint32_t>(c.r << 16 | c.g << 8 | c.b);
+    std::memcpy(to + 3 * sizeof(float), &packed, sizeof packed);
+  }
+  stored.cloud.height = 1;
+  stored.cloud.width = static_cast<std::uint32_t>(points.points.size());
+  stored.cloud.point_step = static_cast<std::uint32_t>(step);
+  stored.cloud.row_step = static_cast<std::uint32_t>(stored.data.size());
+  stored.cloud.data = stored.data;
+  return stored;
 }
 
 void make_folder(const fs::path& folder) {
@@ -213,8 +240,9 @@ void OutputFolder::save_without_robot(const FrameReport& report, const Frame& fr
   writers_->add([pcd = file("points", report.index, ".pcd"),
                  ply = file("points", report.index, ".ply"), cloud = std::move(cloud),
                  color = copy_of(painter_.seen_color(frame.color.view))] {
-    write_pcd(pcd, cloud, color.view());
-    write_ply(ply, cloud, color.view());
+    const StoredCloud stored = stored_cloud(cloud, color.view());
+    write_cloud(pcd, stored.cloud);
+    write_cloud(ply, stored.cloud);
   });
 }
 

@@ -19,28 +19,6 @@
 namespace penumbra::io {
 namespace {
 
-bool is_bag(const std::filesystem::path& input) {
-  std::error_code ignored;
-  if (!std::filesystem::is_directory(input, ignored))
-    return is_bag_file(input) || input.extension() == ".zstd";
-  return is_bag_folder(input);
-}
-
-void check_is_recording(const std::filesystem::path& input) {
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(input, ignored) && input.extension() != ".yaml" &&
-      input.extension() != ".yml")
-    throw InputError(
-        input.string() +
-        ": is neither a recording (a folder, or its recording.yaml) nor a bag (*.mcap, "
-        "*.db3)");
-  if (std::filesystem::is_directory(input, ignored) &&
-      !std::filesystem::exists(input / "recording.yaml", ignored))
-    throw InputError(input.string() +
-                     ": holds neither a recording (recording.yaml) nor a bag (metadata.yaml, "
-                     "*.mcap, *.db3)");
-}
-
 /// Returns the positions of the wanted frames. The range must lie inside the recording.
 std::vector<std::size_t> select_frames(const FrameRange& range, const FrameReader& reader) {
   std::int64_t least = reader.index(0);
@@ -121,9 +99,7 @@ class RecordingSource final : public FrameSource {
 RunInput open_recording_input(const InputOptions& options) {
   check_is_recording(options.path);
   Recording recording = Recording::open(options.path, options.camera);
-  if (!options.bag_option.empty())
-    throw InputError(options.bag_option + ": is for bags, and " + options.path.string() +
-                     " is a recording folder, which says this itself; leave it out");
+  check_no_bag_option(options);
   if (options.needs_depth && !recording.frames.depth)
     throw InputError(recording.file.string() +
                      ": frames: key 'depth' is missing; this compares depth images with the robot "
@@ -165,6 +141,34 @@ RunInput open_folder_or_bag(const InputOptions& options, const LineSink& print) 
 }
 
 }  // namespace
+
+bool is_bag(const std::filesystem::path& input) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(input, ignored))
+    return is_bag_file(input) || input.extension() == ".zstd";
+  return is_bag_folder(input);
+}
+
+void check_is_recording(const std::filesystem::path& input) {
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(input, ignored) && input.extension() != ".yaml" &&
+      input.extension() != ".yml")
+    throw InputError(
+        input.string() +
+        ": is neither a recording (a folder, or its recording.yaml) nor a bag (*.mcap, "
+        "*.db3)");
+  if (std::filesystem::is_directory(input, ignored) &&
+      !std::filesystem::exists(input / "recording.yaml", ignored))
+    throw InputError(input.string() +
+                     ": holds neither a recording (recording.yaml) nor a bag (metadata.yaml, "
+                     "*.mcap, *.db3)");
+}
+
+void check_no_bag_option(const InputOptions& options) {
+  if (!options.bag_option.empty())
+    throw InputError(options.bag_option + ": is for bags, and " + options.path.string() +
+                     " is a recording folder, which says this itself; leave it out");
+}
 
 void InputOptions::apply_to(RobotOptions& robot, const std::string& name) const {
   if (geometry) robot.geometry = *geometry;

@@ -65,6 +65,14 @@ struct RunInput {
   std::function<std::unique_ptr<FrameSource>(const Robot&)> frames;
 };
 
+/// Returns whether an input is a bag, by its name or, of a folder, its files.
+[[nodiscard]] bool is_bag(const std::filesystem::path& input);
+/// Throws InputError for an input that is neither a bag nor a recording.
+void check_is_recording(const std::filesystem::path& input);
+
+/// Throws InputError if an option of bags was given with a recording.
+void check_no_bag_option(const InputOptions& options);
+
 /// Returns the names of a recording's cameras; empty for a bag, or a recording with one camera.
 /// Throws InputError that names the file.
 [[nodiscard]] std::vector<std::string> cameras_of(const std::filesystem::path& input);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -58,16 +59,21 @@ struct CloudRule {
                 "how far behind the robot a return may lie that mixes it with what is behind"));
   }
 
+  /// Returns the rule of a sensor: lidar_2cm (the default), livox_mid360, ouster_os1 or hokuyo. All
+  /// are estimates from data sheets. Throws InputError for another name.
+  [[nodiscard]] static CloudRule for_sensor(std::string_view name);
+
   /// Throws InputError for settings out of range.
   void check() const;
 };
 
-/// The labels of a scan, in the order of its points. unknown: no measurement.
+/// The labels of a scan, in the order of its points. unknown: no measurement, or `enclosing`.
 struct CloudLabels {
   std::vector<std::uint8_t> labels;  ///< values of Label
   std::vector<std::uint16_t>
       links;  ///< body index + 1 of the robot that decided; 0: clear, unknown
-  /// Body that the origin lies in, or less than least_range from: all labels are unknown.
+  /// Body that the origin lies in, or less than least_range from: all labels are unknown; with
+  /// parts, those of the parts where it is so.
   std::optional<std::size_t> enclosing;
 };
 
@@ -80,9 +86,9 @@ class CloudLabeller {
   /// Metres. Robot that is nearer may not be drawn: the near plane's farthest point is at 0.018.
   static constexpr double least_range = 0.02;
 
-  /// The spans need only live during the call. Throws InputError as make_depth_renderer() and for
-  /// an invalid rule.
-  explicit CloudLabeller(std::span<const Body> bodies, const CloudRule& rule = {});
+  /// The spans need only live during the call. Results do not depend on the number of threads.
+  /// Throws InputError as make_depth_renderer() and for an invalid rule.
+  explicit CloudLabeller(std::span<const Body> bodies, const CloudRule& rule = {}, int threads = 1);
   ~CloudLabeller();
   CloudLabeller(CloudLabeller&&) noexcept;
   CloudLabeller& operator=(CloudLabeller&&) noexcept;
@@ -91,8 +97,13 @@ class CloudLabeller {
   /// the frame of the points. The result is valid until the next call. Allocates nothing
   /// once its lists are long enough. Throws std::invalid_argument for a wrong number of poses, one
   /// that is not rigid, and more than 2^32 - 1 points.
+  ///
+  /// `parts`: for robots that move during the scan, the part of the scan that each point is of;
+  /// T_points_body then has the poses of all bodies in part 0, in part 1 and so on. Empty: one
+  /// part.
   const CloudLabels& label(const PointsView& points, const Eigen::Vector3d& origin,
-                           std::span<const Eigen::Isometry3d> T_points_body);
+                           std::span<const Eigen::Isometry3d> T_points_body,
+                           std::span<const std::uint16_t> parts = {});
 
   /// The same for points without rays, as of merged clouds: those at most e(0) from the robot's
   /// surface, and those inside a closed surface, are occluded, the others clear.

@@ -18,13 +18,6 @@
 namespace penumbra {
 namespace {
 
-std::vector<std::string> missing_links_of(const Robot& robot) {
-  std::vector<std::string> links;
-  for (const LinkReport& link : robot.report())
-    if (link.missing) links.push_back(link.link);
-  return links;
-}
-
 Robot checked(Robot robot) {
   check_is_drawn(robot);
   return robot;

@@ -53,6 +53,9 @@ struct PoseResult {
 /// Returns the status that makes more of the frame unknown.
 [[nodiscard]] constexpr FrameStatus worse(FrameStatus a, FrameStatus b) { return std::max(a, b); }
 
+/// Returns the links with unreadable geometry (RobotOptions::allow_missing_meshes).
+[[nodiscard]] std::vector<std::string> missing_links_of(const Robot& robot);
+
 /// Appends a part to a line of parts.
 void add_part(std::string& line, std::string_view part);
 
@@ -78,9 +81,10 @@ class PoseStage {
 
   /// `camera_parent`, `T_parent_camera`: as in PipelineConfig. Throws InputError for an unknown
   /// parent link, and for a camera pose that is not rigid or farther than max_distance. The robot
-  /// must outlive this.
+  /// must outlive this. `is_camera`: its centre must not lie inside a link.
   PoseStage(const Robot& robot, const std::string& camera_parent,
-            const Eigen::Isometry3d& T_parent_camera, std::span<const std::string> missing_links);
+            const Eigen::Isometry3d& T_parent_camera, std::span<const std::string> missing_links,
+            bool is_camera = true);
 
   /// Returns the poses at a frame's stamp, or the fault and one line about it. `status` and
   /// `message`: a fault that the frame came with. Valid until the next call. Allocates nothing for

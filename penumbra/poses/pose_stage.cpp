@@ -26,6 +26,13 @@ bool is_rotation(std::span<const double> q) {
 
 }  // namespace
 
+std::vector<std::string> missing_links_of(const Robot& robot) {
+  std::vector<std::string> links;
+  for (const LinkReport& link : robot.report())
+    if (link.missing) links.push_back(link.link);
+  return links;
+}
+
 void add_part(std::string& line, std::string_view part) {
   if (!line.empty()) line += "; ";
   line += part;
@@ -33,12 +40,12 @@ void add_part(std::string& line, std::string_view part) {
 
 PoseStage::PoseStage(const Robot& robot, const std::string& camera_parent,
                      const Eigen::Isometry3d& T_parent_camera,
-                     std::span<const std::string> missing_links)
+                     std::span<const std::string> missing_links, bool is_camera)
     : robot_(robot),
       missing_links_(missing_links.begin(), missing_links.end()),
       links_(robot.links().begin(), robot.links().end()),
       parent_(find_camera_parent(robot, camera_parent)),
-      camera_inside_(bodies_of(robot)),
+      camera_inside_(is_camera ? bodies_of(robot) : std::vector<Body>()),
       reach_(reach_of_links(robot)) {
   result_.T_root_link.resize(robot.links().size());
   result_.T_camera_link.resize(robot.links().size());

@@ -10,6 +10,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/ros/image_codec.hpp>
+#include <io/ros/lidar_messages.hpp>
 #include <io/ros/message_decoder.hpp>
 #include <io/ros/moveit_messages.hpp>
 #include <io/ros/restamp.hpp>
@@ -60,6 +61,8 @@ constexpr std::array readers = {parse_definition,
                                 decode_as<Detection2DArrayMessage>,
                                 decode_as<Detection3DArrayMessage>,
                                 decode_as<PointCloud2Message>,
+                                decode_as<LaserScanMessage>,
+                                decode_as<LivoxMessage>,
                                 decode_as<DiagnosticArrayMessage>,
                                 decode_as<KeypointsMessage>,
                                 decode_as<TargetsMessage>,

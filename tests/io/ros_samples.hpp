@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include <io/ros/lidar_messages.hpp>
 #include <io/ros/message_decoder.hpp>
 #include <io/ros/message_encoder.hpp>
 #include <io/ros/messages.hpp>
@@ -97,6 +98,21 @@ inline io::PointCloud2Message sample() {
 }
 
 template <>
+inline io::LaserScanMessage sample() {
+  return {sample_header(), -1.5F, 1.5F, 1.5F, 1e-4F, 0.025F, 0.1F, 30.0F, {1, NAN, 2}, {7, 8, 9}};
+}
+
+template <>
+inline io::LivoxMessage sample() {
+  return {sample_header(),
+          1'000'000'000,
+          2,
+          3,
+          {4, 5, 6},
+          {{0, 1, 2, 3, 10, 11, 12}, {100, 4, 5, 6, 20, 21, 22}}};
+}
+
+template <>
 inline io::DiagnosticArrayMessage sample() {
   using Status = io::DiagnosticStatusMessage;
   return {sample_header(),
@@ -175,6 +191,8 @@ void for_each_sample(const F& call) {
   call(sample<io::StringMessage>());
   call(sample<io::PoseStampedMessage>());
   call(sample<io::PointCloud2Message>());
+  call(sample<io::LaserScanMessage>());
+  call(sample<io::LivoxMessage>());
   call(sample<io::DiagnosticArrayMessage>());
   call(sample<io::KeypointsMessage>());
   call(sample<io::TargetsMessage>());

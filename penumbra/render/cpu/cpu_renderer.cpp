@@ -8,11 +8,11 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/simd_target.hpp>
+#include <penumbra/base/workers.hpp>
 #include <penumbra/render/backends-inl.hpp>
 #include <penumbra/render/clusters.hpp>
 #include <penumbra/render/cpu/frame.hpp>
 #include <penumbra/render/cpu/kernel.hpp>
-#include <penumbra/render/cpu/workers.hpp>
 #include <penumbra/render/triangle_groups.hpp>
 
 namespace penumbra {
@@ -190,7 +190,7 @@ class CpuRenderer final : public DepthRenderer {
   std::size_t stride_ = 0;
   std::atomic<std::size_t> next_{0};
   std::size_t part_count_ = 0;
-  cpu::Workers workers_;  // last: its threads use all of the above
+  Workers workers_;  // last: its threads use all of the above
 };
 
 }  // namespace

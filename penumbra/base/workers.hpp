@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace penumbra::cpu {
+namespace penumbra {
 
 /// A fixed team that runs one job at a time, the caller included. A team of one has no threads.
 class Workers {
@@ -32,4 +32,4 @@ class Workers {
   std::vector<std::thread> threads_;
 };
 
-}  // namespace penumbra::cpu
+}  // namespace penumbra

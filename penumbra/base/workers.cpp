@@ -3,9 +3,9 @@
 #include <system_error>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/render/cpu/workers.hpp>
+#include <penumbra/base/workers.hpp>
 
-namespace penumbra::cpu {
+namespace penumbra {
 
 Workers::Workers(int size) {
   try {
@@ -52,4 +52,4 @@ void Workers::serve(int worker) {
   }
 }
 
-}  // namespace penumbra::cpu
+}  // namespace penumbra

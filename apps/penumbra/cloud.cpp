@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
+#include <apps/penumbra/progress.hpp>
+#include <apps/penumbra/run_cameras.hpp>
+#include <apps/penumbra/text.hpp>
+
+namespace penumbra::app {
+
+void add_cloud(CLI::App& app, io::CloudRunOptions& cloud) {
+  app.footer(cloud_examples);
+  io::InputOptions& input = cloud.input;
+  auto& changes = cloud.rule_changes;
+  input.bag.clouds = true;
+  add_text(app, "INPUT", "a recording folder of clouds or its recording.yaml, or a bag of ROS 2",
+           "", input.path)
+      ->required();
+  add_text(app, "-o,--output", "a folder for a recording's clouds; *.mcap for a bag's", "OUT",
+           cloud.output)
+      ->required();
+  add_option(app, "--sensor",
+             "lidar_2cm (default), livox_mid360, ouster_os1 or hokuyo: their tolerance and beam; "
+             "the options below override",
+             "NAME", [&changes](const std::string& text) {
+               const CloudRule rule = CloudRule::for_sensor(text);
+               changes.insert(changes.begin(), [rule](CloudRule& to) { to = rule; });
+             });
+  add_settings<CloudRule>(app, "N", [&changes](const auto& setting, const auto& numbers) {
+    CloudRule given;
+    if (!io::set_numbers(setting.range, numbers, given.*setting.member)) return false;
+    changes.push_back(
+        [setting, given](CloudRule& to) { to.*setting.member = given.*setting.member; });
+    return true;
+  });
+  app.add_flag("--label", cloud.how.labelled,
+               "keep all points of PointCloud2 and files, and add the fields label and link");
+  add_choice<bool>(app, "--removed-ranges",
+                   "nan (default) or inf, in place of a LaserScan's ranges",
+                   cloud.how.infinite_ranges, {{"nan", false}, {"inf", true}});
+  app.add_flag_callback(
+      "--merged", [&cloud] { cloud.has_rays = false; },
+      "the clouds of several sensors in one: no rays, only what lies on or in "
+      "the robot is removed");
+  add_number(app, "--threads", "default 1; results do not depend on it", "N", cloud.threads, 1,
+             RendererOptions::max_threads);
+  add_geometry(app, input.geometry, "the recording's, else collision");
+  add_extra(app, input.extra);
+  add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
+  add_frames(app, input.frames);
+  app.add_flag("--force", cloud.force, "write into a folder that holds other files");
+  const std::size_t first = app.get_options().size();
+  add_list(app, "--topic", "clouds; default: all; may be given several times", "TOPIC",
+           [&input](const std::string& text) { input.bag.cloud_topics.push_back(text); });
+  add_text(app, "--sensor-frame",
+           "where the rays start, in tf, if the clouds are given in another frame", "FRAME",
+           cloud.sensor_frame);
+  add_bag_robot(app, input.bag, {.sensor = "sensor", .frame = "clouds' frame", .data = "clouds"});
+  const auto options = app.get_options();
+  for (std::size_t i = first; i < options.size(); ++i) options[i]->group(BagHelp().group);
+}
+
+int execute(const io::CloudRunOptions& options) {
+  catch_interrupts();
+  const io::CloudRunResult result = [&] {
+    Progress progress(0);
+    return io::run_clouds(options, print_line, [&] {
+      progress.step();
+      return !was_interrupted();
+    });
+  }();
+  print_notes(result.notes);
+  std::vector<std::vector<std::string>> rows{
+      {"", "clouds", "labelled", "points", "robot", "front", "fringe", "unknown", "ms a cloud"}};
+  std::size_t labelled = 0;
+  for (const io::CloudSummary& sensor : result.sensors) {
+    const auto count = [&](Label label) { return sensor.points[static_cast<std::size_t>(label)]; };
+    std::size_t points = 0;
+    for (const std::size_t of_label : sensor.points) points += of_label;
+    const auto share = [&](std::size_t some) {
+      return points == 0
+                 ? std::string("-")
+                 : fixed(100.0 * static_cast<double>(some) / static_cast<double>(points), 2) + " %";
+    };
+    rows.push_back(
+        {sensor.name, std::to_string(sensor.clouds), std::to_string(sensor.labelled()),
+         std::to_string(points), share(count(Label::occluded) + count(Label::beyond)),
+         share(count(Label::front)), share(count(Label::fringe)), share(count(Label::unknown)),
+         sensor.clouds == 0 ? "-"
+                            : fixed(sensor.milliseconds / static_cast<double>(sensor.clouds), 2)});
+    labelled += sensor.labelled();
+    if (!sensor.time_note.empty())
+      std::cout << sensor.name << ": " << sensor.time_note << "; labelled in up to " << sensor.parts
+                << " parts\n";
+    print_notes(sensor.warnings());
+  }
+  print_table(std::move(rows));
+  std::cout << "results: " << options.output.string() << '\n';
+  return result.is_stopped ? interrupt_status() : labelled > 0 ? 0 : nothing_judged;
+}
+
+}  // namespace penumbra::app

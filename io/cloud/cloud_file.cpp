@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <io/cloud/cloud_file.hpp>
+#include <io/cloud/cloud_formats-inl.hpp>
+#include <io/files/disk_file.hpp>
+
+namespace penumbra::io {
+namespace {
+
+using cloud_formats::number_types;
+
+constexpr std::uint64_t most_cloud_bytes = std::uint64_t{1} << 32U;
+
+struct CloudFormat {
+  std::string_view extension;
+  StoredCloud (*parse)(cloud_formats::Bytes bytes);
+  std::string (*format)(const PointCloud2Message& cloud);
+};
+constexpr std::array<CloudFormat, 4> cloud_formats_by_extension{
+    {{".pcd", cloud_formats::parse_pcd, cloud_formats::format_pcd},
+     {".ply", cloud_formats::parse_ply, cloud_formats::format_ply},
+     {".npy", cloud_formats::parse_npy, cloud_formats::format_npy},
+     {".bin", cloud_formats::parse_kitti, cloud_formats::format_kitti}}};
+
+/// Returns null for an unknown extension.
+const CloudFormat* find_cloud_format(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  for (const CloudFormat& format : cloud_formats_by_extension)
+    if (format.extension == extension) return &format;
+  return nullptr;
+}
+
+const CloudFormat& require_cloud_format(const std::filesystem::path& file) {
+  const CloudFormat* format = find_cloud_format(file);
+  if (format == nullptr)
+    throw InputError(file.string() + ": is no known point cloud; use .pcd, .ply, .npy or .bin");
+  return *format;
+}
+
+cloud_formats::Bytes read_cloud_bytes(const std::filesystem::path& file) {
+  InputFile input;
+  input.open(file).require();
+  if (input.size() > most_cloud_bytes)
+    throw InputError(file.string() + ": has " + std::to_string(input.size()) +
+                     " bytes, the limit is " + std::to_string(most_cloud_bytes) + "; split it");
+  cloud_formats::Bytes bytes(input.size());
+  if (input.read(bytes.data(), bytes.size()) != bytes.size())
+    throw InputError(file.string() + ": cannot be read to its end; check the disk");
+  return bytes;
+}
+
+void check_cloud_field(const PointFieldMessage& field, std::uint32_t point_step) {
+  const std::string name = "the cloud's field " + cloud_formats::in_quotes(field.name);
+  const bool is_word =
+      !field.name.empty() && std::none_of(field.name.begin(), field.name.end(),
+                                          [](unsigned char c) { return c <= ' ' || c == 127; });
+  if (!is_word) throw InputError(name + " has no name without spaces");
+  if (field.datatype < 1 || field.datatype >= number_types.size())
+    throw InputError(name + " has the unknown datatype " + std::to_string(field.datatype));
+  const std::uint64_t bytes = std::uint64_t{number_types[field.datatype].size} * field.count;
+  if (bytes == 0 || field.offset + bytes > point_step)
+    throw InputError(name + " does not lie within a point of " + std::to_string(point_step) +
+                     " bytes");
+}
+
+/// The writers trust a cloud that passed.
+void check_cloud_layout(const PointCloud2Message& cloud) {
+  if (cloud.is_bigendian) throw InputError("the cloud is big-endian, which is not written");
+  if (cloud.fields.empty()) throw InputError("the cloud has no fields");
+  std::uint64_t bytes = 0;
+  for (const PointFieldMessage& field : cloud.fields) {
+    check_cloud_field(field, cloud.point_step);
+    bytes += std::uint64_t{number_types[field.datatype].size} * field.count;
+  }
+  if (bytes > cloud_formats::most_point_bytes)
+    throw InputError("the cloud's fields take " + std::to_string(bytes) +
+                     " bytes per point, the limit is " +
+                     std::to_string(cloud_formats::most_point_bytes));
+  if (std::uint64_t{cloud.width} * cloud.point_step > cloud.row_step ||
+      cloud_formats::total_bytes(cloud) > cloud.data.size())
+    throw InputError("the cloud has fewer data than its width, height and steps say");
+}
+
+/// Puts the file's name before the message of an InputError.
+template <typename F>
+auto with_cloud_name(const std::filesystem::path& file, const F& call) {
+  try {
+    return call();
+  } catch (const InputError& error) {
+    throw InputError(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+StoredCloud cloud_formats::parse_kitti(Bytes bytes) {
+  PointCloud2Message cloud;
+  for (const char* name : {"x", "y", "z", "intensity"})
+    add_field(cloud, name, PointFieldMessage::float32);
+  if (bytes.size() % cloud.point_step != 0)
+    damaged("KITTI: " + std::to_string(bytes.size()) + " bytes are no multiple of 16");
+  set_size(cloud, bytes.size() / cloud.point_step);
+  return take_binary(std::move(cloud), std::move(bytes), 0);
+}
+
+std::string cloud_formats::format_kitti(const PointCloud2Message& cloud) {
+  std::vector<Piece> pieces;
+  std::string names;
+  for (const Column& column : columns_of(cloud)) {
+    const bool is_float = column.datatype == PointFieldMessage::float32;
+    names += " " + column.name + (is_float ? "" : " (not float32)");
+    pieces.push_back({column.offset, number_types[column.datatype].size});
+  }
+  if (names != " x y z intensity")
+    throw InputError(".bin holds exactly x y z intensity as float32, and the cloud has" + names +
+                     "; write .pcd");
+  std::string file;
+  append_pieces(cloud, pieces, file);
+  return file;
+}
+
+bool is_cloud_file(const std::filesystem::path& file) { return find_cloud_format(file) != nullptr; }
+
+StoredCloud read_cloud(const std::filesystem::path& file) {
+  const CloudFormat& format = require_cloud_format(file);
+  cloud_formats::Bytes bytes = read_cloud_bytes(file);
+  return with_cloud_name(file, [&] { return format.parse(std::move(bytes)); });
+}
+
+void write_cloud(const std::filesystem::path& file, const PointCloud2Message& cloud) {
+  const CloudFormat& format = require_cloud_format(file);
+  const std::string bytes = with_cloud_name(file, [&] {
+    check_cloud_layout(cloud);
+    return format.format(cloud);
+  });
+  write_file(file, bytes.data(), bytes.size());
+}
+
+}  // namespace penumbra::io

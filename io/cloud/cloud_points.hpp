@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <penumbra/cloud/cloud_pipeline.hpp>
+
+#include <io/ros/lidar_messages.hpp>
+#include <io/ros/messages.hpp>
+
+namespace penumbra::io {
+
+/// The points of a message, and when each was measured.
+struct CloudPoints {
+  PointsView points;                ///< refers to the message or to `copied`
+  std::vector<float> copied;        ///< x, y, z of each point
+  std::vector<std::int32_t> times;  ///< as Scan::times
+  std::string time_note;            ///< how the field of times was understood; empty: none
+
+  CloudPoints() = default;
+  CloudPoints(CloudPoints&&) = default;
+  CloudPoints& operator=(CloudPoints&&) = default;
+};
+
+/// Finds the points of a message. `out` keeps its memory, and refers to the message's. Returns why
+/// it cannot be used, one line, or nothing.
+///
+/// PointCloud2: x, y and z of float32 or float64 in any order, aligned or not. The first field
+/// called t, time, timestamp, time_stamp or offset_time has the points' times. Numbers within 10 s
+/// of the header's stamp are absolute. Otherwise they count from the stamp, or, if they are not
+/// within 10 s of 0, from their first. A scan lasts between a millisecond and a second, which says
+/// whether they are seconds, milliseconds, microseconds or nanoseconds.
+/// LaserScan: ranges outside of range_min to range_max are no measurement.
+[[nodiscard]] std::string read_points(const PointCloud2Message& cloud, CloudPoints& out);
+[[nodiscard]] std::string read_points(const LaserScanMessage& scan, CloudPoints& out);
+[[nodiscard]] std::string read_points(const LivoxMessage& cloud, CloudPoints& out);
+
+/// What is written of a labelled cloud.
+struct CloudOutput {
+  /// PointCloud2 with all points and two more fields, `label` (uint8) and `link` (uint16: index + 1
+  /// in CloudReport::links), in place of one without the robot.
+  bool labelled = false;
+  bool infinite_ranges = false;  ///< removed rays of a LaserScan are inf in place of NaN
+};
+
+/// Returns the message with what is neither clear nor front removed. Points of a PointCloud2 of
+/// several rows, and ranges, become NaN, others are left out. Other values are not changed. `data`
+/// holds the result's.
+[[nodiscard]] PointCloud2Message cloud_output(const PointCloud2Message& cloud,
+                                              const CloudReport& report, const CloudOutput& how,
+                                              std::vector<std::byte>& data);
+[[nodiscard]] LaserScanMessage cloud_output(const LaserScanMessage& scan, const CloudReport& report,
+                                            const CloudOutput& how, std::vector<std::byte>& data);
+[[nodiscard]] LivoxMessage cloud_output(const LivoxMessage& cloud, const CloudReport& report,
+                                        const CloudOutput& how, std::vector<std::byte>& data);
+
+}  // namespace penumbra::io

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/version.hpp>
+#include <penumbra/time/pose_history.hpp>
+
+#include <io/assembly/bag_scene.hpp>
+#include <io/assembly/frame_assembler.hpp>
+#include <io/cloud/cloud_file.hpp>
+#include <io/files/frame_reader.hpp>
+#include <io/files/json-inl.hpp>
+#include <io/files/printable.hpp>
+#include <io/files/result_folder.hpp>
+#include <io/mcap/writer.hpp>
+#include <io/ros/message_decoder.hpp>
+#include <io/ros/message_definition.hpp>
+#include <io/ros/message_encoder.hpp>
+#include <io/run/cloud_run.hpp>
+#include <io/run/output_bag.hpp>
+
+namespace penumbra::io {
+namespace {
+
+constexpr std::array label_names = {"clear", "front", "occluded", "unknown", "beyond", "fringe"};
+static_assert(label_names.size() == label_count);
+
+constexpr double longest_wait = 0.5;  // seconds of recording, as for images
+constexpr std::size_t most_waiting = 32;
+
+CloudRule changed_rule(CloudRule rule, const CloudRunOptions& options) {
+  for (const auto& change : options.rule_changes) change(rule);
+  return rule;
+}
+
+/// Calls `label` and adds its report to the summary, with the time that it took.
+template <typename F>
+const CloudReport& timed(CloudSummary& summary, const std::string& fault, const F& label) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const CloudReport& report = label();
+  summary.add(report, fault,
+              std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+  return report;
+}
+
+Json points_json(const CloudReport& report) {
+  Json points;
+  for (std::size_t i = 0; i < label_count; ++i) points[label_names[i]] = report.points[i];
+  return points;
+}
+
+/// The clouds of a recording folder.
+class RecordedRun {
+ public:
+  RecordedRun(const CloudRunOptions& options, CloudRecording recording)
+      : options_(options),
+        recording_(std::move(recording)),
+        robot_(make_robot()),
+        rows_(read_joint_file(recording_.joints, robot_)),
+        history_(robot_, {.joints = {.history = 1e9, .max_states = rows_.size() + 1}}),
+        pipeline_(robot_, {.rule = changed_rule(recording_.rule, options),
+                           .threads = options.threads,
+                           .sensor_parent = recording_.parent,
+                           .T_parent_sensor = recording_.T_parent_sensor}) {
+    for (const JointRow& row : rows_)
+      if (row.stamp && row.fault.empty())
+        history_.add_joints(*row.stamp, robot_.variables(), row.positions);
+  }
+
+  [[nodiscard]] CloudRunResult run(const std::function<bool()>& go_on);
+
+ private:
+  [[nodiscard]] Robot make_robot() {
+    for (RecordedRobot& robot : recording_.robots)
+      options_.input.apply_to(robot.options, robot.name);
+    return load_robot(recording_.robots);
+  }
+  void label(const JointRow& row, ResultFolder& folder, CloudSummary& summary);
+  [[nodiscard]] RobotPose pose_at(std::int64_t stamp, const JointRow& row) const;
+
+  const CloudRunOptions& options_;
+  CloudRecording recording_;
+  Robot robot_;
+  std::vector<JointRow> rows_;
+  PoseHistory history_;
+  CloudPipeline pipeline_;
+  Json clouds_ = Json::array();
+};
+
+/// The row's pose at its own stamp, else the pose between the rows.
+RobotPose RecordedRun::pose_at(std::int64_t stamp, const JointRow& row) const {
+  RobotPose pose = pose_of(row, robot_.parts(), recording_.attached);
+  if (!row.stamp || stamp == *row.stamp) return pose;
+  JointAnswer joints;
+  history_.joints().at(stamp, joints);
+  RobotPose between = penumbra::pose_of(robot_, joints);
+  between.attached = std::move(pose.attached);
+  return between;
+}
+
+void RecordedRun::label(const JointRow& row, ResultFolder& folder, CloudSummary& summary) {
+  const std::filesystem::path file = recording_.clouds.file(row.index);
+  StoredCloud stored;
+  CloudPoints points;
+  std::string fault;
+  try {
+    stored = read_cloud(file);
+    stored.cloud.header.stamp = row.stamp.value_or(0);
+    fault = read_points(stored.cloud, points);
+    if (!fault.empty()) fault = file.string() + ": " + fault;
+  } catch (const InputError& error) {
+    fault = error.what();
+  }
+  if (!row.stamp) points.times.clear();
+  Scan scan{.stamp = row.stamp, .points = points.points, .times = points.times};
+  if (!recording_.has_rays) scan.origin.reset();
+  const CloudReport& report = timed(summary, fault, [&]() -> const CloudReport& {
+    return pipeline_.process(
+        scan, [&](std::int64_t stamp, RobotPose& pose) { pose = pose_at(stamp, row); });
+  });
+  if (summary.time_note.empty()) summary.time_note = points.time_note;
+  clouds_.push_back({{"index", row.index},
+                     {"stamp", or_null(row.stamp)},
+                     {"status", to_string(report.status)},
+                     {"message", fault.empty() ? report.message : fault},
+                     {"parts", report.parts},
+                     {"points", points_json(report)}});
+  if (!fault.empty()) return;
+  std::vector<std::byte> data;
+  const PointCloud2Message out = cloud_output(stored.cloud, report, options_.how, data);
+  folder.add(file.filename().string(), [&](const std::filesystem::path& part) {
+    // A part has another ending.
+    const std::filesystem::path named = part.parent_path() / ("part-" + file.filename().string());
+    write_cloud(named, out);
+    std::filesystem::rename(named, part);
+  });
+}
+
+CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
+  const std::string ending = recording_.clouds.file(0).extension().string();
+  if (!is_cloud_file("x" + ending))
+    throw InputError(recording_.file.string() + ": frames.cloud: '" + ending +
+                     "' is no file of points; expected .pcd, .ply, .npy or .bin");
+  ResultFolder folder({.path = options_.output,
+                       .report = {"report.json", json_begin},
+                       .others = {{"*" + ending}},
+                       .force = options_.force});
+  folder.remove_former();
+  CloudRunResult result;
+  CloudSummary& summary = result.sensors.emplace_back();
+  summary.name = recording_.clouds.file(0).parent_path().filename().string();
+  for (const JointRow& row : rows_) {
+    const std::int64_t first = options_.input.frames.first.value_or(0);
+    if (row.index < first || (options_.input.frames.end && row.index >= *options_.input.frames.end))
+      continue;
+    label(row, folder, summary);
+    result.is_stopped = !go_on();
+    if (result.is_stopped) break;
+  }
+  if (summary.clouds == 0) throw InputError("--frames: the recording has none of these clouds");
+  Json report{{"penumbra", PENUMBRA_VERSION}, {"clouds", std::move(clouds_)}, {"links", Json()}};
+  report["links"] = robot_.links();
+  report["notes"] = summary.warnings();
+  folder.add_text("report.json", report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  folder.finish();
+  return result;
+}
+
+/// The clouds of a bag.
+class BagRun {
+ public:
+  BagRun(const CloudRunOptions& options, const BagClouds& clouds);
+
+  [[nodiscard]] CloudRunResult run(const std::function<bool()>& go_on);
+
+ private:
+  [[nodiscard]] std::optional<std::size_t> input_of(const BagTopic& topic);
+  void write_ready(std::int64_t now);
+  void write(std::size_t sensor, const ReceivedCloud& cloud);
+
+  const CloudRunOptions& options_;
+  const BagClouds& clouds_;
+  std::unique_ptr<BagReader> bag_;
+  FrameAssembler assembler_;
+  PendingFile pending_;
+  mcap::Writer writer_;
+  std::vector<std::uint16_t> channels_;
+  CloudRunResult result_;
+  std::vector<std::byte> data_, payload_;
+};
+
+std::vector<CloudInputOptions> cloud_inputs(const CloudRunOptions& options,
+                                            const BagClouds& clouds) {
+  std::vector<CloudInputOptions> inputs;
+  for (std::size_t i = 0; i < clouds.mounts.size(); ++i)
+    inputs.push_back({.topic = clouds.topics.clouds[i].name,
+                      .rule = changed_rule({}, options),
+                      .threads = options.threads,
+                      .has_rays = options.has_rays,
+                      .sensor_frame = options.sensor_frame,
+                      .mount = {.frame_prefix = options.input.bag.frame_prefix},
+                      .known_mount = clouds.mounts[i],
+                      .poses = clouds.topics.poses,
+                      .time_offset = options.input.bag.time_offset,
+                      .max_wait = longest_wait,
+                      .max_frames = most_waiting,
+                      .policy = DropPolicy::every});
+  return inputs;
+}
+
+BagRun::BagRun(const CloudRunOptions& options, const BagClouds& clouds)
+    : options_(options),
+      clouds_(clouds),
+      bag_(open_bag(options.input.path)),
+      assembler_({.given = clouds.robot,
+                  .compare_sources = !options.input.bag.first_publisher,
+                  .static_transforms = clouds.static_transforms},
+                 {}, cloud_inputs(options, clouds)),
+      pending_(options.output),
+      writer_(pending_.part(), {.profile = "ros2"}) {
+  for (const TopicUse& use : clouds.topics.clouds) {
+    const std::uint16_t schema =
+        writer_.add_schema(use.type, "ros2msg", std::string(definition_of(use.type)));
+    channels_.push_back(writer_.add_channel("/penumbra" + use.name, "cdr", schema));
+    result_.sensors.emplace_back().name = use.name;
+  }
+}
+
+std::optional<std::size_t> BagRun::input_of(const BagTopic& topic) {
+  const auto role = clouds_.topics.role_of(topic);
+  if (!role || *role == TopicRole::description) return std::nullopt;
+  std::size_t sensor = 0;
+  while (*role == TopicRole::cloud && clouds_.topics.clouds[sensor].name != topic.name) ++sensor;
+  return assembler_.add_topic({.role = *role,
+                               .camera = sensor,
+                               .robot = clouds_.topics.robot_of(topic),
+                               .name = topic.name,
+                               .type = topic.type,
+                               .definition = topic.definition});
+}
+
+void BagRun::write(std::size_t sensor, const ReceivedCloud& cloud) {
+  CloudSummary& summary = result_.sensors[sensor];
+  const CloudReport& report = timed(summary, cloud.source_message, [&]() -> const CloudReport& {
+    return assembler_.cloud(sensor).label(cloud);
+  });
+  if (summary.time_note.empty()) summary.time_note = cloud.points.time_note;
+  if (report.labels.empty() && !cloud.source_message.empty()) return;  // unreadable
+  std::visit(
+      [&](const auto& message) {
+        encode(cloud_output(message, report, options_.how, data_), payload_);
+      },
+      cloud.message);
+  writer_.write(channels_[sensor], cloud.arrived, cloud.header.stamp,
+                static_cast<std::uint32_t>(summary.clouds), payload_);
+}
+
+void BagRun::write_ready(std::int64_t now) {
+  for (std::size_t i = 0; i < assembler_.cloud_count(); ++i)
+    while (const auto cloud = assembler_.cloud(i).next(now)) write(i, *cloud);
+}
+
+CloudRunResult BagRun::run(const std::function<bool()>& go_on) {
+  std::vector<std::optional<std::size_t>> inputs;
+  BagMessage message;
+  std::int64_t now = 0;
+  while (bag_->next(message)) {
+    while (inputs.size() <= message.topic)
+      inputs.push_back(input_of(bag_->topics()[inputs.size()]));
+    now = message.log_time;
+    if (!inputs[message.topic]) continue;
+    assembler_.receive(*inputs[message.topic], {.data = message.data}, now);
+    write_ready(now);
+    if (!go_on()) {
+      result_.is_stopped = true;
+      break;
+    }
+  }
+  assembler_.finish();
+  write_ready(now);
+  result_.notes = bag_notes(options_.input.path.string(), *bag_, assembler_.faults());
+  for (const std::string& refusal : assembler_.robot().posed()->refusals())
+    result_.notes.push_back(options_.input.path.string() + ": " + refusal);
+  writer_.close();
+  pending_.finish();
+  return std::move(result_);
+}
+
+}  // namespace
+
+void CloudSummary::add(const CloudReport& report, const std::string& fault, double elapsed) {
+  ++clouds;
+  ++statuses[report.status];
+  messages.emplace(report.status, fault.empty() ? report.message : fault);
+  for (std::size_t i = 0; i < label_count; ++i) points[i] += report.points[i];
+  parts = std::max(parts, report.parts);
+  milliseconds += elapsed;
+}
+
+std::size_t CloudSummary::labelled() const {
+  std::size_t count = 0;
+  for (const auto& [status, of] : statuses)
+    if (status == FrameStatus::ok || status == FrameStatus::missing_link) count += of;
+  return count;
+}
+
+std::vector<std::string> CloudSummary::warnings() const {
+  std::vector<std::string> lines;
+  for (const auto& [status, of] : statuses)
+    if (status != FrameStatus::ok)
+      lines.push_back(name + ": " + std::to_string(of) + " of " + std::to_string(clouds) +
+                      " clouds are " + std::string(to_string(status)) +
+                      ", the first: " + messages.at(status));
+  const auto of = [&](Label label) {
+    return static_cast<double>(points[static_cast<std::size_t>(label)]);
+  };
+  const double on_robot = of(Label::occluded) + of(Label::beyond);
+  if (labelled() == 0) return lines;
+  if (on_robot == 0.0)
+    lines.push_back(name +
+                    ": no point is on the robot: it is out of the sensor's view, or the "
+                    "sensor's pose is wrong");
+  constexpr double likely_wrong = 0.1;
+  if (const double share = of(Label::beyond) / on_robot; share > likely_wrong)
+    lines.push_back(name + ": " + std::to_string(std::lround(100.0 * share)) +
+                    " % of the points in the robot's direction lie behind it, which no sensor can "
+                    "see: the sensor's pose, the joint positions or their stamps are wrong, or the "
+                    "model is larger than the robot");
+  return lines;
+}
+
+CloudRunResult run_clouds(const CloudRunOptions& options, const LineSink& print,
+                          const std::function<bool()>& go_on) {
+  if (is_bag(options.input.path)) {
+    if (options.input.frames.first || options.input.frames.end)
+      throw InputError("--frames: is for recording folders; leave it out");
+    if (!is_output_bag(options.output))
+      throw InputError("--output: " + options.output.string() +
+                       " is no bag, and the clouds of a bag are written into one; name it *.mcap");
+    std::error_code error;
+    if (std::filesystem::equivalent(options.output, options.input.path, error))
+      throw InputError("--output: " + options.output.string() + " is the input");
+    check_former_bag(options.output);
+    const BagClouds clouds = open_bag_clouds(options.input, print);
+    return BagRun(options, clouds).run(go_on);
+  }
+  check_is_recording(options.input.path);
+  check_no_bag_option(options.input);
+  auto recording = CloudRecording::open(options.input.path);
+  if (!recording)
+    throw InputError(options.input.path.string() +
+                     ": its recording.yaml has no frames.cloud; `penumbra run` judges images");
+  return RecordedRun(options, std::move(*recording)).run(go_on);
+}
+
+}  // namespace penumbra::io

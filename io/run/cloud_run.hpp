@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Clouds in, clouds without the robot out.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <penumbra/cloud/cloud_pipeline.hpp>
+
+#include <io/assembly/bag_topics.hpp>
+#include <io/assembly/camera_mount.hpp>
+#include <io/cloud/cloud_points.hpp>
+#include <io/run/run_input.hpp>
+
+namespace penumbra::io {
+
+struct CloudRunOptions {
+  InputOptions input;  ///< a recording folder with `frames.cloud`, or a bag
+  std::filesystem::path output;
+  /// What options change of the recording's rule, or of the default, in their order.
+  std::vector<std::function<void(CloudRule&)>> rule_changes;
+  CloudOutput how;
+  bool has_rays = true;      ///< see CloudInputOptions
+  std::string sensor_frame;  ///< likewise; of bags
+  int threads = 1;
+  bool force = false;  ///< also a folder with other files
+};
+
+/// What became of the clouds of one topic, or of a recording.
+struct CloudSummary {
+  std::string name;
+  std::size_t clouds = 0;
+  std::map<FrameStatus, std::size_t> statuses;
+  std::map<FrameStatus, std::string> messages;    ///< the first of each
+  std::array<std::size_t, label_count> points{};  ///< by label, of all clouds
+  std::string time_note;                          ///< CloudPoints::time_note of the first
+  std::size_t parts = 0;                          ///< the most of a scan
+  double milliseconds = 0;                        ///< all labelling
+
+  /// `fault`: in place of the report's message, if not empty. `elapsed`: milliseconds.
+  void add(const CloudReport& report, const std::string& fault, double elapsed);
+  [[nodiscard]] std::size_t labelled() const;  ///< clouds whose points are not all unknown
+  /// Returns a line for each thing that looks wrong.
+  [[nodiscard]] std::vector<std::string> warnings() const;
+};
+
+struct CloudRunResult {
+  std::vector<CloudSummary> sensors;
+  std::vector<std::string> notes;
+  bool is_stopped = false;  ///< by `go_on`
+};
+
+/// Labels all clouds of an input and writes them: of a recording into a folder, in files of the
+/// same names, with report.json; of a bag into a bag (*.mcap), in topics /penumbra/TOPIC. `print`
+/// gets the used topics; stops if `go_on` returns false. Throws InputError that names the file.
+[[nodiscard]] CloudRunResult run_clouds(const CloudRunOptions& options, const LineSink& print,
+                                        const std::function<bool()>& go_on);
+
+/// The robot of a bag, and its sensors that measure points.
+struct BagClouds {
+  Robot robot;
+  BagTopics topics;
+  std::vector<CameraMount> mounts;  ///< of each of topics.clouds
+  std::vector<TransformMessage> static_transforms;
+};
+[[nodiscard]] BagClouds open_bag_clouds(const InputOptions& options, const LineSink& print);
+
+}  // namespace penumbra::io

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include <penumbra/base/stamps.hpp>
+#include <penumbra/cloud/cloud_pipeline.hpp>
+#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/robot/drawn_links-inl.hpp>
+
+namespace penumbra {
+namespace {
+
+constexpr auto unlabelled = static_cast<std::uint8_t>(Label::unknown);
+/// Of e(0), so that small ones do not ask for endless parts.
+constexpr double least_movement = 0.002;  // metres
+
+/// Returns how far the points of a mesh may be from its frame's origin.
+double radius_of(std::span<const PreparedMesh> meshes) {
+  double radius = 0.0;
+  for (const PreparedMesh& mesh : meshes)
+    radius = std::max(radius,
+                      mesh.bounds.min().cwiseAbs().cwiseMax(mesh.bounds.max().cwiseAbs()).norm());
+  return radius;
+}
+
+}  // namespace
+
+struct CloudPipeline::State {
+  State(Robot given, const CloudConfig& cloud_config)
+      : robot(std::move(given)),
+        config(cloud_config),
+        poses(robot, config.sensor_parent, config.T_parent_sensor, missing_links_of(robot), false) {
+    check_is_drawn(robot);
+    make_labeller();
+  }
+
+  void make_labeller();
+  bool place(std::int64_t stamp, const PoseAt& pose_at);
+  bool place_parts(const Scan& scan, const PoseAt& pose_at);
+  [[nodiscard]] std::size_t parts_between(std::span<const Eigen::Isometry3d> begin,
+                                          std::span<const Eigen::Isometry3d> end) const;
+  [[nodiscard]] std::string fault_of(const Scan& scan);
+  bool refuse(FrameStatus status, std::string message);
+  void take(const CloudLabels& found, const PointsView& points);
+
+  Robot robot;
+  CloudConfig config;
+  PoseStage poses;
+  std::optional<CloudLabeller> labeller;
+  std::vector<AttachedBody> carried;  // the labeller's, after the links
+  std::vector<double> radii;          // of the labeller's bodies
+  RobotPose pose;
+  std::vector<Eigen::Isometry3d> T_sensor_body;  // of all parts
+  std::vector<std::uint16_t> part_of;            // of each point; empty: one part
+  std::vector<std::size_t> numbers;              // of the carried, in report.links
+  std::vector<Ball> unknown;                     // where links of unknown pose can be
+  std::vector<float> ranges;
+  std::vector<std::uint8_t> labels;
+  std::vector<std::uint16_t> links;
+  CloudReport report;
+};
+
+void CloudPipeline::State::make_labeller() {
+  std::vector<Body> bodies = bodies_of(robot);
+  for (const AttachedBody& body : carried) bodies.push_back({body.name, {body.mesh.get(), 1}});
+  labeller.emplace(bodies, config.rule, config.threads);
+  radii.clear();
+  for (const Body& body : bodies) radii.push_back(radius_of(body.meshes));
+}
+
+/// Adds the poses at a stamp to T_sensor_body. Returns false, with the fault in the report, if no
+/// point can be labelled. What is attached at the scan's begin stays so.
+bool CloudPipeline::State::place(std::int64_t stamp, const PoseAt& pose_at) {
+  pose_at(stamp, pose);
+  const bool is_begin = T_sensor_body.empty();
+  if (!is_begin) pose.attached = carried;
+  const PoseResult& found = poses.place(pose, stamp, FrameStatus::ok, "");
+  if (!found.known() || !found.missing_links.empty()) return refuse(found.status, found.message);
+  report.status = worse(report.status, found.status);
+  if (report.message.empty()) report.message = found.message;
+  for (const Reach& reach : found.reaches) unknown.push_back(reach.ball);
+  if (is_begin) {
+    numbers.clear();
+    std::vector<AttachedBody> drawn;
+    for (const PlacedBody& body : found.attached) {
+      numbers.push_back(body.link);
+      drawn.push_back(*std::find_if(pose.attached.begin(), pose.attached.end(),
+                                    [&](const auto& one) { return one.name == body.name; }));
+    }
+    const bool is_same = std::equal(drawn.begin(), drawn.end(), carried.begin(), carried.end(),
+                                    [](const auto& a, const auto& b) { return a.mesh == b.mesh; });
+    carried = std::move(drawn);
+    if (!is_same) make_labeller();
+  }
+  if (found.attached.size() != carried.size())
+    return refuse(FrameStatus::missing_link, found.message);
+  T_sensor_body.insert(T_sensor_body.end(), found.T_camera_link.begin(), found.T_camera_link.end());
+  for (const PlacedBody& body : found.attached) T_sensor_body.push_back(body.T_camera_body);
+  return true;
+}
+
+/// Returns in how many parts of a motion no body moves by more than the tolerance.
+std::size_t CloudPipeline::State::parts_between(std::span<const Eigen::Isometry3d> begin,
+                                                std::span<const Eigen::Isometry3d> end) const {
+  double most = 0.0;
+  for (std::size_t i = 0; i < begin.size(); ++i) {
+    const Eigen::Isometry3d moved = begin[i].inverse() * end[i];
+    const double chord = (moved.linear() - Eigen::Matrix3d::Identity()).norm() / std::sqrt(2.0);
+    most = std::max(most, moved.translation().norm() + chord * radii[i]);
+  }
+  const double parts = std::ceil(most / std::max(config.rule.tolerance.a, least_movement));
+  return static_cast<std::size_t>(std::clamp(parts, 1.0, static_cast<double>(max_parts)));
+}
+
+bool CloudPipeline::State::refuse(FrameStatus status, std::string message) {
+  report.status = status;
+  report.message = std::move(message);
+  return false;
+}
+
+/// Returns why no point is a measurement; empty: some are.
+std::string CloudPipeline::State::fault_of(const Scan& scan) {
+  const Eigen::Vector3f origin = scan.origin.value_or(Eigen::Vector3d::Zero()).cast<float>();
+  constexpr std::size_t enough = 1000;
+  const std::size_t step = std::max<std::size_t>(1, scan.points.count / enough);
+  ranges.clear();
+  for (std::size_t i = 0; i < scan.points.count; i += step)
+    if (const float range = (scan.points[i] - origin).norm(); std::isfinite(range) && range > 0.0F)
+      ranges.push_back(range);
+  if (ranges.empty() && step > 1)
+    for (std::size_t i = 0; i < scan.points.count && ranges.empty(); ++i)
+      if (const float range = (scan.points[i] - origin).norm();
+          std::isfinite(range) && range > 0.0F)
+        ranges.push_back(range);
+  if (ranges.empty())
+    return scan.points.count == 0 ? "the cloud has no points"
+                                  : "no point of the cloud is a measurement";
+  const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
+  std::nth_element(ranges.begin(), middle, ranges.end());
+  if (*middle <= max_range) return {};
+  return "half of the points are more than " + std::to_string(std::lround(*middle)) +
+         " m away; are their coordinates millimetres?";
+}
+
+/// Finds the poses of each part of a scan, and the part of each point. Returns as place().
+bool CloudPipeline::State::place_parts(const Scan& scan, const PoseAt& pose_at) {
+  if (!scan.times.empty() && scan.times.size() != scan.points.count)
+    return refuse(FrameStatus::bad_depth, std::to_string(scan.times.size()) + " times for " +
+                                              std::to_string(scan.points.count) + " points");
+  if (std::string fault = fault_of(scan); !fault.empty())
+    return refuse(FrameStatus::bad_depth, std::move(fault));
+  const auto place_at = [&](std::int64_t time) {
+    return place(stamp_after(scan.stamp.value_or(0), time), pose_at);
+  };
+  T_sensor_body.clear();
+  unknown.clear();
+  part_of.clear();
+  report.parts = 1;
+  if (scan.times.empty() || !scan.origin) return place_at(0);
+  const auto [least, most] = std::minmax_element(scan.times.begin(), scan.times.end());
+  const std::int64_t begin = *least, length = std::int64_t{*most} - begin;
+  if (!place_at(begin)) return false;
+  if (length == 0) return true;
+  const std::size_t bodies = T_sensor_body.size();
+  if (!place_at(begin + length)) return false;
+  const std::span poses_of_ends(T_sensor_body);
+  report.parts = parts_between(poses_of_ends.first(bodies), poses_of_ends.subspan(bodies));
+  const auto count = static_cast<std::int64_t>(report.parts);
+  for (std::int64_t part = 0; part < count; ++part)
+    if (!place_at(begin + (2 * part + 1) * length / (2 * count))) return false;
+  T_sensor_body.erase(T_sensor_body.begin(),
+                      T_sensor_body.begin() + static_cast<std::ptrdiff_t>(2 * bodies));
+  for (const std::int32_t time : scan.times)
+    part_of.push_back(static_cast<std::uint16_t>(
+        std::min(count - 1, (std::int64_t{time} - begin) * count / length)));
+  return true;
+}
+
+/// Takes the labels, with what is attached by its number in the report. Points where a link of
+/// unknown pose can be are unknown.
+void CloudPipeline::State::take(const CloudLabels& found, const PointsView& points) {
+  labels = found.labels;
+  links = found.links;
+  const std::size_t robot_links = robot.links().size();
+  if (!numbers.empty())
+    for (std::uint16_t& link : links)
+      if (link > robot_links)
+        link = static_cast<std::uint16_t>(numbers[link - 1 - robot_links] + 1);
+  if (!unknown.empty())
+    for (std::size_t i = 0; i < points.count; ++i) {
+      const Eigen::Vector3d point = points[i].cast<double>();
+      if (std::none_of(unknown.begin(), unknown.end(), [&](const Ball& ball) {
+            return (point - ball.centre).norm() <= ball.radius + config.rule.tolerance.a;
+          }))
+        continue;
+      labels[i] = unlabelled;
+      links[i] = 0;
+    }
+  if (!found.enclosing) return;
+  const std::size_t body = *found.enclosing;
+  const std::string& name =
+      body < robot_links ? robot.links()[body] : carried[body - robot_links].name;
+  refuse(FrameStatus::missing_transform,
+         "the sensor's centre lies inside link '" + name +
+             "', or less than 2 cm from it: correct the sensor's pose, or name the link in "
+             "ignore_links if it is the sensor's own housing");
+}
+
+CloudPipeline::CloudPipeline(Robot robot, const CloudConfig& config)
+    : state_(std::make_unique<State>(std::move(robot), config)) {}
+CloudPipeline::~CloudPipeline() = default;
+CloudPipeline::CloudPipeline(CloudPipeline&&) noexcept = default;
+CloudPipeline& CloudPipeline::operator=(CloudPipeline&&) noexcept = default;
+
+const Robot& CloudPipeline::robot() const { return state_->robot; }
+
+const CloudReport& CloudPipeline::process(const Scan& scan, const PoseAt& pose_at) {
+  State& s = *state_;
+  s.report = CloudReport();
+  s.report.stamp = scan.stamp;
+  s.labels.assign(scan.points.count, unlabelled);
+  s.links.assign(scan.points.count, 0);
+  if (s.place_parts(scan, pose_at))
+    s.take(scan.origin ? s.labeller->label(scan.points, *scan.origin, s.T_sensor_body, s.part_of)
+                       : s.labeller->label(scan.points, s.T_sensor_body),
+           scan.points);
+  for (const std::uint8_t label : s.labels) ++s.report.points[label];
+  s.report.labels = s.labels;
+  s.report.point_links = s.links;
+  s.report.links = s.poses.links();
+  return s.report;
+}
+
+}  // namespace penumbra

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// `penumbra cloud`: the tiny robot's board before a wall, in bags and folders of clouds.
+#include "fixtures.hpp"
+
+#include <cmath>
+#include <cstring>
+
+#include <io/bag/bag_reader.hpp>
+#include <io/cloud/cloud_file.hpp>
+#include <io/cloud/cloud_points.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr std::int64_t millisecond = 1'000'000;
+
+/// Depth on the board, which slides by 0.05 m from frame to frame.
+float on_board(int frame) { return 0.96F + 0.05F * static_cast<float>(frame); }
+
+/// Points 1 m before the board's sensor and around it, x y z and their number: on the board, before
+/// it, on the wall next to it, and no measurement.
+struct FourPoints {
+  explicit FourPoints(int frame) {
+    const float nan = std::nanf("");
+    const float points[4][4] = {
+        {0, 0, on_board(frame), 0}, {0, 0, 0.5F, 1}, {1, 0, 3, 2}, {nan, nan, nan, 3}};
+    data.resize(sizeof points);
+    std::memcpy(data.data(), points, sizeof points);
+    message = {.header = {0, "optical"},
+               .height = 1,
+               .width = 4,
+               .fields = {{"x", 0}, {"y", 4}, {"z", 8}, {"number", 12}},
+               .point_step = 16,
+               .row_step = 64,
+               .data = data};
+  }
+  std::vector<std::byte> data;
+  io::PointCloud2Message message;
+};
+
+std::vector<int> numbers_of(const io::PointCloud2Message& cloud) {
+  std::vector<int> numbers;
+  for (std::size_t i = 0; i < cloud.width; ++i) {
+    float number = 0;
+    std::memcpy(&number, cloud.data.data() + i * cloud.point_step + 12, sizeof number);
+    numbers.push_back(static_cast<int>(number));
+  }
+  return numbers;
+}
+
+class CloudBag : public BagTest {
+ protected:
+  /// A cloud, a laser scan (of a scanner that looks along the optical axis) and a cloud of Livox at
+  /// each stamp, 10 ms of transport.
+  CloudBag() {
+    Eigen::Isometry3d T_base_laser = Eigen::Isometry3d::Identity();
+    T_base_laser.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+    bag_.add("/tf_static", tiny_stamp(0), io::TfMessage{{{{0, "base"}, "laser", T_base_laser}}});
+    for (int i = 0; i < 3; ++i) {
+      const std::int64_t stamp = tiny_stamp(i) + millisecond, arrival = stamp + 10 * millisecond;
+      FourPoints cloud(i);
+      cloud.message.header.stamp = stamp;
+      bag_.add("/points", arrival, cloud.message);
+      bag_.add("/scan", arrival,
+               io::LaserScanMessage{.header = {stamp, "laser"},
+                                    .angle_min = -0.6F,
+                                    .angle_max = 0.6F,
+                                    .angle_increment = 0.6F,
+                                    .range_min = 0.1F,
+                                    .range_max = 10,
+                                    .ranges = {3, on_board(i), 3},
+                                    .intensities = {1, 2, 3}});
+      bag_.add(
+          "/livox/lidar", arrival,
+          io::LivoxMessage{.header = {stamp, "laser"},
+                           .point_num = 2,
+                           .points = {{.x = on_board(i)}, {.offset_time = 1000, .x = 3, .y = 2}}});
+    }
+    std::stable_sort(bag_.messages.begin(), bag_.messages.end(),
+                     [](const auto& a, const auto& b) { return a.log_time < b.log_time; });
+  }
+
+  Outcome cloud(Words options = {}) const {
+    bag_.write_mcap(path("tiny.mcap"));
+    options.insert(options.begin(), {"cloud", path("tiny.mcap"), "-o", path("clean.mcap")});
+    return penumbra(options);
+  }
+
+  /// Calls `call` with each message of a topic; expects `count`.
+  template <typename M, typename F>
+  void for_each(const std::string& topic, const F& call, std::size_t count = 3) const {
+    const auto bag = io::open_bag(path("clean.mcap"));
+    std::size_t found = 0;
+    for (io::BagMessage message; bag->next(message);) {
+      const io::BagTopic& from = bag->topics()[message.topic];
+      if (from.name != topic) continue;
+      M decoded;
+      const auto fault = io::Decoder<M>(from.type, from.definition).decode(message.data, decoded);
+      ASSERT_FALSE(fault) << *fault;
+      EXPECT_EQ(decoded.header.stamp, tiny_stamp(static_cast<int>(found)) + millisecond);
+      EXPECT_EQ(message.log_time, decoded.header.stamp + 10 * millisecond);
+      ++found;
+      call(decoded);
+    }
+    EXPECT_EQ(found, count) << topic;
+  }
+};
+
+TEST_F(CloudBag, LosesTheRobot) {
+  const Outcome outcome = cloud();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  expect_has(outcome.out, {"/points", "/scan", "/livox/lidar", "frame 'laser' on link 'base'"});
+  for_each<io::PointCloud2Message>("/penumbra/points", [](const auto& message) {
+    EXPECT_EQ(numbers_of(message), (std::vector{1, 2}));
+    EXPECT_EQ(message.header.frame_id, "optical");
+  });
+  for_each<io::LaserScanMessage>("/penumbra/scan", [](const auto& scan) {
+    EXPECT_EQ(scan.ranges[0], 3.0F);
+    EXPECT_TRUE(std::isnan(scan.ranges[1]));
+    EXPECT_EQ(scan.ranges[2], 3.0F);
+  });
+  for_each<io::LivoxMessage>("/penumbra/livox/lidar", [](const auto& message) {
+    ASSERT_EQ(message.points.size(), 1U);
+    EXPECT_EQ(message.points[0].y, 2.0F);
+  });
+}
+
+TEST_F(CloudBag, KeepsAllPointsWithLabelsIfAsked) {
+  ASSERT_EQ(cloud({"--label", "--topic", "/points"}).status, 0);
+  for_each<io::PointCloud2Message>("/penumbra/points", [](const auto& message) {
+    EXPECT_EQ(numbers_of(message), (std::vector{0, 1, 2, 3}));
+    using enum Label;
+    const std::vector expected{occluded, front, clear, unknown};
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_EQ(message.data[i * message.point_step + 16], static_cast<std::byte>(expected[i]));
+  });
+  for_each<io::LaserScanMessage>(
+      "/penumbra/scan", [](const auto&) {}, 0);
+  ASSERT_EQ(cloud({"--removed-ranges", "inf"}).status, 0);
+  for_each<io::LaserScanMessage>("/penumbra/scan",
+                                 [](const auto& scan) { EXPECT_TRUE(std::isinf(scan.ranges[1])); });
+}
+
+TEST_F(CloudBag, WithoutPosesTrustsNothing) {
+  std::erase_if(bag_.messages, [](const TinyBag::Message& message) {
+    return message.topic == "/joint_states" && message.log_time > tiny_stamp(1) - 300 * millisecond;
+  });
+  const Outcome outcome = cloud({"--topic", "/points"});
+  EXPECT_EQ(outcome.status, 0);
+  expect_has(outcome.err, {"/points: 2 of 3 clouds are stale_joints", "slide"});
+  std::vector<std::size_t> sizes;
+  for_each<io::PointCloud2Message>("/penumbra/points",
+                                   [&](const auto& message) { sizes.push_back(message.width); });
+  EXPECT_EQ(sizes, (std::vector<std::size_t>{2, 0, 0}));
+  bag_.remove("/joint_states");
+  expect_refused(cloud({"--poses", "joints"}), {"has no joint states"});
+}
+
+TEST_F(CloudBag, SaysWhatIsWrong) {
+  expect_refused(cloud({"--topic", "/pionts"}), {"--topic", "/pionts", "/points"});
+  expect_refused(cloud({"--topic", "/joint_states"}), {"JointState", "PointCloud2"});
+  expect_refused(cloud({"--sensor", "eyes"}), {"lidar_2cm"});
+  expect_refused(cloud({"--beam", "1"}), {"--beam", "0.01"});
+  expect_refused(penumbra({"cloud", path("tiny.mcap"), "-o", path("out")}), {"*.mcap"});
+  expect_refused(penumbra({"cloud", path("tiny.mcap"), "-o", path("tiny.mcap")}), {"is the input"});
+  expect_refused(penumbra({"cloud", path("none.mcap"), "-o", path("x.mcap")}), {"none.mcap"});
+  bag_.edit<io::PointCloud2Message>("/points", [](auto& message) { message.width = 1'000'000; });
+  const Outcome lies = cloud({"--topic", "/points"});
+  EXPECT_EQ(lies.status, 2);
+  expect_has(lies.err, {"do not fit"});
+  for (const char* const topic : {"/points", "/scan", "/livox/lidar"}) bag_.remove(topic);
+  expect_refused(cloud(), {"has no clouds", "LaserScan"});
+}
+
+TEST_F(CloudBag, AFrameThatTfLacksIsRefused) {
+  bag_.edit<io::PointCloud2Message>("/points",
+                                    [](auto& message) { message.header.frame_id = "lidar"; });
+  expect_refused(cloud({"--topic", "/points"}), {"'lidar'", "tf does not know"});
+}
+
+class CloudFolder : public TinyTest {
+ protected:
+  CloudFolder() {
+    fs::create_directories(path("scans"));
+    for (int i = 0; i < 3; ++i)
+      io::write_cloud(path("scans/" + std::to_string(i) + ".pcd"), FourPoints(i).message);
+    write_file(path("clouds.yaml"),
+               "robot: {urdf: tiny.urdf}\nsensor: {parent: base, pose: camera_pose.csv, model: "
+               "lidar_2cm}\nframes: {joints: joint_states.csv, cloud: scans/%d.pcd}\n");
+  }
+  Outcome cloud(Words options = {}) const {
+    options.insert(options.begin(), {"cloud", path("clouds.yaml"), "-o", out()});
+    return penumbra(options);
+  }
+};
+
+TEST_F(CloudFolder, LosesTheRobot) {
+  const Outcome outcome = cloud();
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  for (int i = 0; i < 3; ++i) {
+    const io::StoredCloud read = io::read_cloud(out() / (std::to_string(i) + ".pcd"));
+    EXPECT_EQ(numbers_of(read.cloud), (std::vector{1, 2}));
+  }
+  const Json json = report();
+  EXPECT_EQ(json["clouds"].size(), 3U);
+  EXPECT_EQ(json["clouds"][0]["points"]["occluded"], 1);
+  EXPECT_EQ(json["clouds"][0]["status"], "ok");
+  ASSERT_EQ(cloud({"--label", "--frames", "1:2"}).status, 0) << "replaces former results";
+  EXPECT_FALSE(fs::exists(out() / "0.pcd"));
+  EXPECT_EQ(io::read_cloud(out() / "1.pcd").cloud.fields.back().name, "link");
+}
+
+TEST_F(CloudFolder, BadFilesAreSaid) {
+  write_file(path("scans/0.pcd"), "");
+  fs::remove(path("scans/1.pcd"));
+  const Outcome outcome = cloud();
+  EXPECT_EQ(outcome.status, 0);
+  expect_has(outcome.err, {"2 of 3 clouds are bad_depth", "0.pcd"});
+  EXPECT_FALSE(fs::exists(out() / "0.pcd"));
+  expect_refused(penumbra({"run", path("clouds.yaml"), "-o", path("x")}), {"penumbra cloud"});
+  expect_refused(penumbra({"cloud", path(), "-o", path("x")}), {"no frames.cloud", "penumbra run"});
+  edit_file(path("clouds.yaml"), "%d.pcd", "%d.xyz");
+  expect_refused(cloud(), {".xyz", ".pcd, .ply, .npy or .bin"});
+  edit_file(path("clouds.yaml"), "parent: base", "parents: base");
+  expect_refused(cloud(), {"clouds.yaml", "parents"});
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scans of robots that move, or whose pose is not wholly known, against closed forms.
+#include "errors.hpp"
+#include "shapes.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/cloud/cloud_pipeline.hpp>
+#include <penumbra/mesh/primitives.hpp>
+
+namespace penumbra::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double bar_tolerance = 0.02;  // metres
+constexpr double turning_speed = 2.0;   // rad/s
+constexpr std::int64_t millisecond = 1'000'000;
+constexpr std::int64_t scan_begin = 5'000 * millisecond;
+
+/// A bar, 1 m long and 0.1 m wide and high, that turns in the plane around the middle of its end,
+/// and a block above it that slides up.
+Robot bar_robot(const std::string& block = R"(<box size="0.2 0.2 0.2"/>)") {
+  return Robot::parse(R"(<robot name="r"><link name="base"/>
+    <link name="bar"><collision><origin xyz="0.5 0 0"/>
+      <geometry><box size="1 0.1 0.1"/></geometry></collision></link>
+    <joint name="turn" type="continuous"><parent link="base"/><child link="bar"/>
+      <axis xyz="0 0 1"/></joint>
+    <link name="block"><collision><geometry>)" +
+                          block + R"(</geometry></collision></link>
+    <joint name="slide" type="prismatic"><parent link="base"/><child link="block"/>
+      <origin xyz="0 0 1"/><axis xyz="0 0 1"/>
+      <limit lower="0" upper="0.5" effort="1" velocity="1"/></joint></robot>)",
+                      "/", {.allow_missing_meshes = true});
+}
+
+/// A sensor 2 m beside the base that looks at it.
+CloudConfig config() {
+  return {.rule = {.tolerance = {bar_tolerance, 0, 0}, .beam = 0.0},
+          .T_parent_sensor = at(0, -2, 0)};
+}
+
+double angle_at(std::int64_t stamp) {
+  return 1.0 + turning_speed * 1e-9 * static_cast<double>(stamp - scan_begin);
+}
+
+/// The bar turns at turning_speed, up to a last stamp.
+PoseAt turning(std::int64_t last = std::numeric_limits<std::int64_t>::max()) {
+  return [last](std::int64_t stamp, RobotPose& pose) {
+    pose = {};
+    if (stamp > last)
+      pose = {.status = FrameStatus::stale_joints, .message = "joint 'turn' is stale"};
+    else
+      pose.positions = {angle_at(stamp), 0.0};
+  };
+}
+
+struct Cloud {
+  void add(const Vector3d& point, std::int64_t time) {
+    for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(point[i]));
+    times.push_back(static_cast<std::int32_t>(time));
+  }
+  [[nodiscard]] Scan scan() const {
+    return {.stamp = scan_begin,
+            .points = {reinterpret_cast<const std::byte*>(values.data()), times.size()},
+            .times = times};
+  }
+
+  std::vector<float> values;
+  std::vector<std::int32_t> times;
+};
+
+/// Where the ray from the sensor in a direction meets the bar at a stamp, in the sensor's frame.
+std::optional<Vector3d> bar_hit(const Vector3d& direction, std::int64_t stamp) {
+  const Eigen::Isometry3d T_bar_sensor =
+      Eigen::AngleAxisd(-angle_at(stamp), Vector3d::UnitZ()) * Eigen::Translation3d(0, -2, 0);
+  const Vector3d origin = T_bar_sensor.translation() - Vector3d(0.5, 0, 0);
+  const Vector3d along = T_bar_sensor.linear() * direction;
+  const Vector3d half(0.5, 0.05, 0.05);
+  double enters = 0.0, leaves = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double a = (-half[i] - origin[i]) / along[i], b = (half[i] - origin[i]) / along[i];
+    enters = std::max(enters, std::min(a, b));
+    leaves = std::min(leaves, std::max(a, b));
+  }
+  if (!(enters < leaves) || enters == 0.0) return std::nullopt;
+  return enters * direction;
+}
+
+/// A scan of 100 ms from the left to the right, in which the bar turns by 0.2 rad; behind it is a
+/// wall. Returns how many points are of the bar.
+std::size_t make_sweep(Cloud& cloud) {
+  constexpr int columns = 2'000, rows = 20;
+  std::size_t of_bar = 0;
+  for (int column = 0; column < columns; ++column) {
+    const std::int64_t time = 100 * millisecond * column / columns;
+    for (int row = 0; row < rows; ++row) {
+      const Vector3d direction =
+          Vector3d(0.5 - 1.0 * column / columns, 1.0, 0.06 * row / rows - 0.03).normalized();
+      const auto hit = bar_hit(direction, scan_begin + time);
+      of_bar += hit ? 1 : 0;
+      cloud.add(hit ? *hit : Vector3d(direction * 4.0), time);
+    }
+  }
+  return of_bar;
+}
+
+std::size_t count(const CloudReport& report, Label label) {
+  return report.points[static_cast<std::size_t>(label)];
+}
+
+TEST(CloudPipeline, FollowsTheRobotDuringAScan) {
+  Cloud cloud;
+  const std::size_t of_bar = make_sweep(cloud);
+  ASSERT_GT(of_bar, 3'000U);
+  CloudPipeline pipeline(bar_robot(), config());
+  const CloudReport& report = pipeline.process(cloud.scan(), turning());
+  EXPECT_EQ(report.status, FrameStatus::ok) << report.message;
+  // The bar's end moves by 0.2 m.
+  EXPECT_GE(report.parts, static_cast<std::size_t>(0.2 / bar_tolerance));
+  // Within a part the bar's outline moves by half a tolerance.
+  constexpr double at_outlines = 0.02;
+  const double found =
+      static_cast<double>(count(report, Label::occluded) + count(report, Label::beyond));
+  EXPECT_NEAR(found, static_cast<double>(of_bar), at_outlines * static_cast<double>(of_bar));
+  EXPECT_LT(static_cast<double>(count(report, Label::beyond)), at_outlines * found);
+  EXPECT_LT(static_cast<double>(count(report, Label::front)), at_outlines * found);
+
+  // As if all were measured at once.
+  Scan at_once = cloud.scan();
+  at_once.times = {};
+  const CloudReport& wrong = pipeline.process(at_once, turning());
+  EXPECT_EQ(wrong.parts, 1U);
+  EXPECT_LT(static_cast<double>(count(wrong, Label::occluded)), 0.7 * static_cast<double>(of_bar));
+}
+
+TEST(CloudPipeline, ThreadsChangeNothing) {
+  Cloud cloud;
+  make_sweep(cloud);
+  CloudConfig several = config();
+  several.threads = 3;
+  several.rule.beam = 0.003;
+  CloudConfig one = several;
+  one.threads = 1;
+  CloudPipeline a(bar_robot(), one), b(bar_robot(), several);
+  const CloudReport& of_one = a.process(cloud.scan(), turning());
+  const CloudReport& of_three = b.process(cloud.scan(), turning());
+  EXPECT_TRUE(std::equal(of_one.labels.begin(), of_one.labels.end(), of_three.labels.begin(),
+                         of_three.labels.end()));
+  EXPECT_TRUE(std::equal(of_one.point_links.begin(), of_one.point_links.end(),
+                         of_three.point_links.begin(), of_three.point_links.end()));
+}
+
+TEST(CloudPipeline, WithoutPosesOfTheWholeScanNoPointIsTrusted) {
+  Cloud cloud;
+  make_sweep(cloud);
+  CloudPipeline pipeline(bar_robot(), config());
+  const CloudReport& report =
+      pipeline.process(cloud.scan(), turning(scan_begin + 90 * millisecond));
+  EXPECT_EQ(report.status, FrameStatus::stale_joints);
+  EXPECT_TRUE(holds(report.message, "joint 'turn' is stale"));
+  EXPECT_EQ(count(report, Label::unknown), cloud.times.size());
+}
+
+/// Points on the bar, on the block, above it, and far from both; the bar points to the sensor's
+/// right.
+Cloud few_points() {
+  Cloud cloud;
+  cloud.add({0.5, 1.95, 0}, 0);
+  cloud.add({0, 1.9, 1}, 0);
+  cloud.add({0, 1.95, 1.5}, 0);
+  cloud.add({0.9, 3, 2}, 0);
+  return cloud;
+}
+
+PoseAt standing(RobotPose pose) {
+  if (pose.positions.empty()) pose.positions = {0.0, 0.0};
+  return [pose](std::int64_t, RobotPose& to) { to = pose; };
+}
+
+std::vector<Label> labels_of(const CloudReport& report) {
+  std::vector<Label> labels;
+  for (const std::uint8_t label : report.labels) labels.push_back(static_cast<Label>(label));
+  return labels;
+}
+
+TEST(CloudPipeline, WhereALinkCouldBeIsUnknown) {
+  const Cloud cloud = few_points();
+  CloudPipeline pipeline(bar_robot(), config());
+  const std::size_t block = *pipeline.robot().find_link("block");
+  using enum Label;
+  EXPECT_EQ(labels_of(pipeline.process(cloud.scan(), standing({}))),
+            (std::vector{occluded, occluded, clear, clear}));
+  const CloudReport& report = pipeline.process(
+      cloud.scan(), standing({.uncertain_links = {block}, .uncertain_reason = "no state"}));
+  EXPECT_EQ(report.status, FrameStatus::missing_link);
+  EXPECT_EQ(labels_of(report), (std::vector{occluded, unknown, unknown, clear}));
+  EXPECT_EQ(report.links[report.point_links[0] - 1], "bar");
+  EXPECT_EQ(report.point_links[1], 0);
+}
+
+TEST(CloudPipeline, ALinkWithoutItsMeshLeavesAllUnknown) {
+  const Cloud cloud = few_points();
+  CloudPipeline pipeline(bar_robot(R"(<mesh filename="file:///none.stl"/>)"), config());
+  const CloudReport& report = pipeline.process(cloud.scan(), standing({}));
+  EXPECT_EQ(report.status, FrameStatus::missing_link);
+  EXPECT_TRUE(holds(report.message, "no geometry of link 'block'"));
+  EXPECT_EQ(labels_of(report), std::vector(4, Label::unknown));
+}
+
+TEST(CloudPipeline, WhatIsAttachedIsOfTheRobot) {
+  const Cloud cloud = few_points();
+  CloudPipeline pipeline(bar_robot(), config());
+  const auto mesh = std::make_shared<PreparedMesh>(make_box({0.1, 0.1, 0.1}));
+  const CloudReport& report = pipeline.process(
+      cloud.scan(), standing({.attached = {{"part", "block", mesh, at(0, 0, 0.5)}}}));
+  using enum Label;
+  EXPECT_EQ(labels_of(report), (std::vector{occluded, occluded, occluded, clear}));
+  EXPECT_EQ(report.links[report.point_links[2] - 1], "part");
+  EXPECT_EQ(labels_of(pipeline.process(cloud.scan(), standing({})))[2], clear) << "put down";
+  const CloudReport& unread =
+      pipeline.process(cloud.scan(), standing({.attached = {{"part", "block", nullptr}}}));
+  EXPECT_EQ(unread.status, FrameStatus::missing_link);
+  EXPECT_EQ(labels_of(unread), std::vector(4, unknown));
+}
+
+TEST(CloudPipeline, SaysWhatIsWrongWithACloud) {
+  CloudPipeline pipeline(bar_robot(), config());
+  const auto fault = [&](const Scan& scan) {
+    const CloudReport& report = pipeline.process(scan, standing({}));
+    EXPECT_EQ(count(report, Label::unknown), scan.points.count);
+    EXPECT_NE(report.status, FrameStatus::ok);
+    return report.message;
+  };
+  EXPECT_TRUE(holds(fault({.stamp = scan_begin}), "no points"));
+  Cloud none;
+  for (int i = 0; i < 5'000; ++i) none.add(Vector3d::Constant(std::nan("")), 0);
+  EXPECT_TRUE(holds(fault(none.scan()), "no point of the cloud is a measurement"));
+  Cloud millimetres = few_points();
+  for (float& value : millimetres.values) value *= 1000.0F;
+  EXPECT_TRUE(holds(fault(millimetres.scan()), "millimetres"));
+  Cloud few = few_points();
+  few.times.pop_back();
+  Scan scan = few.scan();
+  scan.points.count = 4;
+  EXPECT_TRUE(holds(fault(scan), "3 times for 4 points"));
+  scan = few.scan();
+  scan.times = {};
+  scan.origin = Vector3d(0.5, 2.0, 0.0);
+  EXPECT_TRUE(holds(fault(scan), "inside link 'bar'"));
+}
+
+TEST(CloudPipeline, MergedCloudsHaveNoRays) {
+  Cloud cloud = few_points();
+  cloud.add({0.5, 2.2, 0}, 0);  // behind the bar
+  CloudPipeline pipeline(bar_robot(), config());
+  Scan scan = cloud.scan();
+  EXPECT_EQ(labels_of(pipeline.process(scan, standing({})))[4], Label::beyond);
+  scan.origin.reset();
+  EXPECT_EQ(
+      labels_of(pipeline.process(scan, standing({}))),
+      (std::vector{Label::occluded, Label::occluded, Label::clear, Label::clear, Label::clear}));
+}
+
+TEST(CloudPipeline, BadConfigurationsAreRefused) {
+  CloudConfig wrong = config();
+  wrong.sensor_parent = "nobody";
+  EXPECT_THROW(CloudPipeline(bar_robot(), wrong), InputError);
+  wrong = config();
+  wrong.T_parent_sensor.linear() *= 2.0;
+  EXPECT_THROW(CloudPipeline(bar_robot(), wrong), InputError);
+  EXPECT_THROW(static_cast<void>(CloudRule::for_sensor("eyes")), InputError);
+}
+
+}  // namespace
+}  // namespace penumbra::test

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+// Damaged point clouds are refused in one line that names the file, without large memory.
+#include "../support/allocations.hpp"
+#include "../support/run_length.hpp"
+#include "cloud_samples.hpp"
+#include "files.hpp"
+
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include <io/cloud/cloud_file.hpp>
+
+namespace penumbra::io {
+namespace {
+
+using test::raw;
+
+// More than a header of 64 KiB takes, and less than any lie in a header asks for.
+constexpr std::size_t cloud_memory = std::size_t{16} << 20;
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  EXPECT_HAS(text, from);
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// Expects each file to be refused, by its name and the second text.
+void expect_bad(const std::string& name, const test::BadInputs& files) {
+  const test::TemporaryFolder folder;
+  test::expect_refused(files, [&](const std::string& bytes) {
+    const auto file = folder.write(name, bytes);
+    const test::MemoryShortage shortage(cloud_memory, 0);
+    test::expect_refused([&] { (void)read_cloud(file); }, {file.string() + ": "});
+    (void)read_cloud(file);
+  });
+}
+
+TEST(CloudBadFile, PcdHeadersAreChecked) {
+  const std::string body = raw(1.0F, 2.0F, 3.0F);
+  const std::string good = test::pcd(test::xyz_fields, 1, 1, "binary\n") + body;
+  const auto with = [&](const std::string& from, const std::string& to) {
+    return replaced(good, from, to);
+  };
+  const std::string points = "\nPOINTS 1";
+  const auto sized = [&](const std::string& width, const std::string& height) {
+    return replaced(replaced(with(points, ""), "WIDTH 1", "WIDTH " + width), "HEIGHT 1",
+                    "HEIGHT " + height);
+  };
+  expect_bad("a.pcd", {{"", "DATA"},
+                       {"VERSION 0.7\n" + std::string(std::size_t{1} << 20, 'x'), "65536"},
+                       {with("FIELDS x y z", "FIELDS"), "FIELDS"},
+                       {with("FIELDS x y z", "FIELDS x y"), "FIELDS"},
+                       {with("SIZE 4 4 4", "SIZE 4 4 -4"), "-4"},
+                       {with("SIZE 4 4 4", "SIZE 4 4 3"), "3 bytes"},
+                       {with("SIZE 4 4 4", "SIZE 4 4 18446744073709551615"), "\"z\""},
+                       {replaced(with("SIZE 4 4 4", "SIZE 4 4 8"), "F F F", "F F U"), "64-bit"},
+                       {with("TYPE F F F", "TYPE F F X"), "\"z\""},
+                       {with("COUNT 1 1 1", "COUNT 1 1 0"), "\"z\""},
+                       {with("COUNT 1 1 1", "COUNT 1 1 4294967296"), "\"z\""},
+                       {with("COUNT 1 1 1", "COUNT 1 1 18446744073709551616"), "COUNT"},
+                       {with("COUNT 1 1 1", "COUNT 1 1 2"), "16 bytes"},
+                       {with("WIDTH 1\n", ""), "WIDTH"},
+                       {with("HEIGHT 1\n", ""), "HEIGHT"},
+                       {with("POINTS 1", "POINTS 2"), "POINTS"},
+                       {sized("100000000", "1"), "1200000000 bytes"},
+                       {sized("-1", "1"), "WIDTH"},
+                       {sized("1", "-1"), "HEIGHT"},
+                       {sized("1e3", "1"), "WIDTH"},
+                       {sized("4294967295", "4294967295"), "4294967295 x"},
+                       {sized("1", "4294967296"), "x 4294967296"},
+                       {sized("300000000", "4294967295"), "follow the header"},
+                       {sized("0", "4294967295"), "12 bytes follow the last point"},
+                       {with("DATA binary", "DATA"), "DATA"},
+                       {with("DATA binary", "DATA zip"), "zip"},
+                       {good.substr(0, good.size() - 1), "truncated"},
+                       {good + "x", "follow the last point"}});
+}
+
+TEST(CloudBadFile, PcdTextIsChecked) {
+  const std::string good = test::pcd(test::xyz_fields, 1, 1, "ascii\n1 2 3\n");
+  const std::string bytes = test::pcd("FIELDS a\nSIZE 1\nTYPE U\n", 1, 1, "ascii\n256\n");
+  expect_bad(
+      "a.pcd",
+      {{replaced(good, "1 2 3", "1 2"), "before its last point"},
+       {replaced(good, "1 2 3", "1 2 3 4"), "follows the last"},
+       {replaced(good, "1 2 3", "1 2 x"), "\"x\""},
+       {replaced(good, "1 2 3", "1 2 1e39"), "1e39"},
+       {bytes, "256"},
+       {replaced(replaced(good, "WIDTH 1", "WIDTH 100000000"), "POINTS 1", "POINTS 100000000"),
+        "300000000 numbers"}});
+}
+
+TEST(CloudBadFile, CompressedPointsAreChecked) {
+  const std::string header = test::pcd("FIELDS a\nSIZE 1\nTYPE U\n", 4, 1, "binary_compressed\n");
+  const auto packed = [&](const std::string& bytes, unsigned plain = 4) {
+    return header + raw(static_cast<unsigned>(bytes.size()), plain) + bytes;
+  };
+  using namespace std::string_literals;
+  expect_bad("a.pcd", {{header + "1234567", "ends before"},
+                       {header + raw(10U, 4U) +
+                            "\x03"
+                            "abcd",
+                        "10 bytes"},
+                       {packed("\x03"
+                               "abcd",
+                               4294967295U),
+                        "4294967295"},
+                       {packed("\x03"
+                               "abcd") +
+                            "x",
+                        "follow"},
+                       {packed("\x03"
+                               "abc"),
+                        "run"},
+                       {packed("\x02"
+                               "abc"),
+                        "decompress"},
+                       {packed("\x04"
+                               "abcde"),
+                        "decompress"},
+                       {packed("\x01"
+                               "ab\xe0"),
+                        "reference"},
+                       {packed("\x01"
+                               "ab\xe0\x01"),
+                        "reference"},
+                       {packed("\x01"
+                               "ab\x20"),
+                        "reference"},
+                       {packed("\x01"
+                               "ab\x20\x02"),
+                        "before their first"},
+                       {packed("\x00"
+                               "a\xe0\xff\x00"s),
+                        "decompress"}});
+  // 1 GB, of which 4 kB are there.
+  std::string run =
+      "\x00"
+      "a"s;
+  for (int i = 0; i < 1000; ++i) run += "\xe0\xff\x00"s;
+  const std::string large =
+      test::pcd("FIELDS a\nSIZE 1\nTYPE U\n", 1000000000, 1, "binary_compressed\n");
+  expect_bad("b.pcd",
+             {{large + raw(static_cast<unsigned>(run.size()), 1000000000U) + run, "decompress"}});
+}
+
+TEST(CloudBadFile, PlyIsChecked) {
+  const std::string text = test::ascii_ply();
+  const std::string binary = test::binary_ply<false>();
+  const std::string vertex = "element vertex 2";
+  expect_bad("a.ply", {{"", "'ply'"},
+                       {"plyx\n" + text, "'ply'"},
+                       {"ply\ncomment " + std::string(std::size_t{1} << 20, 'x'), "65536"},
+                       {replaced(text, "format ascii", "format binary"), "binary"},
+                       {replaced(text, "format ascii 1.0\n", ""), "format"},
+                       {replaced(text, "vertex", "vertices"), "vertex"},
+                       {replaced(text, vertex, "element vertex -2"), "count"},
+                       {replaced(text, vertex, "element vertex 100000000"), "500000000 numbers"},
+                       {replaced(text, vertex, "element vertex 18446744073709551615"), "4 GiB"},
+                       {replaced(binary, vertex, "element vertex 100000000"), "1900000000 bytes"},
+                       {replaced(binary, "camera 2", "camera 18446744073709551615"), "ends before"},
+                       {replaced(text, "camera 2", "camera 18446744073709551615"), "ends before"},
+                       {replaced(text, "2 5 6 0.5", "18446744073709551615 5 6 0.5"), "\"ids\""},
+                       {replaced(text, "2 5 6 0.5", "9223372036854775807 5 6 0.5"), "ends before"},
+                       {replaced(text, "2 5 6 0.5", "-1 5 6 0.5"), "\"ids\""},
+                       {replaced(text, "list uchar short", "list float short"), "integers"},
+                       {replaced(text, "uchar red", "uint64 red"), "uint64"},
+                       {replaced(text, "uchar red", "list uchar int red"), "\"red\""},
+                       {replaced(text, "property uchar red", "property uchar"), "property"},
+                       {replaced(text, "element camera 2\n", ""), "before any element"},
+                       {replaced(text, "255 -7", "256 -7"), "256"},
+                       {replaced(text, "255 -7", "255"), "no number"},
+                       {"ply\nformat ascii 1.0\nelement vertex 3\nend_header\n", "no fields"},
+                       {binary.substr(0, binary.find("end_header") + 40), "truncated"}});
+}
+
+TEST(CloudBadFile, NumpyIsChecked) {
+  const std::string good = test::float_npy();
+  const std::string records = test::structured_npy();
+  const auto header = [&](const std::string& dictionary) {
+    return test::npy(dictionary, raw(1.0F, 2.0F, 3.0F));
+  };
+  const auto shape = [&](const std::string& sizes, const std::string& type = "'<f4'") {
+    return header("{'descr': " + type + ", 'fortran_order': False, 'shape': " + sizes + "}");
+  };
+  expect_bad("a.npy", {{"", "NumPy"},
+                       {"\x93NUMPX" + good.substr(6), "NumPy"},
+                       {replaced(good, "NUMPY\x01", "NUMPY\x04"), "version 4"},
+                       {replaced(good, "NUMPY\x01", "NUMPY\x03"), "header"},
+                       {good.substr(0, 40), "header"},
+                       {good.substr(0, good.size() - 1), "truncated"},
+                       {good + "x", "follow"},
+                       {shape("(3,)"), "1 dimensions"},
+                       {shape("(1, 1, 3)"), "3 dimensions"},
+                       {shape("(1, 2)"), "C >= 3"},
+                       {shape("(3, 18446744073709551615)"), "65536"},
+                       {shape("(18446744073709551615, 3)"), "4 GiB"},
+                       {shape("(100000000, 3)"), "1200000000"},
+                       {shape("(-1, 3)"), "size"},
+                       {shape("(1, 3"), "size"},
+                       {shape("(1, 3)", "'<f2'"), "<f2"},
+                       {shape("(1, 3)", "'>f4'"), ">f4"},
+                       {shape("(1, 3)", "[('x', '>f4')]"), ">f4"},
+                       {shape("(1,)", "[('x', '<i8')]"), "64-bit"},
+                       {shape("(1,)", "[('x', '<f4', (65536, 65536, 4294967296))]"), "\"x\""},
+                       {shape("(1,)", "[('x', '<f4', (0,))]"), "\"x\""},
+                       {shape("(1,)", "[('x', '<c8')]"), "<c8"},
+                       {shape("(1,)", "[('x', '')]"), "type"},
+                       {shape("(1,)", "[('x', '|V99999999999')]"), "_"},
+                       {shape("(1,)", "[(('title', 'x'), '<f4')]"), "string"},
+                       {shape("(1,)", "[('x', '<f4'"), "dictionary"},
+                       {shape("(1, 1)", "[('x', '<f4')]"), "2 dimensions"},
+                       {header("{'descr': '<f4'}"), "0 dimensions"},
+                       {header("{'descr': '<f4"), "dictionary"},
+                       {header("[1]"), "dictionary"},
+                       {records.substr(0, records.size() - 1), "truncated"}});
+}
+
+TEST(CloudBadFile, OtherFilesAreNamed) {
+  expect_bad("a.bin", {{"0123456789abcde", "15 bytes"}});
+  expect_bad("a.las", {{"LASF", ".pcd"}});
+  const test::TemporaryFolder folder;
+  const auto missing = folder.path() / "none.pcd";
+  test::expect_refused([&] { (void)read_cloud(missing); }, {missing.string()});
+  std::filesystem::create_directory(folder.path() / "folder.pcd");
+  test::expect_refused([&] { (void)read_cloud(folder.path() / "folder.pcd"); }, {"folder.pcd"});
+  const auto large = folder.write("large.pcd", "");
+  std::filesystem::resize_file(large, std::uintmax_t{1} << 40);  // a sparse file
+  test::expect_refused([&] { (void)read_cloud(large); }, {large.string(), "limit"});
+}
+
+TEST(CloudBadFile, CloudsThatAreInconsistentOrDoNotFitAreNotWritten) {
+  const test::TemporaryFolder folder;
+  const auto expect_unwritten = [&](const char* name, std::string_view part, const auto& change) {
+    StoredCloud stored = read_cloud(folder.write("good.bin", test::kitti()));
+    change(stored.cloud);
+    const auto file = folder.path() / name;
+    test::expect_refused([&] { write_cloud(file, stored.cloud); }, {file.string(), part});
+    EXPECT_FALSE(std::filesystem::exists(file));
+  };
+  using Cloud = PointCloud2Message;
+  expect_unwritten("a.txt", ".pcd", [](Cloud&) {});
+  expect_unwritten("a.pcd", "big-endian", [](Cloud& c) { c.is_bigendian = true; });
+  expect_unwritten("a.pcd", "no fields", [](Cloud& c) { c.fields.clear(); });
+  expect_unwritten("a.pcd", "no name", [](Cloud& c) { c.fields[1].name = ""; });
+  expect_unwritten("a.ply", "no name", [](Cloud& c) { c.fields[1].name = "a\nb"; });
+  expect_unwritten("a.pcd", "datatype 0", [](Cloud& c) { c.fields[1].datatype = 0; });
+  expect_unwritten("a.pcd", "datatype 9", [](Cloud& c) { c.fields[1].datatype = 9; });
+  expect_unwritten("a.pcd", "\"y\"", [](Cloud& c) { c.fields[1].offset = 4294967295; });
+  expect_unwritten("a.pcd", "\"y\"", [](Cloud& c) { c.fields[1].count = 4294967295; });
+  expect_unwritten("a.pcd", "\"y\"", [](Cloud& c) { c.fields[1].count = 0; });
+  expect_unwritten("a.pcd", "limit", [](Cloud& c) { c.fields.resize(20000, c.fields[0]); });
+  expect_unwritten("a.pcd", "fewer data", [](Cloud& c) { c.width = 3; });
+  expect_unwritten("a.pcd", "fewer data", [](Cloud& c) { c.width = 4294967295; });
+  expect_unwritten("a.pcd", "fewer data", [](Cloud& c) { c.height = 4294967295; });
+  expect_unwritten("a.npy", "x y z", [](Cloud& c) { c.fields[0].name = "i"; });
+  expect_unwritten("a.bin", "x y z i;", [](Cloud& c) { c.fields[3].name = "i"; });
+  expect_unwritten("a.bin", "label", [](Cloud& c) { c.fields.push_back({"label", 0, 2, 1}); });
+  expect_unwritten("a.bin", "float32", [](Cloud& c) { c.fields[3].datatype = 6; });
+  expect_unwritten("none/a.pcd", "written", [](Cloud&) {});
+}
+
+std::string damaged_cloud(std::string bytes, std::mt19937_64& random) {
+  const std::vector<std::string> numbers{"0",          "-1",         "3",
+                                         "255",        "65536",      "100000000",
+                                         "4294967295", "4294967296", "18446744073709551615",
+                                         "1e308",      "nan",        "99999999999999999999"};
+  for (std::size_t n = 1 + random() % 3; n > 0 && !bytes.empty(); --n) {
+    const std::size_t at = random() % bytes.size();
+    const std::uint64_t kind = random() % 8;
+    if (kind < 2) bytes[at] ^= static_cast<char>(1U << random() % 8);
+    if (kind == 2) bytes[at] = static_cast<char>(random());
+    if (kind == 3) bytes.erase(at, 1 + random() % 16);
+    if (kind == 4 && random() % 4 == 0) bytes.resize(at);
+    if (kind == 5) bytes.insert(at, bytes.substr(random() % bytes.size(), random() % 64));
+    const std::size_t digit = bytes.find_first_of("0123456789", std::min(at, bytes.size()));
+    if (kind < 6 || digit == std::string::npos) continue;
+    const std::size_t end = std::min(bytes.find_first_not_of("0123456789", digit), bytes.size());
+    bytes.replace(digit, end - digit, numbers[random() % numbers.size()]);
+  }
+  return bytes;
+}
+
+/// Only InputError may come of damaged files. A cloud that was read is written without loss.
+void fuzz_clouds(int trials, std::uint64_t seed) {
+  std::mt19937_64 random = test::seeded_random(seed);
+  const test::TemporaryFolder folder;
+  const auto samples = test::cloud_samples();
+  int read = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    const auto& sample = samples[random() % samples.size()];
+    const std::string& name = sample.first;
+    const auto file = folder.write(name, damaged_cloud(sample.second, random));
+    const test::MemoryShortage shortage(cloud_memory, 0);
+    test::refusal([&] {
+      const StoredCloud stored = read_cloud(file);
+      ++read;
+      const auto copy = folder.path() / "copy.pcd";
+      std::filesystem::remove(copy);
+      write_cloud(copy, stored.cloud);
+      EXPECT_EQ(read_cloud(copy).data, stored.data) << name << " in trial " << trial;
+      for (const char* other : {"copy.ply", "copy.npy", "copy.bin"}) {
+        std::filesystem::remove(folder.path() / other);
+        test::refusal([&] { write_cloud(folder.path() / other, stored.cloud); });
+      }
+    });
+    ASSERT_FALSE(testing::Test::HasFailure()) << name << " in trial " << trial;
+  }
+  std::cout << trials << " files, " << read << " read\n";
+  EXPECT_GT(read, trials / 10);
+  EXPECT_LT(read, trials);
+}
+
+TEST(CloudFuzz, DamagedFilesAreReadOrRefused) { fuzz_clouds(test::samples(5000), 71); }
+
+TEST(CloudFuzzFull, DamagedFilesAreReadOrRefused) {
+  if (!test::is_full_run()) GTEST_SKIP() << "PENUMBRA_FULL is not set";
+  fuzz_clouds(200000, 73);
+}
+
+}  // namespace
+}  // namespace penumbra::io

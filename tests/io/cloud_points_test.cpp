@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points and times of messages of any layout, and messages without the robot's points.
+#include "../support/errors.hpp"
+#include "../support/random.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include <penumbra/labels/labels.hpp>
+
+#include <io/cloud/cloud_points.hpp>
+
+namespace penumbra::test {
+namespace {
+
+using io::CloudPoints;
+using io::PointCloud2Message;
+using io::PointFieldMessage;
+
+constexpr std::int64_t stamp = 1'700'000'000'000'000'000;
+constexpr std::uint8_t uint8 = 2, uint32 = 6, float32 = 7, float64 = 8;
+
+/// A cloud whose numbers are written one by one, in either byte order.
+class Table {
+ public:
+  Table(std::vector<PointFieldMessage> fields, std::uint32_t step, std::uint32_t width,
+        std::uint32_t height = 1, bool is_bigendian = false, std::uint32_t row_step = 0)
+      : message_{.header = {stamp, "lidar"},
+                 .height = height,
+                 .width = width,
+                 .fields = std::move(fields),
+                 .is_bigendian = is_bigendian,
+                 .point_step = step,
+                 .row_step = row_step == 0 ? step * width : row_step},
+        data_(std::size_t{message_.row_step} * height) {}
+
+  template <typename T>
+  void set(std::size_t point, std::uint32_t offset, T value) {
+    std::array<std::byte, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof value);
+    if (message_.is_bigendian) std::reverse(bytes.begin(), bytes.end());
+    const std::size_t row = point / message_.width, column = point % message_.width;
+    std::copy(bytes.begin(), bytes.end(),
+              data_.begin() + static_cast<std::ptrdiff_t>(row * message_.row_step +
+                                                          column * message_.point_step + offset));
+  }
+  [[nodiscard]] PointCloud2Message& message() {
+    message_.data = data_;
+    return message_;
+  }
+
+ private:
+  PointCloud2Message message_;
+  std::vector<std::byte> data_;
+};
+
+std::vector<PointFieldMessage> xyz_fields() {
+  return {{"x", 0, float32, 1}, {"y", 4, float32, 1}, {"z", 8, float32, 1}};
+}
+
+TEST(CloudPoints, LieWhereTheFieldsSay) {
+  std::mt19937_64 random = seeded_random(3);
+  std::uniform_real_distribution<double> number(-50.0, 50.0);
+  std::vector<Eigen::Vector3d> truth(6);
+  for (auto& point : truth) point = {number(random), number(random), number(random)};
+  const auto check = [&](Table& table, bool copies) {
+    CloudPoints points;
+    ASSERT_EQ(io::read_points(table.message(), points), "");
+    ASSERT_EQ(points.points.count, truth.size());
+    EXPECT_EQ(points.copied.empty(), !copies);
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      EXPECT_EQ(points.points[i], truth[i].cast<float>().eval()) << i;
+  };
+  Table plain({{"intensity", 12, uint8, 1}, {"x", 0}, {"y", 4}, {"z", 8}}, 13, 6);
+  Table turned({{"z", 1}, {"x", 9}, {"y", 5}}, 14, 6);  // another order
+  Table wide({{"x", 0, float64}, {"y", 8, float64}, {"z", 16, float64}}, 24, 6);
+  Table big(xyz_fields(), 12, 6, 1, true);
+  Table rows(xyz_fields(), 16, 3, 2, false, 3 * 16 + 5);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      const auto value = static_cast<float>(truth[i][axis]);
+      plain.set(i, 4 * axis, value);
+      turned.set(i, std::array<std::uint32_t, 3>{9, 5, 1}[axis], value);
+      wide.set(i, 8 * axis, truth[i][axis]);
+      big.set(i, 4 * axis, value);
+      rows.set(i, 4 * axis, value);
+    }
+  check(plain, false);
+  check(turned, true);
+  check(wide, true);
+  check(big, true);
+  check(rows, true);
+}
+
+/// How drivers write times. Each scan lasts 100 ms; the expected ones are after the header's stamp.
+struct Clock {
+  const char* name;
+  std::string field;
+  std::uint8_t type;
+  double first, step;  // in the driver's unit
+  double expected_first, expected_step;
+  const char* said;
+};
+
+class CloudTimes : public testing::TestWithParam<Clock> {};
+
+TEST_P(CloudTimes, AreUnderstood) {
+  const Clock& clock = GetParam();
+  auto fields = xyz_fields();
+  fields.push_back({clock.field, 12, clock.type, 1});
+  constexpr std::uint32_t count = 101;
+  Table table(fields, 20, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double value = clock.first + clock.step * static_cast<double>(i);
+    if (clock.type == float32) table.set(i, 12, static_cast<float>(value));
+    if (clock.type == float64) table.set(i, 12, value);
+    if (clock.type == uint32) table.set(i, 12, static_cast<std::uint32_t>(value));
+  }
+  CloudPoints points;
+  ASSERT_EQ(io::read_points(table.message(), points), "");
+  EXPECT_TRUE(holds(points.time_note, clock.said)) << points.time_note;
+  ASSERT_EQ(points.times.size(), count);
+  constexpr double resolution = 1e-6;  // seconds: a double has 0.2 us of seconds since 1970
+  for (std::size_t i = 0; i < count; ++i)
+    ASSERT_NEAR(1e-9 * points.times[i],
+                clock.expected_first + clock.expected_step * static_cast<double>(i), resolution);
+}
+
+constexpr double now = 1e-9 * static_cast<double>(stamp);
+INSTANTIATE_TEST_SUITE_P(Drivers, CloudTimes,
+                         testing::Values(Clock{"Velodyne", "time", float32, 0.0, 1e-3, 0.0, 1e-3,
+                                               "'time' has the points' times: seconds after"},
+                                         Clock{"VelodyneOfTheEnd", "time", float32, -0.1, 1e-3,
+                                               -0.1, 1e-3, "seconds after the stamp"},
+                                         Clock{"Ouster", "t", uint32, 0.0, 1e6, 0.0, 1e-3,
+                                               "'t' has the points' times: nanoseconds after"},
+                                         Clock{"Hesai", "timestamp", float64, now, 1e-3, 0.0, 1e-3,
+                                               "seconds since 1970"},
+                                         Clock{"LivoxCloud", "timestamp", float64, 1e9 * now, 1e6,
+                                               0.0, 1e-3, "nanoseconds since 1970"},
+                                         Clock{"Microseconds", "offset_time", uint32, 0.0, 1e3, 0.0,
+                                               1e-3, "microseconds after"},
+                                         Clock{"Milliseconds", "time", float32, 0.0, 1.0, 0.0, 1e-3,
+                                               "milliseconds after"},
+                                         Clock{"ClockOfItsOwn", "timestamp", float64, 86'400.0,
+                                               1e-3, 0.0, 1e-3, "seconds of a clock of its own"}),
+                         [](const auto& test) { return test.param.name; });
+
+TEST(CloudPoints, TimesThatNoScanHasAreSaidAndNotUsed) {
+  auto fields = xyz_fields();
+  fields.push_back({"t", 12, float64, 1});
+  Table table(fields, 20, 2);
+  table.set(1, 12, 5e9);
+  CloudPoints points;
+  ASSERT_EQ(io::read_points(table.message(), points), "");
+  EXPECT_TRUE(points.times.empty());
+  EXPECT_TRUE(holds(points.time_note, "not used"));
+}
+
+TEST(CloudPoints, LiesOfSizesAreRefused) {
+  const auto fault = [](const auto& change) {
+    Table table(xyz_fields(), 12, 4, 2);
+    change(table.message());
+    CloudPoints points;
+    return io::read_points(table.message(), points);
+  };
+  constexpr auto most = std::numeric_limits<std::uint32_t>::max();
+  EXPECT_EQ(fault([](PointCloud2Message&) {}), "");
+  EXPECT_TRUE(holds(fault([](auto& m) { m.width = 5; }), "do not fit"));
+  EXPECT_TRUE(holds(fault([](auto& m) { m.width = most; }), "do not fit"));
+  EXPECT_TRUE(holds(fault([](auto& m) { m.height = 3; }), "do not fit"));
+  EXPECT_TRUE(holds(fault([](auto& m) { m.width = m.height = m.row_step = most; }), "do not fit"));
+  EXPECT_TRUE(holds(fault([](auto& m) { m.row_step = 11; }), "do not fit"));
+  EXPECT_TRUE(holds(fault([](auto& m) { m.point_step = most; }), "do not fit"));
+  EXPECT_TRUE(holds(fault([](auto& m) { m.fields[1].offset = 9; }), "field 'y'"));
+  EXPECT_TRUE(holds(fault([](auto& m) { m.fields[1].offset = most; }), "field 'y'"));
+  EXPECT_TRUE(holds(fault([](auto& m) { m.fields[1].count = most; }), "field 'y'"));
+  EXPECT_TRUE(holds(fault([](auto& m) { m.fields[1].datatype = 9; }), "field 'y'"));
+  EXPECT_TRUE(holds(fault([](auto& m) { m.fields[1].datatype = 5; }), "expected float32"));
+  EXPECT_TRUE(holds(fault([](auto& m) { m.fields[1].name = "why"; }), "no field 'y'"));
+}
+
+/// Sizes, offsets and types are changed at random: whatever they say, only the data are read.
+TEST(CloudPoints, RandomLayoutsAreReadOrRefused) {
+  std::mt19937_64 random = seeded_random(11);
+  const auto any = [&](std::uint32_t most) {
+    return static_cast<std::uint32_t>(random() % (most + 1));
+  };
+  int read = 0;
+  constexpr int rounds = 20'000;
+  for (int round = 0; round < rounds; ++round) {
+    PointCloud2Message cloud{.header = {stamp, ""}};
+    cloud.width = any(8);
+    cloud.height = any(3);
+    cloud.point_step = any(40);
+    cloud.row_step = random() % 2 == 0 ? cloud.width * cloud.point_step : any(400);
+    cloud.is_bigendian = random() % 2 == 0;
+    for (const char* const name : {"x", "y", "z", "time"})
+      cloud.fields.push_back({name, any(36), static_cast<std::uint8_t>(any(9)), any(3)});
+    for (auto& field : cloud.fields)
+      if (random() % 4 != 0) field.datatype = float32;
+    const std::vector<std::byte> data(any(1000), std::byte{0x3f});
+    const std::unique_ptr<std::byte[]> exact(new std::byte[data.size()]);  // for sanitizers
+    std::copy(data.begin(), data.end(), exact.get());
+    cloud.data = {exact.get(), data.size()};
+    CloudPoints points;
+    if (!io::read_points(cloud, points).empty()) continue;
+    ++read;
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < points.points.count; ++i) sum += points.points[i].sum();
+    CloudReport report;
+    const std::vector<std::uint8_t> labels(points.points.count,
+                                           static_cast<std::uint8_t>(random() % label_count));
+    const std::vector<std::uint16_t> links(points.points.count);
+    report.labels = labels;
+    report.point_links = links;
+    std::vector<std::byte> out;
+    const auto result = io::cloud_output(cloud, report, {.labelled = random() % 2 == 0}, out);
+    EXPECT_EQ(io::read_points(result, points), "") << sum;
+  }
+  EXPECT_GT(read, rounds / 100);
+}
+
+struct Labelled {
+  explicit Labelled(std::vector<Label> all) : links(all.size()) {
+    for (const Label label : all) labels.push_back(static_cast<std::uint8_t>(label));
+    report.labels = labels;
+    report.point_links = links;
+  }
+  std::vector<std::uint8_t> labels;
+  std::vector<std::uint16_t> links;
+  CloudReport report;
+};
+
+using enum Label;
+
+TEST(CloudOutput, LeavesOutOrMarksPoints) {
+  auto fields = xyz_fields();
+  fields.push_back({"intensity", 12, uint8, 1});
+  Labelled labelled({clear, occluded, front, fringe});
+  labelled.links[1] = 7;
+  for (const std::uint32_t height : {1U, 2U}) {
+    Table table(fields, 13, 4 / height, height);
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::uint32_t axis = 0; axis < 3; ++axis)
+        table.set(i, 4 * axis, 1.0F + static_cast<float>(i));
+      table.set(i, 12, static_cast<std::uint8_t>(10 * i));
+    }
+    std::vector<std::byte> data;
+    CloudPoints points;
+    const auto removed = io::cloud_output(table.message(), labelled.report, {}, data);
+    ASSERT_EQ(io::read_points(removed, points), "");
+    if (height == 1) {
+      ASSERT_EQ(points.points.count, 2U);
+      EXPECT_EQ(points.points[1], Eigen::Vector3f(3, 3, 3));
+      EXPECT_EQ(removed.data[25], std::byte{20}) << "the intensity stays";
+    } else {
+      ASSERT_EQ(points.points.count, 4U);
+      EXPECT_EQ(points.points[0], Eigen::Vector3f(1, 1, 1));
+      EXPECT_TRUE(points.points[1].array().isNaN().all());
+      EXPECT_TRUE(points.points[3].array().isNaN().all());
+      EXPECT_EQ(removed.data[25], std::byte{10});
+      EXPECT_FALSE(removed.is_dense);
+    }
+    const auto marked =
+        io::cloud_output(table.message(), labelled.report, {.labelled = true}, data);
+    ASSERT_EQ(marked.fields.size(), 6U);
+    EXPECT_EQ(marked.fields[4].name, "label");
+    EXPECT_EQ(marked.point_step, 16U);
+    EXPECT_EQ(marked.data[16 + 13], static_cast<std::byte>(occluded));
+    EXPECT_EQ(marked.data[16 + 14], std::byte{7});
+  }
+}
+
+TEST(CloudOutput, RemovesRangesOfAScan) {
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  const io::LaserScanMessage scan{.header = {stamp, ""},
+                                  .angle_min = -1.0F,
+                                  .angle_increment = 0.5F,
+                                  .time_increment = 1e-3F,
+                                  .range_min = 0.1F,
+                                  .range_max = 10.0F,
+                                  .ranges = {1, 2, inf, 0.05F, 3},
+                                  .intensities = {1, 2, 3, 4, 5}};
+  CloudPoints points;
+  ASSERT_EQ(io::read_points(scan, points), "");
+  for (const std::size_t i : {0U, 1U, 4U}) {
+    const float angle = -1.0F + 0.5F * static_cast<float>(i);
+    const Eigen::Vector3f expected(scan.ranges[i] * std::cos(angle),
+                                   scan.ranges[i] * std::sin(angle), 0);
+    EXPECT_LT((points.points[i] - expected).norm(), 1e-6F);
+    EXPECT_NEAR(points.times[i], 1e6 * static_cast<double>(i), 100.0);
+  }
+  EXPECT_TRUE(points.points[2].array().isNaN().any());
+  EXPECT_TRUE(points.points[3].array().isNaN().any()) << "below range_min";
+  const Labelled labelled({clear, occluded, unknown, unknown, beyond});
+  std::vector<std::byte> none;
+  const auto removed = io::cloud_output(scan, labelled.report, {}, none);
+  EXPECT_EQ(removed.ranges[0], 1.0F);
+  EXPECT_TRUE(std::isnan(removed.ranges[1]));
+  EXPECT_EQ(removed.ranges[2], inf) << "nothing was removed there";
+  EXPECT_EQ(removed.ranges[3], 0.05F);
+  EXPECT_TRUE(std::isnan(removed.ranges[4]));
+  EXPECT_EQ(removed.intensities, scan.intensities);
+  const auto infinite = io::cloud_output(scan, labelled.report, {.infinite_ranges = true}, none);
+  EXPECT_EQ(infinite.ranges[1], inf);
+}
+
+TEST(CloudOutput, RemovesPointsOfLivoxMessages) {
+  io::LivoxMessage cloud{.header = {stamp, ""}, .timebase = 5, .point_num = 2};
+  cloud.points = {{.offset_time = 7, .x = 1}, {.offset_time = 4'000'000'000, .x = 2, .line = 3}};
+  CloudPoints points;
+  ASSERT_EQ(io::read_points(cloud, points), "");
+  EXPECT_EQ(points.points[1], Eigen::Vector3f(2, 0, 0));
+  EXPECT_EQ(points.times[0], 7);
+  EXPECT_GT(points.times[1], 0) << "too late for 32 bits";
+  const Labelled labelled({occluded, clear});
+  std::vector<std::byte> none;
+  const auto removed = io::cloud_output(cloud, labelled.report, {}, none);
+  ASSERT_EQ(removed.points.size(), 1U);
+  EXPECT_EQ(removed.point_num, 1U);
+  EXPECT_EQ(removed.points[0].line, 3);
+}
+
+}  // namespace
+}  // namespace penumbra::test
