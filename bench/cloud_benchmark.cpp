@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Google Benchmark of labelling scans: a lidar of 64 beams, which looks 100 degrees wide, near a
-// robot that moves in a room. One thread.
+// robot that moves in a room. Parts: of a scan, each labelled with poses of its own.
 #include "scenes.hpp"
 
 #include <limits>
@@ -73,12 +73,20 @@ void label(benchmark::State& state, const BenchScene& scene) {
   double on_robot = 0.0;
   for (std::size_t i = 0; i < frames; ++i)
     scans.push_back(scanner.scan(scene.path[i], count, on_robot));
-  CloudLabeller labeller(bodies);
+  CloudLabeller labeller(bodies, {}, static_cast<int>(state.range(1)));
+  const auto parts = static_cast<std::size_t>(state.range(2));
+  std::vector<std::uint16_t> part_of;
+  for (std::size_t point = 0; point < static_cast<std::size_t>(count); ++point)
+    part_of.push_back(static_cast<std::uint16_t>(point * parts / static_cast<std::size_t>(count)));
+  std::vector<LinkPoses> poses(frames);
+  for (std::size_t frame = 0; frame < frames; ++frame)
+    for (std::size_t part = 0; part < parts; ++part)
+      poses[frame].insert(poses[frame].end(), scene.path[frame].begin(), scene.path[frame].end());
   std::size_t i = 0;
   for (auto _ : state) {
     const auto* const data = reinterpret_cast<const std::byte*>(scans[i % frames].data());
     const CloudLabels& labels =
-        labeller.label({data, static_cast<std::size_t>(count)}, origin, scene.path[i % frames]);
+        labeller.label({data, static_cast<std::size_t>(count)}, origin, poses[i % frames], part_of);
     benchmark::DoNotOptimize(labels.labels.data());
     ++i;
   }
@@ -91,9 +99,13 @@ void add_all(BenchScene made) {
   const auto scene = std::make_shared<const BenchScene>(std::move(made));
   benchmark::RegisterBenchmark(scene->name.c_str(),
                                [scene](benchmark::State& state) { label(state, *scene); })
-      ->Arg(50'000)
-      ->Arg(200'000)
-      ->Arg(800'000)
+      ->ArgNames({"points", "threads", "parts"})
+      ->Args({50'000, 1, 1})
+      ->Args({200'000, 1, 1})
+      ->Args({800'000, 1, 1})
+      ->Args({200'000, 2, 1})
+      ->Args({200'000, 1, 4})
+      ->Args({200'000, 1, 16})
       ->Unit(benchmark::kMillisecond);
 }
 

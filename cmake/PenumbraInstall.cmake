@@ -34,7 +34,8 @@ set(public_headers
   calibration/calibration.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
   session/plan_forecast.hpp session/session.hpp session/warnings.hpp tuning/missing_parts.hpp
   scene/look_ahead.hpp scene/target_fusion.hpp robot/trajectory.hpp scene/view_planning.hpp
-  cloud/cloud_labels.hpp)
+  cloud/cloud_labels.hpp
+  cloud/cloud_pipeline.hpp)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/penumbra/${header}

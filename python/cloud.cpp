@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
 #include <optional>
+#include <span>
 
 #include <python/arrays.hpp>
 #include <python/bindings.hpp>
@@ -17,8 +18,9 @@ using LabelArray = Shown<"Annotated[NDArray[uint8], '(N,)']">;
 using LinkArray = Shown<"Annotated[NDArray[uint16], '(N,)']">;
 
 struct PointLabeller {
-  PointLabeller(const std::vector<OwnedBody>& bodies, const CloudRule& rule)
-      : labeller(with_bodies(bodies, [&](auto all) { return CloudLabeller(all, rule); })) {}
+  PointLabeller(const std::vector<OwnedBody>& bodies, const CloudRule& rule, int threads)
+      : labeller(with_bodies(bodies, [&](auto all) { return CloudLabeller(all, rule, threads); })) {
+  }
 
   CloudLabeller labeller;
   OneThread thread;
@@ -47,20 +49,33 @@ PointsView points_of(const py::object& source) {
           array.strides(0)};
 }
 
+std::span<const std::uint16_t> parts_of(const py::object& source) {
+  if (!py::isinstance<py::array_t<std::uint16_t>>(source) || is_masked(source) ||
+      !(py::array(source).flags() & py::array::c_style))
+    throw py::type_error("parts: expected numpy.ndarray of uint16 with shape (N,); got " +
+                         description_of(source));
+  const py::array array(source);
+  return {static_cast<const std::uint16_t*>(array.data()), static_cast<std::size_t>(array.size())};
+}
+
 template <typename Array, typename T>
 Array copied_array(const std::vector<T>& values) {
   return Array(read_only(py::array(static_cast<py::ssize_t>(values.size()), values.data())));
 }
 
 PointLabels label(PointLabeller& self, const PointArray& points, const Poses& T_points_body,
-                  const std::optional<Eigen::Vector3d>& origin) {
+                  const std::optional<Eigen::Vector3d>& origin,
+                  const std::optional<LinkArray>& parts) {
   const OneThread::Use use(self.thread, "CloudLabeller.label");
   const PointsView view = points_of(points);
   if (origin && !origin->allFinite()) throw py::value_error("origin: expected finite numbers");
+  if (!origin && parts) throw py::value_error("parts: points without an origin are of one instant");
+  std::span<const std::uint16_t> part_of;
+  if (parts) part_of = parts_of(*parts);
   const CloudLabels* found = nullptr;
   {
     const py::gil_scoped_release others;
-    found = origin ? &self.labeller.label(view, *origin, T_points_body)
+    found = origin ? &self.labeller.label(view, *origin, T_points_body, part_of)
                    : &self.labeller.label(view, T_points_body);
   }
   return {copied_array<LabelArray>(found->labels), copied_array<LinkArray>(found->links),
@@ -68,9 +83,9 @@ PointLabels label(PointLabeller& self, const PointArray& points, const Poses& T_
 }
 
 std::shared_ptr<PointLabeller> make_labeller(const std::vector<OwnedBody>& bodies,
-                                             const CloudRule& rule) {
+                                             const CloudRule& rule, int threads) {
   const py::gil_scoped_release others;
-  return std::make_shared<PointLabeller>(bodies, rule);
+  return std::make_shared<PointLabeller>(bodies, rule, threads);
 }
 
 }  // namespace
@@ -83,6 +98,9 @@ void bind_cloud(py::module_& m) {
       "occluded. Clear and front points that a beam may have mixed with robot next to their ray "
       "are fringe.");
   bind_settings(rule);
+  rule.def_static("for_sensor", &CloudRule::for_sensor, py::arg("name"),
+                  "The rule of a sensor: lidar_2cm (the default), livox_mid360, ouster_os1 or "
+                  "hokuyo; estimates from data sheets. Raises InputError for another name.");
   py::class_<PointLabels> labels(m, "CloudLabels",
                                  "The labels of a cloud, in the order of its points.");
   show_fields(
@@ -96,13 +114,17 @@ void bind_cloud(py::module_& m) {
       m, "CloudLabeller",
       "Says of each point of a cloud whether it is the robot's. Serves one thread at a time.")
       .def(py::init(&make_labeller), py::arg("bodies"), py::arg("rule") = CloudRule(),
-           "bodies: Robot.bodies, say. Raises InputError for settings out of bounds.")
+           py::arg("threads") = 1,
+           "bodies: Robot.bodies, say. Results do not depend on threads. Raises InputError for "
+           "settings out of bounds.")
       .def("label", &label, py::arg("points"), py::arg("T_points_body"),
-           py::arg("origin") = py::none(),
+           py::arg("origin") = py::none(), py::arg("parts") = py::none(),
            "Labels points by the poses of the bodies, both in the same frame, metres. origin: "
            "where the sensor that measured the points stood. None: points without rays, as of "
            "merged clouds: those on or in the robot are occluded, the others clear. Coordinates "
-           "that are not finite, and points less than 2 cm from the origin, are no measurement.");
+           "that are not finite, and points less than 2 cm from the origin, are no measurement. "
+           "parts: for a robot that moves during the scan, the part of the scan that each point is "
+           "of; T_points_body then has the poses of all bodies in part 0, in part 1 and so on.");
 }
 
 }  // namespace penumbra::python

@@ -132,12 +132,16 @@ StoredCloud read_cloud(const std::filesystem::path& file) {
   return with_cloud_name(file, [&] { return format.parse(std::move(bytes)); });
 }
 
-void write_cloud(const std::filesystem::path& file, const PointCloud2Message& cloud) {
+std::string cloud_bytes(const std::filesystem::path& file, const PointCloud2Message& cloud) {
   const CloudFormat& format = require_cloud_format(file);
-  const std::string bytes = with_cloud_name(file, [&] {
+  return with_cloud_name(file, [&] {
     check_cloud_layout(cloud);
     return format.format(cloud);
   });
+}
+
+void write_cloud(const std::filesystem::path& file, const PointCloud2Message& cloud) {
+  const std::string bytes = cloud_bytes(file, cloud);
   write_file(file, bytes.data(), bytes.size());
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include <io/ros/messages.hpp>
@@ -50,5 +51,8 @@ struct StoredCloud {
 /// all (the bytes). Only .pcd keeps the rows of an organised cloud. Elements of a field become one
 /// property or column each outside .pcd.
 void write_cloud(const std::filesystem::path& file, const PointCloud2Message& cloud);
+/// Returns what write_cloud writes.
+[[nodiscard]] std::string cloud_bytes(const std::filesystem::path& file,
+                                      const PointCloud2Message& cloud);
 
 }  // namespace penumbra::io

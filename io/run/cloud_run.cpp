@@ -132,12 +132,7 @@ void RecordedRun::label(const JointRow& row, ResultFolder& folder, CloudSummary&
   if (!fault.empty()) return;
   std::vector<std::byte> data;
   const PointCloud2Message out = cloud_output(stored.cloud, report, options_.how, data);
-  folder.add(file.filename().string(), [&](const std::filesystem::path& part) {
-    // A part has another ending.
-    const std::filesystem::path named = part.parent_path() / ("part-" + file.filename().string());
-    write_cloud(named, out);
-    std::filesystem::rename(named, part);
-  });
+  folder.add_text(file.filename().string(), cloud_bytes(file, out));
 }
 
 CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {

@@ -190,8 +190,14 @@ void CloudLabeller::State::label_face(std::size_t part, std::size_t number,
     T_body_face[i] = T_body_points[i] * T_face_points.inverse();
     T_face_body[i] = T_body_face[i].inverse();
   }
-  face.show(renderer->render(T_face_body));
   const Eigen::Matrix3f R = T_face_points.linear().cast<float>();
+  Eigen::AlignedBox2f where;
+  for (const auto& lists : sorted)
+    for (const Measurement& one : lists[part * CubeFace::count + number]) {
+      const FacePoint point = CubeFace::place(R * one.ray);
+      where.extend(Eigen::Vector2f(point.u, point.v));
+    }
+  face.show(renderer->render(T_face_body, face.window(where)));
   for (const auto& lists : sorted) {
     const Measurements& some = lists[part * CubeFace::count + number];
     share(some.size(), [&](std::size_t begin, std::size_t end) {

@@ -15,8 +15,9 @@ namespace penumbra {
 namespace {
 
 constexpr auto unlabelled = static_cast<std::uint8_t>(Label::unknown);
-/// Of e(0), so that small ones do not ask for endless parts.
-constexpr double least_movement = 0.002;  // metres
+/// Metres that a robot may move within a part of a scan. Outlines are then wrong by half of it,
+/// which the beam of a point covers from 1.7 m on.
+constexpr double part_movement = 0.01;
 
 /// Returns how far the points of a mesh may be from its frame's origin.
 double radius_of(std::span<const PreparedMesh> meshes) {
@@ -103,7 +104,7 @@ bool CloudPipeline::State::place(std::int64_t stamp, const PoseAt& pose_at) {
   return true;
 }
 
-/// Returns in how many parts of a motion no body moves by more than the tolerance.
+/// Returns in how many parts of a motion no body moves by more than part_movement.
 std::size_t CloudPipeline::State::parts_between(std::span<const Eigen::Isometry3d> begin,
                                                 std::span<const Eigen::Isometry3d> end) const {
   double most = 0.0;
@@ -112,7 +113,7 @@ std::size_t CloudPipeline::State::parts_between(std::span<const Eigen::Isometry3
     const double chord = (moved.linear() - Eigen::Matrix3d::Identity()).norm() / std::sqrt(2.0);
     most = std::max(most, moved.translation().norm() + chord * radii[i]);
   }
-  const double parts = std::ceil(most / std::max(config.rule.tolerance.a, least_movement));
+  const double parts = std::ceil(most / part_movement);
   return static_cast<std::size_t>(std::clamp(parts, 1.0, static_cast<double>(max_parts)));
 }
 

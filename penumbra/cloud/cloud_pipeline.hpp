@@ -56,8 +56,8 @@ struct CloudReport {
 };
 
 /// Labels the scans of one sensor by the poses of a robot. During a scan with times the poses are
-/// looked up so often that no link moves by more than the tolerance e(0) in between, or max_parts
-/// times. Serves one thread at a time.
+/// looked up so often that no link moves by more than 1 cm in between, or max_parts times. Serves
+/// one thread at a time.
 class CloudPipeline {
  public:
   static constexpr std::size_t max_parts = 64;

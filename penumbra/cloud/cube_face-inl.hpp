@@ -6,8 +6,10 @@
 #include <optional>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <penumbra/cloud/cloud_labels.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
 
 namespace penumbra::cloud {
 
@@ -74,6 +76,10 @@ class CubeFace {
 
   explicit CubeFace(double beam);
 
+  /// Returns the pixels that may decide the labels of points in this part of the image.
+  [[nodiscard]] PixelRectangle window(const Eigen::AlignedBox2f& points) const;
+
+  /// Takes what was rendered, right in the window at least.
   void show(const VirtualDepthView& seen);
 
   /// Returns whether robot may be in reach of a beam.

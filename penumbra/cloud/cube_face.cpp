@@ -30,6 +30,14 @@ CubeFace::CubeFace(double beam)
       cells_(size / cell, size / cell),
       around_(size / cell, size / cell) {}
 
+PixelRectangle CubeFace::window(const Eigen::AlignedBox2f& points) const {
+  const int more = reach_ + 2 * cell;  // whole cells
+  const Eigen::Array2i least = points.min().array().cast<int>() - more,
+                       most = points.max().array().cast<int>() + more + 1;
+  return {std::max(0, least.x()), std::max(0, least.y()), std::min(size, most.x()),
+          std::min(size, most.y())};
+}
+
 void CubeFace::show(const VirtualDepthView& seen) {
   seen_ = seen;
   std::fill_n(cells_.data(), cells_.size(), std::uint8_t{0});

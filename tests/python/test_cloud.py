@@ -26,6 +26,24 @@ def test_points_before_on_and_behind_a_box():
     assert found.links.tolist() == [1, 1, 1, 0, 0] and found.enclosing is None
 
 
+def test_a_box_that_moves_during_the_scan():
+    points = np.array([[0, 0, 0.91], [0, 0, 1.41], [0, 0, 0.91], [0, 0, 1.41]], np.float32)
+    parts = np.array([0, 0, 1, 1], np.uint16)
+    labeller = penumbra.CloudLabeller([penumbra.Body("box", [box_mesh(0.2)])], threads=2)
+    poses = [pose(0, 0, 1), pose(0, 0, 1.5)]
+    found = labeller.label(points, poses, origin=[0, 0, 0], parts=parts)
+    assert found.labels.tolist() == [L.occluded, L.beyond, L.front, L.occluded]
+    with pytest.raises(TypeError, match="uint16"):
+        labeller.label(points, poses, origin=[0, 0, 0], parts=[0, 0, 1, 1])
+    with pytest.raises(ValueError, match="3 parts for 4 points"):
+        labeller.label(points, poses, origin=[0, 0, 0], parts=parts[:3])
+    with pytest.raises(ValueError, match="of one instant"):
+        labeller.label(points, poses, parts=parts)
+    assert penumbra.CloudRule.for_sensor("hokuyo").tolerance.a > 0.03
+    with pytest.raises(penumbra.InputError, match="lidar_2cm"):
+        penumbra.CloudRule.for_sensor("eyes")
+
+
 def test_points_without_rays_and_a_sensor_in_the_box():
     points = np.array([[0, 0, 1], [0, 0, 0.88], [0, 0, 0.8]], np.float32)
     labeller = box_labeller(tolerance=penumbra.Tolerance(a=0.05, b=0, c=0))
