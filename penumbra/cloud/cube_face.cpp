@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <penumbra/cloud/cube_face-inl.hpp>
 
@@ -46,14 +47,30 @@ void CubeFace::show(const VirtualDepthView& seen) {
     for (int v = v0; v < v1; ++v) {
       const std::uint16_t* const links = seen.links.row(v);
       std::uint8_t* const cells = &cells_(0, v / cell);
-      for (int u = u0; u < u1; ++u) cells[u / cell] |= links[u] != 0 ? 1 : 0;
+      for (int u = u0; u < u1; u += cell) {
+        std::uint64_t four = 0;
+        static_assert(sizeof four == cell * sizeof(std::uint16_t));  // tiles are wider
+        std::memcpy(&four, links + u, sizeof four);
+        cells[u / cell] |= four != 0 ? 1 : 0;
+      }
     }
   });
   const int reach = (reach_ + cell - 1) / cell, last = cells_.width() - 1;
+  const auto is_inner = [&](int i, int j) {
+    if (i == 0 || j == 0 || i == last || j == last) return false;
+    int robot = 0;
+    for (int y = j - 1; y <= j + 1; ++y)
+      for (int x = i - 1; x <= i + 1; ++x) robot += cells_(x, y);
+    return robot == 9;
+  };
   seen.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
     for (int j = v0 / cell; j < v1 / cell; ++j)
       for (int i = u0 / cell; i < u1 / cell; ++i) {
         if (cells_(i, j) == 0) continue;
+        if (is_inner(i, j)) {  // its reach is within that of cells at the edge, and the cells
+          around_(i, j) = 1;
+          continue;
+        }
         const int first = std::max(0, i - reach), wide = std::min(last, i + reach) + 1 - first;
         for (int y = std::max(0, j - reach); y <= std::min(last, j + reach); ++y)
           std::fill_n(&around_(first, y), wide, std::uint8_t{1});
