@@ -166,8 +166,19 @@ def read_dataset(shown, work):
 
 
 @pytest.mark.parametrize("block", all_blocks("yaml"), ids=str)
-def test_yaml_is_read(block, work):
+def test_yaml_is_read(block, work, environment):
     shown = yaml.safe_load(block.text)
+    if "sensor" in shown:
+        (work / "lidar_pose.csv").write_text((work / "camera_pose.csv").read_text())
+        (work / "clouds").mkdir()
+        (work / shown["frames"]["cloud"].replace("%06d", "000000")).write_text(
+            "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n0 0 2\n")
+        file = work / "recording.yaml"
+        file.write_text(block.text.replace("urdf: ur5e.urdf", "urdf: ur5e.urdf\n  packages: "
+                                           "{ur_description: ur_description}"))
+        subprocess.run(["penumbra", "cloud", file, "-o", "out", "--frames", "0:1"], cwd=work,
+                       env=environment, check=True, capture_output=True)
+        return
     if "joints" in shown:
         episode = read_dataset(shown, work).episode("it", np.zeros((2, 7)))
         assert episode.joints.shape == (2, 7)
