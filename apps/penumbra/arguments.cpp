@@ -167,8 +167,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   const auto any = [](const CLI::App&, const auto&) {};
   add("init", "write the recording.yaml of a folder of images", init, add_init, any);
   add("run", "label every frame of a recording or bag", run, add_run, check_run);
-  add("cloud", "take the robot out of point clouds and laser scans", cloud, add_cloud,
-      check_cloud);
+  add("cloud", "take the robot out of point clouds and laser scans", cloud, add_cloud, check_cloud);
   add("tune", "measure the sensor: tolerance, fringe, missing parts of the URDF", tune, add_tune,
       check_tune);
   add("calibrate", "find the camera's pose from the robot that it sees", calibrate, add_calibrate,

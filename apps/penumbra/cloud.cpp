@@ -48,6 +48,9 @@ void add_cloud(CLI::App& app, io::CloudRunOptions& cloud) {
       "--merged", [&cloud] { cloud.has_rays = false; },
       "the clouds of several sensors in one: no rays, only what lies on or in "
       "the robot is removed");
+  app.add_flag_callback(
+      "--ignore-times", [&cloud] { cloud.use_times = false; },
+      "all points of a scan were measured at its stamp; default: by their times, if they have any");
   add_number(app, "--threads", "default 1; results do not depend on it", "N", cloud.threads, 1,
              RendererOptions::max_threads);
   add_geometry(app, input.geometry, "the recording's, else collision");
@@ -64,6 +67,11 @@ void add_cloud(CLI::App& app, io::CloudRunOptions& cloud) {
   add_bag_robot(app, input.bag, {.sensor = "sensor", .frame = "clouds' frame", .data = "clouds"});
   const auto options = app.get_options();
   for (std::size_t i = first; i < options.size(); ++i) options[i]->group(BagHelp().group);
+}
+
+void check_cloud(const CLI::App& app, io::CloudRunOptions& cloud) {
+  note_bag_option(app, cloud.input);
+  cloud.input.bag.in_other_frame = !cloud.has_rays || !cloud.sensor_frame.empty();
 }
 
 int execute(const io::CloudRunOptions& options) {
@@ -95,9 +103,9 @@ int execute(const io::CloudRunOptions& options) {
          sensor.clouds == 0 ? "-"
                             : fixed(sensor.milliseconds / static_cast<double>(sensor.clouds), 2)});
     labelled += sensor.labelled();
-    if (!sensor.time_note.empty())
-      std::cout << sensor.name << ": " << sensor.time_note << "; labelled in up to " << sensor.parts
-                << " parts\n";
+    if (!sensor.time_note.empty()) std::cout << sensor.name << ": " << sensor.time_note << '\n';
+    if (sensor.parts > 1)
+      std::cout << sensor.name << ": the robot moved: up to " << sensor.parts << " poses a scan\n";
     print_notes(sensor.warnings());
   }
   print_table(std::move(rows));

@@ -160,6 +160,9 @@ void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help = {});
 void add_camera(std::vector<NamedCamera>& cameras, const std::string& name,
                 const std::string& depth_topic);
 
+/// Notes which option of bags was given.
+void note_bag_option(const CLI::App& app, io::InputOptions& input);
+
 /// Refuses options that the chosen renderer does not use.
 void check_renderer(Backend backend, const RendererOptions& options);
 

@@ -32,27 +32,6 @@ io::RunResult judge_all(io::InputSession& session, io::RunOutput& output) {
   });
 }
 
-/// Throws InputError if results would replace the input.
-void check_place(const RunArguments& arguments) {
-  std::error_code error;
-  const std::filesystem::path input = std::filesystem::absolute(arguments.session.input.path);
-  const std::filesystem::path& output = arguments.output.path;
-  if (io::is_output_bag(output)) {
-    if (std::filesystem::equivalent(output, input, error))
-      throw InputError("--output: " + output.string() + " is the input; choose another name");
-    return io::check_former_bag(output);
-  }
-  const bool is_own = std::filesystem::equivalent(output, input, error) ||
-                      (std::filesystem::is_regular_file(input, error) &&
-                       std::filesystem::equivalent(output, input.parent_path(), error));
-  if (is_own)
-    throw InputError("--output: " + output.string() +
-                     " is the recording's own folder; choose another, or one inside of it");
-  if (std::filesystem::exists(output / "recording.yaml", error))
-    throw InputError("--output: " + output.string() +
-                     " is a recording (it has a recording.yaml); choose another folder");
-}
-
 }  // namespace
 
 std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
@@ -87,7 +66,7 @@ int status_of(const io::RunResult& result, bool force) {
 }
 
 int execute(const RunArguments& arguments) {
-  check_place(arguments);
+  io::check_output_place(arguments.session.input.path, arguments.output.path);
   const std::filesystem::path& path = arguments.output.path;
   std::vector<NamedCamera> cameras = arguments.cameras;
   if (cameras.empty() && arguments.session.input.camera.empty())

@@ -118,21 +118,20 @@ void check_targets(const io::SessionOptions& session) {
         "--target-topic: its pixels are those of the camera's images; leave --image rectified out");
 }
 
-/// Notes which option of bags was given.
-void check_input(const CLI::App& app, io::InputOptions& input) {
-  for (const CLI::Option* option : app.get_options())
-    if (option->count() > 0 && option->get_group() == BagHelp().group)
-      input.bag_option = option->get_name();
-}
-
 /// Checks what run, tune and view have in common.
 void check_session(const CLI::App& app, io::SessionOptions& session) {
   check_renderer(session.backend, session.renderer);
   check_targets(session);
-  check_input(app, session.input);
+  note_bag_option(app, session.input);
 }
 
 }  // namespace
+
+void note_bag_option(const CLI::App& app, io::InputOptions& input) {
+  for (const CLI::Option* option : app.get_options())
+    if (option->count() > 0 && option->get_group() == BagHelp().group)
+      input.bag_option = option->get_name();
+}
 
 void add_bag_robot(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
   add_list(app, "--joint-topic", "default: " + help.joints + "; may be given several times",
@@ -354,10 +353,8 @@ void check_tune(const CLI::App& app, TuneArguments& tune) {
   tune.session.image = ImageSpace::rectified;  // tuning takes a pinhole camera's images
 }
 
-void check_cloud(const CLI::App& app, io::CloudRunOptions& cloud) { check_input(app, cloud.input); }
-
 void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate) {
-  check_input(app, calibrate.input.input);
+  note_bag_option(app, calibrate.input.input);
   if (calibrate.search && calibrate.initial)
     throw InputError("--search: --initial is given too; leave one of them out");
   calibrate.input.input.needs_depth = !calibrate.input.masks;
@@ -365,13 +362,13 @@ void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate) {
 }
 
 void check_view_planning(const CLI::App& app, ViewPlanningArguments& planning) {
-  check_input(app, planning.input.input);
+  note_bag_option(app, planning.input.input);
   if (!planning.input.input.bag.target_topics.empty())
     throw InputError("--target-topic: targets come from the file of --targets; leave it out");
 }
 
 void check_look_ahead(const CLI::App& app, LookAheadArguments& ahead) {
-  check_input(app, ahead.input.input);
+  note_bag_option(app, ahead.input.input);
   if (!ahead.input.input.bag.target_topics.empty())
     throw InputError("--target-topic: targets come from the file of --targets; leave it out");
 }

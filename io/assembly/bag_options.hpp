@@ -21,6 +21,7 @@ struct BagOptions {
   /// Of clouds in place of images: all of their topics, or only these.
   bool clouds = false;
   std::vector<std::string> cloud_topics;
+  bool in_other_frame = false;  ///< the clouds' frame need not be their sensor's
   std::vector<std::string> joint_topics, target_topics, plan_topics;
   std::optional<PoseSource> poses;             ///< nothing: joints, or tf where there are none
   std::optional<std::filesystem::path> robot;  ///< in place of /robot_description

@@ -174,7 +174,8 @@ std::vector<TopicUse> choose_clouds(const Chooser& chooser, const BagOptions& op
   for (const std::string& name : options.cloud_topics)
     uses.push_back(chooser.named("cloud", "--topic", name, cloud_types));
   if (options.cloud_topics.empty())
-    for (const BagTopic* topic : chooser.of(cloud_types))
+    for (const BagTopic* topic : chooser.of(
+             cloud_types, [](const std::string& name) { return !name.starts_with("/penumbra/"); }))
       uses.push_back(Chooser::use("cloud", *topic, "by its type"));
   if (uses.empty()) chooser.refuse("has no clouds (" + one_of(cloud_types) + ")");
   return uses;

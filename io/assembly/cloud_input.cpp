@@ -28,7 +28,8 @@ void CloudInput::take(M message, const SerializedMessage& bytes, std::int64_t no
   cloud->header = message.header;
   cloud->arrived = now;
   cloud->message = std::move(message);
-  cloud->source_message = read_points(std::get<M>(cloud->message), cloud->points);
+  cloud->source_message =
+      read_points(std::get<M>(cloud->message), options_.use_times, cloud->points);
   push(std::move(cloud), now);
 }
 template void CloudInput::take(PointCloud2Message, const SerializedMessage&, std::int64_t);
@@ -52,7 +53,6 @@ void CloudInput::push(std::shared_ptr<ReceivedCloud> cloud, std::int64_t now) {
 }
 
 void CloudInput::drop(std::shared_ptr<Frame> cloud, const std::string& why) {
-  ++dropped_;
   if (options_.policy != DropPolicy::every) return;
   cloud->source_message = why;
   lost_.push_back(std::static_pointer_cast<ReceivedCloud>(std::move(cloud)));

@@ -37,6 +37,7 @@ struct CloudInputOptions {
   std::string topic = {};
   CloudRule rule = {};
   int threads = 1;
+  bool use_times = true;          ///< see read_points
   bool has_rays = true;           ///< false: merged clouds, see Scan::origin
   std::string sensor_frame = {};  ///< where rays start, in TF; empty: the clouds' own frame
   MountOptions mount = {};
@@ -69,14 +70,6 @@ class CloudInput {
   /// Labels a cloud that next() returned last; the report is valid until the next call.
   [[nodiscard]] const CloudReport& label(const ReceivedCloud& cloud);
 
-  [[nodiscard]] const CloudInputOptions& options() const { return options_; }
-  [[nodiscard]] const CloudPipeline* pipeline() const {
-    return setup_ ? &setup_->pipeline : nullptr;
-  }
-  /// Returns why there is no setup although robot and frame are known.
-  [[nodiscard]] const std::string& setup_fault() const { return setup_fault_; }
-  [[nodiscard]] std::size_t dropped() const { return dropped_; }
-
  private:
   struct Setup {
     std::shared_ptr<PosedRobot> posed;
@@ -96,7 +89,6 @@ class CloudInput {
   std::unique_ptr<Setup> setup_;
   std::string setup_fault_;
   std::deque<std::shared_ptr<ReceivedCloud>> lost_;  // that do not wait for poses
-  std::size_t dropped_ = 0;
 };
 
 }  // namespace penumbra::io

@@ -12,7 +12,7 @@ namespace {
 
 using cloud_formats::number_types;
 
-constexpr std::uint64_t most_cloud_bytes = std::uint64_t{1} << 32U;
+constexpr std::uint64_t most_cloud_bytes = std::uint64_t{1} << 30U;
 
 struct CloudFormat {
   std::string_view extension;

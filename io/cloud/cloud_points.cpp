@@ -10,6 +10,7 @@
 
 #include <penumbra/labels/labels.hpp>
 
+#include <io/cloud/cloud_formats-inl.hpp>
 #include <io/cloud/cloud_points.hpp>
 #include <io/files/printable.hpp>
 
@@ -18,43 +19,23 @@ namespace {
 
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 constexpr double nanosecond = 1e-9;
-constexpr double same_clock = 10.0;  // seconds
-
-/// Bytes of PointField's types 1 to 8.
-constexpr std::array<std::size_t, 9> field_sizes = {0, 1, 1, 2, 2, 4, 4, 4, 8};
+constexpr double shortest = 1e-3, longest = 1.0;  // scans, seconds
 
 std::size_t size_of(const PointFieldMessage& field) {
-  return field.datatype < field_sizes.size() ? field_sizes[field.datatype] : 0;
+  return field.datatype < cloud_formats::number_types.size()
+             ? cloud_formats::number_types[field.datatype].size
+             : 0;
 }
 
 /// Reads a number of one of PointField's types.
 double number_at(const std::byte* at, std::uint8_t type, bool is_swapped) {
-  std::array<std::byte, 8> bytes{};
-  const std::size_t size = field_sizes[type];
-  std::copy_n(at, size, bytes.begin());
-  if (is_swapped) std::reverse(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
-  const auto as = [&]<typename T>(T value) {
+  return cloud_formats::with_type(type, [&]<typename T>(T value) {
+    std::array<std::byte, sizeof(T)> bytes;
+    std::copy_n(at, bytes.size(), bytes.begin());
+    if (is_swapped) std::reverse(bytes.begin(), bytes.end());
     std::memcpy(&value, bytes.data(), sizeof value);
     return static_cast<double>(value);
-  };
-  switch (type) {
-    case 1:
-      return as(std::int8_t{});
-    case 2:
-      return as(std::uint8_t{});
-    case 3:
-      return as(std::int16_t{});
-    case 4:
-      return as(std::uint16_t{});
-    case 5:
-      return as(std::int32_t{});
-    case 6:
-      return as(std::uint32_t{});
-    case 7:
-      return as(float{});
-    default:
-      return as(double{});
-  }
+  });
 }
 
 /// The places of a cloud's points and fields.
@@ -107,58 +88,56 @@ class PointTable {
   const PointCloud2Message& cloud_;
 };
 
-/// Writes the times, seconds times `unit` after `from`, as nanoseconds. Those that are not finite
-/// are at 0.
-void set_times(const std::vector<double>& values, double from, double unit,
-               std::vector<std::int32_t>& times) {
-  times.clear();
-  for (const double value : values) {
-    const double time = (value - from) * unit / nanosecond;
-    constexpr double most = std::numeric_limits<std::int32_t>::max();
-    times.push_back(std::abs(time) <= most ? static_cast<std::int32_t>(time) : 0);
-  }
-}
-
-/// Finds what the numbers of a field mean.
-void understand_times(const std::string& name, const std::vector<double>& values,
+/// Finds what the numbers of a field mean, and sets the times. Returns why they are of no scan.
+std::string set_times(const std::string& name, const std::vector<double>& values,
                       std::int64_t stamp, CloudPoints& out) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const double value : values) {
-    if (!std::isfinite(value)) continue;
-    least = std::min(least, value);
-    most = std::max(most, value);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    // Points without measurement often have no time either.
+    if (!std::isfinite(values[i]) || !(out.points[i].squaredNorm() > 0.0F)) continue;
+    least = std::min(least, values[i]);
+    most = std::max(most, values[i]);
   }
   const double length = most - least;
-  if (!(length > 0.0)) return;  // all at once, or none
+  const std::string field = "field '" + printable(name) + "'";
+  if (!(length > 0.0)) return {};  // all at once
   const double seconds = static_cast<double>(stamp) * nanosecond;
-  const std::string field = "field '" + printable(name) + "' has the points' times: ";
   constexpr std::array<std::pair<double, const char*>, 4> units = {
       std::pair(1.0, "seconds"), std::pair(1e-3, "milliseconds"), std::pair(1e-6, "microseconds"),
       std::pair(1e-9, "nanoseconds")};
-  for (const auto& [unit, word] : units)
-    if (seconds > same_clock && std::abs(least * unit - seconds) < same_clock) {
-      out.time_note = field + word + " since 1970";
-      return set_times(values, seconds / unit, unit, out.times);
-    }
-  constexpr double shortest = 1e-3, longest = 1.0;  // scans, seconds
   for (const auto& [unit, word] : units) {
     if (length * unit < shortest || length * unit > longest) continue;
-    const bool is_relative = std::abs(least * unit) < same_clock;
-    out.time_note = field + word + (is_relative ? " after the stamp" : " of a clock of its own");
-    return set_times(values, is_relative ? 0.0 : least, unit, out.times);
+    const bool is_absolute = std::abs(least * unit - seconds) < longest;
+    const bool is_relative = !is_absolute && std::abs(least * unit) < longest;
+    const double from = is_absolute ? seconds / unit : is_relative ? 0.0 : least;
+    out.time_note = field + " has the points' times: " + word +
+                    (is_absolute   ? " of the stamp's clock"
+                     : is_relative ? " after the stamp"
+                                   : " of a clock of its own");
+    for (const double value : values)
+      out.times.push_back(value >= least && value <= most
+                              ? static_cast<std::int32_t>((value - from) * unit / nanosecond)
+                              : 0);
+    return {};
   }
-  out.time_note =
-      field + "not used, they are from " + std::to_string(least) + " to " + std::to_string(most);
+  return field + " has times from " + std::to_string(least) + " to " + std::to_string(most) +
+         ", which is no scan of 1 ms to 1 s in any unit";
 }
 
-void read_times(const PointTable& table, std::int64_t stamp, CloudPoints& out) {
+std::string read_times(const PointTable& table, std::int64_t stamp, CloudPoints& out) {
   for (const char* const name : {"t", "time", "timestamp", "time_stamp", "offset_time"}) {
     const PointFieldMessage* const field = table.find(name);
     if (field == nullptr) continue;
     std::vector<double> values(table.count());
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = table.at(i, *field);
-    return understand_times(name, values, stamp, out);
+    return set_times(name, values, stamp, out);
   }
+  out.time_note = "the points have no times: all are labelled by the robot's pose at the stamp";
+  return {};
+}
+
+bool is_range(const LaserScanMessage& scan, std::size_t i) {
+  return scan.ranges[i] >= scan.range_min && scan.ranges[i] <= scan.range_max;
 }
 
 void view_copied(CloudPoints& out) {
@@ -171,7 +150,7 @@ bool stays(const CloudReport& report, std::size_t point) {
 
 }  // namespace
 
-std::string read_points(const PointCloud2Message& cloud, CloudPoints& out) {
+std::string read_points(const PointCloud2Message& cloud, bool use_times, CloudPoints& out) {
   out.points = {};
   out.times.clear();
   out.time_note.clear();
@@ -200,37 +179,39 @@ std::string read_points(const PointCloud2Message& cloud, CloudPoints& out) {
         out.copied.push_back(static_cast<float>(table.at(i, *axis)));
     view_copied(out);
   }
-  read_times(table, cloud.header.stamp, out);
-  return {};
+  return use_times ? read_times(table, cloud.header.stamp, out) : std::string();
 }
 
-std::string read_points(const LaserScanMessage& scan, CloudPoints& out) {
+std::string read_points(const LaserScanMessage& scan, bool use_times, CloudPoints& out) {
   out.copied.clear();
   out.times.clear();
   out.time_note.clear();
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const float range = scan.ranges[i];
     const float angle = scan.angle_min + static_cast<float>(i) * scan.angle_increment;
-    const bool is_measured = range >= scan.range_min && range <= scan.range_max;
-    const float r = is_measured ? range : no_value;
+    const float r = is_range(scan, i) ? range : no_value;
     out.copied.insert(out.copied.end(), {r * std::cos(angle), r * std::sin(angle), 0.0F});
   }
   view_copied(out);
   const double step = scan.time_increment;
-  if (std::isfinite(step) && step != 0.0 &&
-      std::abs(step) * static_cast<double>(scan.ranges.size()) <= 1.0)
-    for (std::size_t i = 0; i < scan.ranges.size(); ++i)
-      out.times.push_back(static_cast<std::int32_t>(static_cast<double>(i) * step / nanosecond));
+  if (!use_times || step == 0.0) return {};
+  if (!(std::abs(step) * static_cast<double>(scan.ranges.size()) <= longest))
+    return "its time_increment of " + std::to_string(step) + " s makes a scan of more than 1 s";
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i)
+    out.times.push_back(static_cast<std::int32_t>(static_cast<double>(i) * step / nanosecond));
   return {};
 }
 
-std::string read_points(const LivoxMessage& cloud, CloudPoints& out) {
+std::string read_points(const LivoxMessage& cloud, bool use_times, CloudPoints& out) {
   out.points = {reinterpret_cast<const std::byte*>(cloud.points.data()) + offsetof(LivoxPoint, x),
                 cloud.points.size(), sizeof(LivoxPoint)};
   out.times.clear();
-  for (const LivoxPoint& point : cloud.points)
-    out.times.push_back(static_cast<std::int32_t>(
-        std::min<std::uint32_t>(point.offset_time, std::numeric_limits<std::int32_t>::max())));
+  if (!use_times) return {};
+  for (const LivoxPoint& point : cloud.points) {
+    if (point.offset_time * nanosecond > longest)
+      return "an offset_time of " + std::to_string(point.offset_time) + " ns is more than 1 s";
+    out.times.push_back(static_cast<std::int32_t>(point.offset_time));
+  }
   return {};
 }
 
@@ -281,10 +262,11 @@ PointCloud2Message cloud_output(const PointCloud2Message& cloud, const CloudRepo
 LaserScanMessage cloud_output(const LaserScanMessage& scan, const CloudReport& report,
                               const CloudOutput& how, std::vector<std::byte>& /*data*/) {
   LaserScanMessage out = scan;
-  const float none = how.infinite_ranges ? std::numeric_limits<float>::infinity() : no_value;
   for (std::size_t i = 0; i < out.ranges.size(); ++i) {
-    const bool is_measured = scan.ranges[i] >= scan.range_min && scan.ranges[i] <= scan.range_max;
-    if (is_measured && !stays(report, i)) out.ranges[i] = none;
+    if (!is_range(scan, i) || stays(report, i)) continue;
+    const bool is_robot = static_cast<Label>(report.labels[i]) != Label::unknown;
+    out.ranges[i] =
+        how.infinite_ranges && is_robot ? std::numeric_limits<float>::infinity() : no_value;
   }
   return out;
 }

@@ -18,7 +18,7 @@ struct CloudPoints {
   PointsView points;                ///< refers to the message or to `copied`
   std::vector<float> copied;        ///< x, y, z of each point
   std::vector<std::int32_t> times;  ///< as Scan::times
-  std::string time_note;            ///< how the field of times was understood; empty: none
+  std::string time_note;            ///< how the field of times was understood
 
   CloudPoints() = default;
   CloudPoints(CloudPoints&&) = default;
@@ -29,21 +29,26 @@ struct CloudPoints {
 /// it cannot be used, one line, or nothing.
 ///
 /// PointCloud2: x, y and z of float32 or float64 in any order, aligned or not. The first field
-/// called t, time, timestamp, time_stamp or offset_time has the points' times. Numbers within 10 s
-/// of the header's stamp are absolute. Otherwise they count from the stamp, or, if they are not
-/// within 10 s of 0, from their first. A scan lasts between a millisecond and a second, which says
-/// whether they are seconds, milliseconds, microseconds or nanoseconds.
+/// called t, time, timestamp, time_stamp or offset_time has the points' times. A scan lasts between
+/// a millisecond and a second, which says whether its numbers are seconds, milliseconds,
+/// microseconds or nanoseconds. If the first is within a second of the header's stamp they are of
+/// its clock; if it is within a second of 0 they count from the stamp; else the first point is of
+/// the stamp.
 /// LaserScan: ranges outside of range_min to range_max are no measurement.
-[[nodiscard]] std::string read_points(const PointCloud2Message& cloud, CloudPoints& out);
-[[nodiscard]] std::string read_points(const LaserScanMessage& scan, CloudPoints& out);
-[[nodiscard]] std::string read_points(const LivoxMessage& cloud, CloudPoints& out);
+/// `use_times`: false: all points are measured at the stamp.
+[[nodiscard]] std::string read_points(const PointCloud2Message& cloud, bool use_times,
+                                      CloudPoints& out);
+[[nodiscard]] std::string read_points(const LaserScanMessage& scan, bool use_times,
+                                      CloudPoints& out);
+[[nodiscard]] std::string read_points(const LivoxMessage& cloud, bool use_times, CloudPoints& out);
 
 /// What is written of a labelled cloud.
 struct CloudOutput {
   /// PointCloud2 with all points and two more fields, `label` (uint8) and `link` (uint16: index + 1
   /// in CloudReport::links), in place of one without the robot.
   bool labelled = false;
-  bool infinite_ranges = false;  ///< removed rays of a LaserScan are inf in place of NaN
+  /// Ranges of the robot in a LaserScan become inf in place of NaN; those that may be its stay NaN.
+  bool infinite_ranges = false;
 };
 
 /// Returns the message with what is neither clear nor front removed. Points of a PointCloud2 of

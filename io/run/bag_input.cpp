@@ -40,11 +40,12 @@ Robot load_robot(const InputOptions& options, const BagSceneReader& reader,
                                const std::string& frame) {
   std::string known;
   if (!scene.frames.has_parent(frame)) known = ", which tf does not know";
-  throw InputError(options.path.string() +
-                   ": tf does not say where the camera is: no link of the robot is above its "
-                   "frame '" +
-                   printable(frame) + "'" + known +
-                   "; name the frame with --camera-frame, or give --pose and --parent");
+  const bool clouds = options.bag.clouds;
+  throw InputError(
+      options.path.string() + ": tf does not say where the " + (clouds ? "sensor" : "camera") +
+      " is: no link of the robot is above its frame '" + printable(frame) + "'" + known + "; " +
+      (clouds ? "choose other clouds with --topic" : "name the frame with --camera-frame") +
+      ", or give --pose and --parent");
 }
 
 CameraMount mount_in_bag(const InputOptions& options, BagSceneReader& reader, const Robot& robot,
@@ -53,7 +54,9 @@ CameraMount mount_in_bag(const InputOptions& options, BagSceneReader& reader, co
   if (!options.needs_camera_pose && wanted.parent) wanted.pose = Eigen::Isometry3d::Identity();
   if (!wanted.pose && mounted_frame(wanted, frame_of_images).empty())
     throw InputError(options.path.string() +
-                     ": the images do not name their frame; give it with --camera-frame");
+                     (options.bag.clouds
+                          ? ": the clouds do not name their frame; give --pose and --parent"
+                          : ": the images do not name their frame; give it with --camera-frame"));
   std::optional<CameraMount> mount;
   reader.read_until([&](const BagScene& scene) {
     mount = find_mount(robot, wanted, scene.frames, frame_of_images);
@@ -101,6 +104,19 @@ UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const Cam
 
 }  // namespace
 
+namespace {
+
+/// Whether a frame is above the robot in tf, as odom and map are, and no option says where the
+/// sensor is.
+bool above_root(const std::string& frame, const BagScene& scene, const Robot& robot,
+                const InputOptions& options) {
+  if (options.bag.in_other_frame) return false;
+  const auto above = scene.frames.chain(options.bag.frame_prefix + robot.links().front());
+  return std::find(above.begin(), above.end(), std::string(frame_name(frame))) != above.end();
+}
+
+}  // namespace
+
 BagClouds open_bag_clouds(const InputOptions& options, const LineSink& print) {
   BagSceneReader reader(options.path, options.bag, false);
   print_topics(reader.topics(), false, print);
@@ -114,6 +130,10 @@ BagClouds open_bag_clouds(const InputOptions& options, const LineSink& print) {
                    .static_transforms = {}};
   for (const TopicUse& use : clouds.topics.clouds) {
     const std::string frame = reader.scene().cloud_frames.at(use.name);
+    if (above_root(frame, reader.scene(), clouds.robot, options))
+      throw InputError(use.name + ": its clouds are given in frame '" + printable(frame) +
+                       "', above the robot, and not in their sensor's: name that with "
+                       "--sensor-frame, give --merged, or choose other clouds with --topic");
     clouds.mounts.push_back(mount_in_bag(options, reader, clouds.robot, frame));
     print(use.name + ": frame '" + printable(frame) + "' on link '" + clouds.mounts.back().parent +
           "', by " + clouds.mounts.back().source);

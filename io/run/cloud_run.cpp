@@ -28,7 +28,8 @@ namespace {
 constexpr std::array label_names = {"clear", "front", "occluded", "unknown", "beyond", "fringe"};
 static_assert(label_names.size() == label_count);
 
-constexpr double longest_wait = 0.5;  // seconds of recording, as for images
+constexpr const char* clouds_folder = "clouds";  // below the output
+constexpr double longest_wait = 0.5;             // seconds of recording, as for images
 constexpr std::size_t most_waiting = 32;
 
 CloudRule changed_rule(CloudRule rule, const CloudRunOptions& options) {
@@ -110,12 +111,15 @@ void RecordedRun::label(const JointRow& row, ResultFolder& folder, CloudSummary&
   try {
     stored = read_cloud(file);
     stored.cloud.header.stamp = row.stamp.value_or(0);
-    fault = read_points(stored.cloud, points);
+    fault = read_points(stored.cloud, options_.use_times, points);
     if (!fault.empty()) fault = file.string() + ": " + fault;
   } catch (const InputError& error) {
     fault = error.what();
   }
-  if (!row.stamp) points.times.clear();
+  if (!row.stamp && !points.times.empty()) {
+    points.times.clear();
+    points.time_note = "the joint file has no stamps: the points' times are not used";
+  }
   Scan scan{.stamp = row.stamp, .points = points.points, .times = points.times};
   if (!recording_.has_rays) scan.origin.reset();
   const CloudReport& report = timed(summary, fault, [&]() -> const CloudReport& {
@@ -132,7 +136,7 @@ void RecordedRun::label(const JointRow& row, ResultFolder& folder, CloudSummary&
   if (!fault.empty()) return;
   std::vector<std::byte> data;
   const PointCloud2Message out = cloud_output(stored.cloud, report, options_.how, data);
-  folder.add_text(file.filename().string(), cloud_bytes(file, out));
+  write_cloud(folder.path() / clouds_folder / file.filename(), out);
 }
 
 CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
@@ -140,11 +144,18 @@ CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
   if (!is_cloud_file("x" + ending))
     throw InputError(recording_.file.string() + ": frames.cloud: '" + ending +
                      "' is no file of points; expected .pcd, .ply, .npy or .bin");
-  ResultFolder folder({.path = options_.output,
-                       .report = {"report.json", json_begin},
-                       .others = {{"*" + ending}},
-                       .force = options_.force});
+  const std::filesystem::path clouds = options_.output / clouds_folder;
+  std::error_code error;
+  if (std::filesystem::equivalent(clouds, recording_.clouds.file(0).parent_path(), error))
+    throw InputError("--output: " + clouds.string() + " holds the input; choose another folder");
+  ResultFolder folder(
+      {.path = options_.output, .report = {"report.json", json_begin}, .force = options_.force});
+  if (folder.has_former() && std::filesystem::is_directory(clouds, error))
+    for (const auto& former : std::filesystem::directory_iterator(clouds))
+      if (is_cloud_file(former.path())) std::filesystem::remove(former.path(), error);
   folder.remove_former();
+  std::filesystem::create_directories(clouds, error);
+  if (error) throw InputError(clouds.string() + ": cannot be made (" + error.message() + ")");
   CloudRunResult result;
   CloudSummary& summary = result.sensors.emplace_back();
   summary.name = recording_.clouds.file(0).parent_path().filename().string();
@@ -195,6 +206,7 @@ std::vector<CloudInputOptions> cloud_inputs(const CloudRunOptions& options,
     inputs.push_back({.topic = clouds.topics.clouds[i].name,
                       .rule = changed_rule({}, options),
                       .threads = options.threads,
+                      .use_times = options.use_times,
                       .has_rays = options.has_rays,
                       .sensor_frame = options.sensor_frame,
                       .mount = {.frame_prefix = options.input.bag.frame_prefix},
@@ -330,17 +342,21 @@ std::vector<std::string> CloudSummary::warnings() const {
 
 CloudRunResult run_clouds(const CloudRunOptions& options, const LineSink& print,
                           const std::function<bool()>& go_on) {
+  check_output_place(options.input.path, options.output);
   if (is_bag(options.input.path)) {
     if (options.input.frames.first || options.input.frames.end)
       throw InputError("--frames: is for recording folders; leave it out");
     if (!is_output_bag(options.output))
       throw InputError("--output: " + options.output.string() +
                        " is no bag, and the clouds of a bag are written into one; name it *.mcap");
-    std::error_code error;
-    if (std::filesystem::equivalent(options.output, options.input.path, error))
-      throw InputError("--output: " + options.output.string() + " is the input");
-    check_former_bag(options.output);
     const BagClouds clouds = open_bag_clouds(options.input, print);
+    const bool is_of_one = options.input.bag.pose || options.input.bag.parent ||
+                           !options.sensor_frame.empty() || !options.has_rays;
+    if (is_of_one && clouds.mounts.size() > 1)
+      throw InputError(
+          "--pose, --parent, --sensor-frame and --merged are for one sensor, and the "
+          "bag has " +
+          std::to_string(clouds.mounts.size()) + " topics of clouds; choose one with --topic");
     return BagRun(options, clouds).run(go_on);
   }
   check_is_recording(options.input.path);

@@ -25,6 +25,7 @@ struct CloudRunOptions {
   /// What options change of the recording's rule, or of the default, in their order.
   std::vector<std::function<void(CloudRule&)>> rule_changes;
   CloudOutput how;
+  bool use_times = true;     ///< see CloudInputOptions
   bool has_rays = true;      ///< see CloudInputOptions
   std::string sensor_frame;  ///< likewise; of bags
   int threads = 1;
@@ -55,9 +56,10 @@ struct CloudRunResult {
   bool is_stopped = false;  ///< by `go_on`
 };
 
-/// Labels all clouds of an input and writes them: of a recording into a folder, in files of the
-/// same names, with report.json; of a bag into a bag (*.mcap), in topics /penumbra/TOPIC. `print`
-/// gets the used topics; stops if `go_on` returns false. Throws InputError that names the file.
+/// Labels all clouds of an input and writes them: of a recording into OUT/clouds, in files of the
+/// same names, next to report.json; of a bag into a bag (*.mcap), in topics /penumbra/TOPIC.
+/// `print` gets the used topics; stops if `go_on` returns false. Throws InputError that names the
+/// file.
 [[nodiscard]] CloudRunResult run_clouds(const CloudRunOptions& options, const LineSink& print,
                                         const std::function<bool()>& go_on);
 

@@ -49,6 +49,9 @@ class OutputBag final : public RunOutput, private ResultSink {
 /// Throws InputError unless `file` is missing, empty or a bag of results.
 void check_former_bag(const std::filesystem::path& file);
 
+/// Throws InputError if results would replace the input, or what is no result.
+void check_output_place(const std::filesystem::path& input, const std::filesystem::path& output);
+
 /// Returns whether this is the name of a bag.
 [[nodiscard]] bool is_output_bag(const std::filesystem::path& output);
 

@@ -14,7 +14,7 @@
 namespace penumbra {
 namespace {
 
-constexpr auto unlabelled = static_cast<std::uint8_t>(Label::unknown);
+constexpr auto unknown_label = static_cast<std::uint8_t>(Label::unknown);
 /// Metres that a robot may move within a part of a scan. Outlines are then wrong by half of it,
 /// which the beam of a point covers from 1.7 m on.
 constexpr double part_movement = 0.01;
@@ -42,11 +42,12 @@ struct CloudPipeline::State {
   void make_labeller();
   bool place(std::int64_t stamp, const PoseAt& pose_at);
   bool place_parts(const Scan& scan, const PoseAt& pose_at);
-  [[nodiscard]] std::size_t parts_between(std::span<const Eigen::Isometry3d> begin,
-                                          std::span<const Eigen::Isometry3d> end) const;
+  [[nodiscard]] double movement() const;
   [[nodiscard]] std::string fault_of(const Scan& scan);
   bool refuse(FrameStatus status, std::string message);
-  void take(const CloudLabels& found, const PointsView& points);
+  [[nodiscard]] bool is_reached(const Eigen::Vector3d& point,
+                                const std::optional<Eigen::Vector3d>& origin) const;
+  void take(const CloudLabels& found, const Scan& scan);
 
   Robot robot;
   CloudConfig config;
@@ -58,7 +59,7 @@ struct CloudPipeline::State {
   std::vector<Eigen::Isometry3d> T_sensor_body;  // of all parts
   std::vector<std::uint16_t> part_of;            // of each point; empty: one part
   std::vector<std::size_t> numbers;              // of the carried, in report.links
-  std::vector<Ball> unknown;                     // where links of unknown pose can be
+  std::vector<Ball> reaches;                     // where links of unknown pose can be
   std::vector<float> ranges;
   std::vector<std::uint8_t> labels;
   std::vector<std::uint16_t> links;
@@ -83,7 +84,7 @@ bool CloudPipeline::State::place(std::int64_t stamp, const PoseAt& pose_at) {
   if (!found.known() || !found.missing_links.empty()) return refuse(found.status, found.message);
   report.status = worse(report.status, found.status);
   if (report.message.empty()) report.message = found.message;
-  for (const Reach& reach : found.reaches) unknown.push_back(reach.ball);
+  for (const Reach& reach : found.reaches) reaches.push_back(reach.ball);
   if (is_begin) {
     numbers.clear();
     std::vector<AttachedBody> drawn;
@@ -104,17 +105,18 @@ bool CloudPipeline::State::place(std::int64_t stamp, const PoseAt& pose_at) {
   return true;
 }
 
-/// Returns in how many parts of a motion no body moves by more than part_movement.
-std::size_t CloudPipeline::State::parts_between(std::span<const Eigen::Isometry3d> begin,
-                                                std::span<const Eigen::Isometry3d> end) const {
+/// Returns how far a body moves at most between two neighbours of the poses so far.
+double CloudPipeline::State::movement() const {
+  const std::size_t bodies = radii.size();
   double most = 0.0;
-  for (std::size_t i = 0; i < begin.size(); ++i) {
-    const Eigen::Isometry3d moved = begin[i].inverse() * end[i];
-    const double chord = (moved.linear() - Eigen::Matrix3d::Identity()).norm() / std::sqrt(2.0);
-    most = std::max(most, moved.translation().norm() + chord * radii[i]);
+  for (std::size_t i = 0; i < bodies; ++i) {
+    for (std::size_t k = i; k + bodies < T_sensor_body.size(); k += bodies) {
+      const Eigen::Isometry3d moved = T_sensor_body[k].inverse() * T_sensor_body[k + bodies];
+      const double chord = (moved.linear() - Eigen::Matrix3d::Identity()).norm() / std::sqrt(2.0);
+      most = std::max(most, moved.translation().norm() + chord * radii[i]);
+    }
   }
-  const double parts = std::ceil(most / part_movement);
-  return static_cast<std::size_t>(std::clamp(parts, 1.0, static_cast<double>(max_parts)));
+  return most;
 }
 
 bool CloudPipeline::State::refuse(FrameStatus status, std::string message) {
@@ -142,7 +144,7 @@ std::string CloudPipeline::State::fault_of(const Scan& scan) {
                                   : "no point of the cloud is a measurement";
   const auto middle = ranges.begin() + static_cast<std::ptrdiff_t>(ranges.size() / 2);
   std::nth_element(ranges.begin(), middle, ranges.end());
-  if (*middle <= max_range) return {};
+  if (*middle <= max_range || !scan.origin) return {};
   return "half of the points are more than " + std::to_string(std::lround(*middle)) +
          " m away; are their coordinates millimetres?";
 }
@@ -158,57 +160,70 @@ bool CloudPipeline::State::place_parts(const Scan& scan, const PoseAt& pose_at) 
     return place(stamp_after(scan.stamp.value_or(0), time), pose_at);
   };
   T_sensor_body.clear();
-  unknown.clear();
+  reaches.clear();
   part_of.clear();
   report.parts = 1;
   if (scan.times.empty() || !scan.origin) return place_at(0);
   const auto [least, most] = std::minmax_element(scan.times.begin(), scan.times.end());
   const std::int64_t begin = *least, length = std::int64_t{*most} - begin;
-  if (!place_at(begin)) return false;
+  constexpr std::int64_t samples = 8;  // of the motion
+  for (std::int64_t i = 0; i <= (length > 0 ? samples : 0); ++i)
+    if (!place_at(begin + i * length / samples)) return false;
   if (length == 0) return true;
-  const std::size_t bodies = T_sensor_body.size();
-  if (!place_at(begin + length)) return false;
-  const std::span poses_of_ends(T_sensor_body);
-  report.parts = parts_between(poses_of_ends.first(bodies), poses_of_ends.subspan(bodies));
-  const auto count = static_cast<std::int64_t>(report.parts);
+  const auto count = static_cast<std::int64_t>(std::clamp(
+      std::ceil(samples * movement() / part_movement), 1.0, static_cast<double>(max_parts)));
+  report.parts = static_cast<std::size_t>(count);
+  const auto sampled = static_cast<std::ptrdiff_t>(T_sensor_body.size());
   for (std::int64_t part = 0; part < count; ++part)
     if (!place_at(begin + (2 * part + 1) * length / (2 * count))) return false;
-  T_sensor_body.erase(T_sensor_body.begin(),
-                      T_sensor_body.begin() + static_cast<std::ptrdiff_t>(2 * bodies));
+  T_sensor_body.erase(T_sensor_body.begin(), T_sensor_body.begin() + sampled);
   for (const std::int32_t time : scan.times)
     part_of.push_back(static_cast<std::uint16_t>(
         std::min(count - 1, (std::int64_t{time} - begin) * count / length)));
   return true;
 }
 
-/// Takes the labels, with what is attached by its number in the report. Points where a link of
-/// unknown pose can be are unknown.
-void CloudPipeline::State::take(const CloudLabels& found, const PointsView& points) {
+/// Whether a link of unknown pose may be at a point, or, of a point with a ray, be mixed into it.
+bool CloudPipeline::State::is_reached(const Eigen::Vector3d& point,
+                                      const std::optional<Eigen::Vector3d>& origin) const {
+  const CloudRule& rule = config.rule;
+  return std::any_of(reaches.begin(), reaches.end(), [&](const Ball& ball) {
+    const Eigen::Vector3d from = origin.value_or(ball.centre);
+    const Eigen::Vector3d to_centre = ball.centre - from, ray = point - from;
+    const double distance = to_centre.norm(), range = ray.norm();
+    const double radius = ball.radius + rule.tolerance.at(distance) + rule.beam * distance;
+    if ((point - ball.centre).norm() <= radius) return true;
+    if (!origin || range < distance) return false;
+    const double across = to_centre.cross(ray).norm() / range;
+    return across <= radius && range <= distance + radius + rule.mixing && to_centre.dot(ray) > 0;
+  });
+}
+
+/// Takes the labels, with what is attached by its number in the report.
+void CloudPipeline::State::take(const CloudLabels& found, const Scan& scan) {
+  const std::size_t robot_links = robot.links().size();
+  if (found.enclosing) {
+    const std::size_t body = *found.enclosing;
+    const std::string& name =
+        body < robot_links ? robot.links()[body] : carried[body - robot_links].name;
+    refuse(FrameStatus::missing_transform,
+           "the sensor's centre lies inside link '" + name +
+               "', or less than 2 cm from it: correct the sensor's pose, or name the link in "
+               "ignore_links if it is the sensor's own housing");
+    return;
+  }
   labels = found.labels;
   links = found.links;
-  const std::size_t robot_links = robot.links().size();
   if (!numbers.empty())
     for (std::uint16_t& link : links)
       if (link > robot_links)
         link = static_cast<std::uint16_t>(numbers[link - 1 - robot_links] + 1);
-  if (!unknown.empty())
-    for (std::size_t i = 0; i < points.count; ++i) {
-      const Eigen::Vector3d point = points[i].cast<double>();
-      if (std::none_of(unknown.begin(), unknown.end(), [&](const Ball& ball) {
-            return (point - ball.centre).norm() <= ball.radius + config.rule.tolerance.a;
-          }))
-        continue;
-      labels[i] = unlabelled;
-      links[i] = 0;
-    }
-  if (!found.enclosing) return;
-  const std::size_t body = *found.enclosing;
-  const std::string& name =
-      body < robot_links ? robot.links()[body] : carried[body - robot_links].name;
-  refuse(FrameStatus::missing_transform,
-         "the sensor's centre lies inside link '" + name +
-             "', or less than 2 cm from it: correct the sensor's pose, or name the link in "
-             "ignore_links if it is the sensor's own housing");
+  if (reaches.empty()) return;
+  for (std::size_t i = 0; i < scan.points.count; ++i) {
+    if (!is_reached(scan.points[i].cast<double>(), scan.origin)) continue;
+    labels[i] = unknown_label;
+    links[i] = 0;
+  }
 }
 
 CloudPipeline::CloudPipeline(Robot robot, const CloudConfig& config)
@@ -223,12 +238,12 @@ const CloudReport& CloudPipeline::process(const Scan& scan, const PoseAt& pose_a
   State& s = *state_;
   s.report = CloudReport();
   s.report.stamp = scan.stamp;
-  s.labels.assign(scan.points.count, unlabelled);
+  s.labels.assign(scan.points.count, unknown_label);
   s.links.assign(scan.points.count, 0);
   if (s.place_parts(scan, pose_at))
     s.take(scan.origin ? s.labeller->label(scan.points, *scan.origin, s.T_sensor_body, s.part_of)
                        : s.labeller->label(scan.points, s.T_sensor_body),
-           scan.points);
+           scan);
   for (const std::uint8_t label : s.labels) ++s.report.points[label];
   s.report.labels = s.labels;
   s.report.point_links = s.links;

@@ -107,9 +107,11 @@ class CloudBag : public BagTest {
 };
 
 TEST_F(CloudBag, LosesTheRobot) {
+  bag_.copy("/points", "/penumbra/points");  // of an earlier `penumbra live`
   const Outcome outcome = cloud();
   EXPECT_EQ(outcome.status, 0) << outcome.err;
-  expect_has(outcome.out, {"/points", "/scan", "/livox/lidar", "frame 'laser' on link 'base'"});
+  expect_has(outcome.out,
+             {"no times", "/points", "/scan", "/livox/lidar", "frame 'laser' on link 'base'"});
   for_each<io::PointCloud2Message>("/penumbra/points", [](const auto& message) {
     EXPECT_EQ(numbers_of(message), (std::vector{1, 2}));
     EXPECT_EQ(message.header.frame_id, "optical");
@@ -175,7 +177,17 @@ TEST_F(CloudBag, SaysWhatIsWrong) {
 TEST_F(CloudBag, AFrameThatTfLacksIsRefused) {
   bag_.edit<io::PointCloud2Message>("/points",
                                     [](auto& message) { message.header.frame_id = "lidar"; });
-  expect_refused(cloud({"--topic", "/points"}), {"'lidar'", "tf does not know"});
+  expect_refused(cloud({"--topic", "/points"}), {"where the sensor is", "'lidar'", "--topic"});
+  bag_.add("/tf_static", tiny_stamp(0),
+           io::TfMessage{{{{0, "lidar"}, "base", Eigen::Isometry3d::Identity()}}});
+  expect_refused(cloud({"--topic", "/points"}), {"above the robot", "--sensor-frame", "--merged"});
+  EXPECT_EQ(cloud({"--topic", "/points", "--sensor-frame", "optical"}).status, 0);
+  EXPECT_EQ(cloud({"--topic", "/points", "--merged"}).status, 0);
+}
+
+TEST_F(CloudBag, OptionsOfOneSensorAreNotForSeveral) {
+  expect_refused(cloud({"--pose", path("camera_pose.csv"), "--parent", "base"}),
+                 {"3 topics of clouds", "--topic"});
 }
 
 class CloudFolder : public TinyTest {
@@ -198,7 +210,7 @@ TEST_F(CloudFolder, LosesTheRobot) {
   const Outcome outcome = cloud();
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   for (int i = 0; i < 3; ++i) {
-    const io::StoredCloud read = io::read_cloud(out() / (std::to_string(i) + ".pcd"));
+    const io::StoredCloud read = io::read_cloud(out() / "clouds" / (std::to_string(i) + ".pcd"));
     EXPECT_EQ(numbers_of(read.cloud), (std::vector{1, 2}));
   }
   const Json json = report();
@@ -206,8 +218,9 @@ TEST_F(CloudFolder, LosesTheRobot) {
   EXPECT_EQ(json["clouds"][0]["points"]["occluded"], 1);
   EXPECT_EQ(json["clouds"][0]["status"], "ok");
   ASSERT_EQ(cloud({"--label", "--frames", "1:2"}).status, 0) << "replaces former results";
-  EXPECT_FALSE(fs::exists(out() / "0.pcd"));
-  EXPECT_EQ(io::read_cloud(out() / "1.pcd").cloud.fields.back().name, "link");
+  expect_refused(penumbra({"cloud", path("clouds.yaml"), "-o", path(), "--force"}), {"own folder"});
+  EXPECT_FALSE(fs::exists(out() / "clouds/0.pcd"));
+  EXPECT_EQ(io::read_cloud(out() / "clouds/1.pcd").cloud.fields.back().name, "link");
 }
 
 TEST_F(CloudFolder, BadFilesAreSaid) {
@@ -216,7 +229,7 @@ TEST_F(CloudFolder, BadFilesAreSaid) {
   const Outcome outcome = cloud();
   EXPECT_EQ(outcome.status, 0);
   expect_has(outcome.err, {"2 of 3 clouds are bad_depth", "0.pcd"});
-  EXPECT_FALSE(fs::exists(out() / "0.pcd"));
+  EXPECT_FALSE(fs::exists(out() / "clouds/0.pcd"));
   expect_refused(penumbra({"run", path("clouds.yaml"), "-o", path("x")}), {"penumbra cloud"});
   expect_refused(penumbra({"cloud", path(), "-o", path("x")}), {"no frames.cloud", "penumbra run"});
   edit_file(path("clouds.yaml"), "%d.pcd", "%d.xyz");

@@ -141,6 +141,19 @@ TEST(CloudPipeline, FollowsTheRobotDuringAScan) {
   EXPECT_LT(static_cast<double>(count(wrong, Label::occluded)), 0.7 * static_cast<double>(of_bar));
 }
 
+TEST(CloudPipeline, SeesAMotionThatTurnsBack) {
+  Cloud cloud;
+  make_sweep(cloud);
+  CloudPipeline pipeline(bar_robot(), config());
+  const CloudReport& report =
+      pipeline.process(cloud.scan(), [](std::int64_t stamp, RobotPose& pose) {
+        const double time = 1e-9 * static_cast<double>(stamp - scan_begin);
+        pose = {};
+        pose.positions = {turning_speed * std::abs(time - 0.05), 0.0};
+      });
+  EXPECT_GE(report.parts, 20U) << "although it ends where it began";
+}
+
 TEST(CloudPipeline, ThreadsChangeNothing) {
   Cloud cloud;
   make_sweep(cloud);
@@ -176,7 +189,7 @@ Cloud few_points() {
   cloud.add({0.5, 1.95, 0}, 0);
   cloud.add({0, 1.9, 1}, 0);
   cloud.add({0, 1.95, 1.5}, 0);
-  cloud.add({0.9, 3, 2}, 0);
+  cloud.add({1.2, 3, 2}, 0);
   return cloud;
 }
 

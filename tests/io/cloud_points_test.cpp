@@ -71,7 +71,7 @@ TEST(CloudPoints, LieWhereTheFieldsSay) {
   for (auto& point : truth) point = {number(random), number(random), number(random)};
   const auto check = [&](Table& table, bool copies) {
     CloudPoints points;
-    ASSERT_EQ(io::read_points(table.message(), points), "");
+    ASSERT_EQ(io::read_points(table.message(), true, points), "");
     ASSERT_EQ(points.points.count, truth.size());
     EXPECT_EQ(points.copied.empty(), !copies);
     for (std::size_t i = 0; i < truth.size(); ++i)
@@ -118,12 +118,13 @@ TEST_P(CloudTimes, AreUnderstood) {
   Table table(fields, 20, count);
   for (std::size_t i = 0; i < count; ++i) {
     const double value = clock.first + clock.step * static_cast<double>(i);
+    table.set(i, 0, 1.0F);
     if (clock.type == float32) table.set(i, 12, static_cast<float>(value));
     if (clock.type == float64) table.set(i, 12, value);
     if (clock.type == uint32) table.set(i, 12, static_cast<std::uint32_t>(value));
   }
   CloudPoints points;
-  ASSERT_EQ(io::read_points(table.message(), points), "");
+  ASSERT_EQ(io::read_points(table.message(), true, points), "");
   EXPECT_TRUE(holds(points.time_note, clock.said)) << points.time_note;
   ASSERT_EQ(points.times.size(), count);
   constexpr double resolution = 1e-6;  // seconds: a double has 0.2 us of seconds since 1970
@@ -141,9 +142,9 @@ INSTANTIATE_TEST_SUITE_P(Drivers, CloudTimes,
                                          Clock{"Ouster", "t", uint32, 0.0, 1e6, 0.0, 1e-3,
                                                "'t' has the points' times: nanoseconds after"},
                                          Clock{"Hesai", "timestamp", float64, now, 1e-3, 0.0, 1e-3,
-                                               "seconds since 1970"},
+                                               ": seconds of the stamp's clock"},
                                          Clock{"LivoxCloud", "timestamp", float64, 1e9 * now, 1e6,
-                                               0.0, 1e-3, "nanoseconds since 1970"},
+                                               0.0, 1e-3, "nanoseconds of the stamp's clock"},
                                          Clock{"Microseconds", "offset_time", uint32, 0.0, 1e3, 0.0,
                                                1e-3, "microseconds after"},
                                          Clock{"Milliseconds", "time", float32, 0.0, 1.0, 0.0, 1e-3,
@@ -152,15 +153,23 @@ INSTANTIATE_TEST_SUITE_P(Drivers, CloudTimes,
                                                1e-3, 0.0, 1e-3, "seconds of a clock of its own"}),
                          [](const auto& test) { return test.param.name; });
 
-TEST(CloudPoints, TimesThatNoScanHasAreSaidAndNotUsed) {
+TEST(CloudPoints, TimesThatNoScanHasAreAFault) {
   auto fields = xyz_fields();
   fields.push_back({"t", 12, float64, 1});
-  Table table(fields, 20, 2);
-  table.set(1, 12, 5e9);
+  Table table(fields, 20, 3);
+  for (std::size_t i = 0; i < 2; ++i) table.set(i, 0, 1.0F);
+  table.set(1, 12, 5.5e-9 * static_cast<double>(stamp));  // seconds; neither of the stamp's clock
+  table.set(2, 12, 7e30);                                 // the time of a point at the origin
   CloudPoints points;
-  ASSERT_EQ(io::read_points(table.message(), points), "");
+  EXPECT_TRUE(holds(io::read_points(table.message(), true, points), "no scan"));
+  EXPECT_EQ(io::read_points(table.message(), false, points), "");
   EXPECT_TRUE(points.times.empty());
-  EXPECT_TRUE(holds(points.time_note, "not used"));
+  table.set(1, 12, 0.05);
+  ASSERT_EQ(io::read_points(table.message(), true, points), "");
+  EXPECT_EQ(points.times, (std::vector<std::int32_t>{0, 50'000'000, 0}));
+  Table none(xyz_fields(), 12, 2);
+  ASSERT_EQ(io::read_points(none.message(), true, points), "");
+  EXPECT_TRUE(holds(points.time_note, "no times"));
 }
 
 TEST(CloudPoints, LiesOfSizesAreRefused) {
@@ -168,7 +177,7 @@ TEST(CloudPoints, LiesOfSizesAreRefused) {
     Table table(xyz_fields(), 12, 4, 2);
     change(table.message());
     CloudPoints points;
-    return io::read_points(table.message(), points);
+    return io::read_points(table.message(), true, points);
   };
   constexpr auto most = std::numeric_limits<std::uint32_t>::max();
   EXPECT_EQ(fault([](PointCloud2Message&) {}), "");
@@ -210,7 +219,7 @@ TEST(CloudPoints, RandomLayoutsAreReadOrRefused) {
     std::copy(data.begin(), data.end(), exact.get());
     cloud.data = {exact.get(), data.size()};
     CloudPoints points;
-    if (!io::read_points(cloud, points).empty()) continue;
+    if (!io::read_points(cloud, true, points).empty()) continue;
     ++read;
     float sum = 0.0F;
     for (std::size_t i = 0; i < points.points.count; ++i) sum += points.points[i].sum();
@@ -222,7 +231,7 @@ TEST(CloudPoints, RandomLayoutsAreReadOrRefused) {
     report.point_links = links;
     std::vector<std::byte> out;
     const auto result = io::cloud_output(cloud, report, {.labelled = random() % 2 == 0}, out);
-    EXPECT_EQ(io::read_points(result, points), "") << sum;
+    EXPECT_EQ(io::read_points(result, true, points), "") << sum;
   }
   EXPECT_GT(read, rounds / 100);
 }
@@ -255,7 +264,7 @@ TEST(CloudOutput, LeavesOutOrMarksPoints) {
     std::vector<std::byte> data;
     CloudPoints points;
     const auto removed = io::cloud_output(table.message(), labelled.report, {}, data);
-    ASSERT_EQ(io::read_points(removed, points), "");
+    ASSERT_EQ(io::read_points(removed, true, points), "");
     if (height == 1) {
       ASSERT_EQ(points.points.count, 2U);
       EXPECT_EQ(points.points[1], Eigen::Vector3f(3, 3, 3));
@@ -289,7 +298,7 @@ TEST(CloudOutput, RemovesRangesOfAScan) {
                                   .ranges = {1, 2, inf, 0.05F, 3},
                                   .intensities = {1, 2, 3, 4, 5}};
   CloudPoints points;
-  ASSERT_EQ(io::read_points(scan, points), "");
+  ASSERT_EQ(io::read_points(scan, true, points), "");
   for (const std::size_t i : {0U, 1U, 4U}) {
     const float angle = -1.0F + 0.5F * static_cast<float>(i);
     const Eigen::Vector3f expected(scan.ranges[i] * std::cos(angle),
@@ -310,22 +319,29 @@ TEST(CloudOutput, RemovesRangesOfAScan) {
   EXPECT_EQ(removed.intensities, scan.intensities);
   const auto infinite = io::cloud_output(scan, labelled.report, {.infinite_ranges = true}, none);
   EXPECT_EQ(infinite.ranges[1], inf);
+  const Labelled none_known({unknown, unknown, unknown, unknown, unknown});
+  const auto unknowns = io::cloud_output(scan, none_known.report, {.infinite_ranges = true}, none);
+  EXPECT_TRUE(std::isnan(unknowns.ranges[1])) << "unknown is not free";
+  io::LaserScanMessage slow = scan;
+  slow.time_increment = 0.5F;
+  EXPECT_TRUE(holds(io::read_points(slow, true, points), "time_increment"));
 }
 
 TEST(CloudOutput, RemovesPointsOfLivoxMessages) {
   io::LivoxMessage cloud{.header = {stamp, ""}, .timebase = 5, .point_num = 2};
-  cloud.points = {{.offset_time = 7, .x = 1}, {.offset_time = 4'000'000'000, .x = 2, .line = 3}};
+  cloud.points = {{.offset_time = 7, .x = 1}, {.offset_time = 90'000'000, .x = 2, .line = 3}};
   CloudPoints points;
-  ASSERT_EQ(io::read_points(cloud, points), "");
+  ASSERT_EQ(io::read_points(cloud, true, points), "");
   EXPECT_EQ(points.points[1], Eigen::Vector3f(2, 0, 0));
-  EXPECT_EQ(points.times[0], 7);
-  EXPECT_GT(points.times[1], 0) << "too late for 32 bits";
+  EXPECT_EQ(points.times, (std::vector<std::int32_t>{7, 90'000'000}));
   const Labelled labelled({occluded, clear});
   std::vector<std::byte> none;
   const auto removed = io::cloud_output(cloud, labelled.report, {}, none);
   ASSERT_EQ(removed.points.size(), 1U);
   EXPECT_EQ(removed.point_num, 1U);
   EXPECT_EQ(removed.points[0].line, 3);
+  cloud.points[1].offset_time = 4'000'000'000;
+  EXPECT_TRUE(holds(io::read_points(cloud, true, points), "more than 1 s"));
 }
 
 }  // namespace

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Labels of lidar scans of robots in a room, against MuJoCo's rays at each point's own time.
+// bench/lidar_study.cpp has more cases and more points.
+#include "lidar_scenes.hpp"
+
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace penumbra::test {
+namespace {
+
+constexpr double deviation = 0.01, sigmas = 3.5;
+/// Of the points. 0.023 % of a normal distribution lies more than 3.5 deviations before a surface.
+constexpr double tail = 0.0004;
+/// Points whose beam may have met other links, or the room, than their ray.
+constexpr double few = 0.001;
+/// Of the mixtures: noise moves them out of the ranges that become fringe.
+constexpr double veil_at_limits = 0.05;
+/// A part of a scan has the poses of its middle: next to outlines, what moves may be elsewhere.
+constexpr double left_by_parts = 0.001, wrong_by_parts = 0.005, removed_by_parts = 0.001;
+/// With the poses of the scan's middle for all points.
+constexpr double left_without_times = 10.0 * left_by_parts;
+
+struct Scores {
+  LidarScore with_times, without;
+};
+
+Scores scores(const LidarRobot& robot, const LidarMount& mount, bool moves, int scans,
+              const std::function<std::vector<LidarRay>(std::size_t)>& rays_of) {
+  LidarWorld world(robot, mount, 5);
+  CloudPipeline pipeline(world.robot(), {.rule = {.tolerance = {.a = sigmas * deviation}},
+                                         .sensor_parent = mount.parent,
+                                         .T_parent_sensor = mount.T_parent_sensor});
+  const JointMotion path = lidar_motion(robot, world.robot(), Wave::sine, 5);
+  Scores out;
+  for (int i = 0; i < scans; ++i) {
+    const auto rays = rays_of(static_cast<std::size_t>(i));
+    const double begin = 0.71 * i;
+    const JointMotion motion = moves ? path : [still = path(begin)](double) { return still; };
+    world.place_objects(motion, begin, begin + rays.back().time);
+    const LidarScan scan = world.scan(rays, motion, begin, deviation);
+    const CloudReport& report = process(pipeline, scan, motion, true);
+    EXPECT_EQ(report.status, FrameStatus::ok) << report.message;
+    out.with_times.add(scan, report);
+    out.without.add(scan, process(pipeline, scan, motion, false));
+  }
+  EXPECT_EQ(out.with_times.false_measurements, 0U);
+  return out;
+}
+
+std::vector<LidarRay> spin(std::size_t) {
+  return spinning_lidar(32, 1024, std::numbers::pi / 10.0);
+}
+
+LidarMount mount_at(const std::string& link, const Eigen::Vector3d& at,
+                    const Eigen::AngleAxisd& turned) {
+  LidarMount mount{link, Eigen::Isometry3d(turned)};
+  mount.T_parent_sensor.translation() = at;
+  return mount;
+}
+
+double fraction(std::size_t count, std::size_t of) {
+  return static_cast<double>(count) / static_cast<double>(of);
+}
+
+TEST(LidarTruth, ArmsThatMoveNeedTheTimesOfThePoints) {
+  const auto [with_times, without] =
+      scores(lidar_arms(2),
+             mount_at("cell", {1.5, 0.2, 1.0},
+                      Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ())),
+             true, 4, spin);
+  ASSERT_GT(with_times.robot, 3000U);
+  EXPECT_LT(fraction(with_times.left, with_times.robot), left_by_parts);
+  EXPECT_LT(fraction(with_times.wrong_links, with_times.robot), wrong_by_parts);
+  EXPECT_LT(fraction(with_times.removed, with_times.room), removed_by_parts);
+  EXPECT_GT(fraction(without.left, without.robot), left_without_times);
+}
+
+TEST(LidarTruth, LidarOnAnArmThatMovesNeedsThemToo) {
+  const auto [with_times, without] =
+      scores(lidar_arms(1),
+             mount_at("1_forearm", {0.12, 0.0, 0.15},
+                      Eigen::AngleAxisd(-std::numbers::pi / 2.0, Eigen::Vector3d::UnitX())),
+             true, 2, rosette_lidar);
+  ASSERT_GT(with_times.robot, 10000U);
+  EXPECT_LT(fraction(with_times.left, with_times.robot), left_by_parts);
+  EXPECT_LT(fraction(with_times.wrong_links, with_times.robot), wrong_by_parts);
+  EXPECT_LT(fraction(with_times.removed, with_times.room), removed_by_parts);
+  EXPECT_GT(fraction(without.left, without.robot), left_without_times);
+}
+
+TEST(LidarTruth, QuadrupedThatStands) {
+  const auto [score, same] =
+      scores(lidar_quadruped(),
+             mount_at("trunk", {0.0, 0.0, 0.19}, Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY())),
+             false, 1, spin);
+  ASSERT_GT(score.robot, 5000U);
+  ASSERT_GT(score.veil, 50U);
+  EXPECT_LT(fraction(score.left, score.robot), tail);
+  EXPECT_LT(fraction(score.wrong_links, score.robot), few);
+  EXPECT_LT(fraction(score.removed, score.room), few);
+  EXPECT_LT(fraction(score.veil_left, score.veil), veil_at_limits);
+  EXPECT_EQ(score.left, same.left);
+}
+
+}  // namespace
+}  // namespace penumbra::test
