@@ -35,6 +35,8 @@ for load in "40 --threads 1" "60 --threads 1" "100 --threads 1" "100 --threads 2
 done | tee "$results/cameras.txt"
 build/bench/bench/look_ahead_benchmark | tee "$results/look_ahead.txt"
 build/bench/bench/cloud_benchmark | tee "$results/cloud.txt"
+[[ ! -x build/bench/bench/lidar_study ]] ||  # needs MuJoCo
+  build/bench/bench/lidar_study | tee "$results/lidar.txt"
 bench/run_benchmark.sh build/bench/apps/penumbra/penumbra "$rounds" | tee "$results/run.txt"
 [[ $page == docs ]] || cp docs/performance.md "$page/"
 scripts/performance_page.py "$results" "$page"

@@ -237,7 +237,7 @@ TEST(CloudPoints, RandomLayoutsAreReadOrRefused) {
 }
 
 struct Labelled {
-  explicit Labelled(std::vector<Label> all) : links(all.size()) {
+  explicit Labelled(const std::vector<Label>& all) : links(all.size()) {
     for (const Label label : all) labels.push_back(static_cast<std::uint8_t>(label));
     report.labels = labels;
     report.point_links = links;

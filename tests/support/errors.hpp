@@ -24,7 +24,7 @@ std::string refusal(Call&& call) {
   try {
     call();
   } catch (const InputError& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     EXPECT_FALSE(message.empty());
     EXPECT_EQ(message.find_first_of("\n\r"), std::string::npos) << message;
     return message;
