@@ -33,8 +33,7 @@ struct StoredCloud {
 /// - .pcd: ascii, binary and binary_compressed. Padding is a field "_". VIEWPOINT is dropped.
 /// - .ply: ascii and binary. The scalar properties of the element vertex; other elements are
 ///   skipped.
-/// - .npy: N x C float32 or float64 with the fields x, y, z, f3, f4 and so on, or a structured
-///   array of one dimension.
+/// - .npy: N x C float32 or float64 with the fields x, y, z, f3, f4 and so on.
 /// - .bin: KITTI's x, y, z, intensity, float32.
 [[nodiscard]] StoredCloud read_cloud(const std::filesystem::path& file);
 

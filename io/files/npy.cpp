@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <regex>
 #include <string>
@@ -27,13 +28,8 @@ constexpr std::string_view magic = "\x93NUMPY";
 constexpr std::size_t max_header = 4096;  // a plain array's header has about a hundred bytes
 constexpr std::size_t alignment = 64;     // of the first sample, by the format
 
-struct Header {
-  std::string type, order;
-  std::vector<std::uint64_t> shape;
-};
-
 /// Reads the Python literal of a header: {'descr': '<f4', 'fortran_order': False, 'shape': (2, 3)}
-std::optional<Header> parse(const std::string& text) {
+bool parse_literal(const std::string& text, NpyHeader& header) {
   const auto value = [&](const std::string& key, const char* pattern) {
     std::smatch found;
     std::regex_search(text, found, std::regex("['\"]" + key + "['\"]\\s*:\\s*" + pattern));
@@ -42,37 +38,18 @@ std::optional<Header> parse(const std::string& text) {
   const auto type = value("descr", "['\"]([^'\"]*)['\"]");
   const auto order = value("fortran_order", "(True|False)");
   const auto shape = value("shape", "\\(([0-9, ]*)\\)");
-  if (!type || !order || !shape) return std::nullopt;
-  Header header{*type, *order, {}};
+  if (!type || !order || !shape) return false;
+  header.type = *type;
+  header.is_fortran = *order == "True";
+  header.shape.clear();
   const std::regex number("[0-9]+");
   for (std::sregex_iterator at(shape->begin(), shape->end(), number), end; at != end; ++at)
     header.shape.push_back(parse_number<std::uint64_t>(at->str()).value_or(0));
-  return header;
+  return true;
 }
 
-/// Reads the header's text after magic, version and length. Returns what is wrong, or nothing.
-std::string read_header_text(InputFile& input, std::string& text) {
-  std::array<unsigned char, 12> start{};
-  if (input.read(start.data(), 8) != 8 ||
-      !std::equal(magic.begin(), magic.end(), start.begin(),
-                  [](char a, unsigned char b) { return static_cast<unsigned char>(a) == b; }))
-    return "is not a NumPy file";
-  const int major = start[6];
-  if (major < 1 || major > 3 || start[7] != 0)
-    return "has NumPy format version " + std::to_string(major) + "." + std::to_string(start[7]) +
-           "; 1.0, 2.0 and 3.0 are read";
-  const std::size_t length_bytes = major == 1 ? 2 : 4;
-  if (input.read(&start[8], length_bytes) != length_bytes) return "ends in its header";
-  std::size_t length = 0;
-  for (std::size_t i = 0; i < length_bytes; ++i) length |= std::size_t{start[8 + i]} << (8 * i);
-  if (length > max_header)
-    return "has a header of " + std::to_string(length) + " bytes; a depth image's has about 100";
-  text.resize(length);
-  return input.read(text.data(), length) == length ? "" : "ends in its header";
-}
-
-std::string check_shape(const Header& header) {
-  if (header.order == "True") return "is in Fortran order; expected C order (row by row)";
+std::string check_shape(const NpyHeader& header) {
+  if (header.is_fortran) return "is in Fortran order; expected C order (row by row)";
   if (header.shape.size() != 2)
     return "has " + std::to_string(header.shape.size()) + " dimensions; expected 2 (height, width)";
   for (const std::uint64_t n : header.shape)
@@ -83,38 +60,35 @@ std::string check_shape(const Header& header) {
 }
 
 /// Reads and checks what stands before the pixels.
-FileResult read_header(const std::filesystem::path& file, InputFile& input, Header& header) {
+FileResult read_header(const std::filesystem::path& file, InputFile& input, NpyHeader& header) {
   if (FileResult opened = input.open(file); !opened.ok()) return opened;
-  std::string text;
-  if (const std::string fault = read_header_text(input, text); !fault.empty())
-    return FileResult::bad(file, fault);
-  const std::optional<Header> parsed = parse(text);
-  if (!parsed) return FileResult::bad(file, "has a damaged header");
-  header = *parsed;
+  std::array<std::byte, max_header + 12> start{};
+  const std::size_t size = input.read(start.data(), start.size());
+  std::string fault = parse_npy_header(std::span(start).first(size), header);
   if (header.shape.size() == 3 && header.shape.back() == 1) header.shape.pop_back();
-  const std::string fault = check_shape(header);
+  if (fault.empty()) fault = check_shape(header);
   return fault.empty() ? FileResult{} : FileResult::bad(file, fault);
 }
 
 template <typename T>
-FileResult read_pixels(const std::filesystem::path& file, InputFile& input, const Header& header,
+FileResult read_pixels(const std::filesystem::path& file, InputFile& input, const NpyHeader& header,
                        std::optional<ImageSize> wanted, Image<T>& image) {
   const ImageSize size{static_cast<int>(header.shape[1]), static_cast<int>(header.shape[0])};
   if (wanted && size != *wanted) return FileResult::bad(file, wrong_size(size, *wanted));
   const std::uint64_t bytes = header.shape[0] * header.shape[1] * sizeof(T);
-  if (bytes > input.size()) return FileResult::bad(file, "ends before its last row");
+  if (header.size + bytes > input.size()) return FileResult::bad(file, "ends before its last row");
+  if (header.size + bytes < input.size())
+    return FileResult::bad(file, "has bytes after its last row");
   image.fit(size.width, size.height);
-  if (input.read(image.data(), bytes) != bytes)
+  if (input.read_at(header.size, image.data(), bytes) != bytes)
     return FileResult::bad(file, "ends before its last row");
-  char more = 0;
-  if (input.read(&more, 1) != 0) return FileResult::bad(file, "has bytes after its last row");
   return {};
 }
 
 template <typename T>
-FileResult read_depth_of(const std::filesystem::path& file, InputFile& input, const Header& header,
-                         std::optional<ImageSize> wanted, std::optional<double> scale,
-                         SharedDepth& depth) {
+FileResult read_depth_of(const std::filesystem::path& file, InputFile& input,
+                         const NpyHeader& header, std::optional<ImageSize> wanted,
+                         std::optional<double> scale, SharedDepth& depth) {
   Image<T> pixels;
   FileResult result = read_pixels(file, input, header, wanted, pixels);
   if (result.ok()) depth = shared_depth_of(std::move(pixels), scale);
@@ -123,10 +97,44 @@ FileResult read_depth_of(const std::filesystem::path& file, InputFile& input, co
 
 }  // namespace
 
+std::string parse_npy_header(std::span<const std::byte> file, NpyHeader& header) {
+  const auto byte = [&](std::size_t i) { return std::to_integer<unsigned>(file[i]); };
+  const bool is_npy = file.size() >= 8 && std::memcmp(file.data(), magic.data(), magic.size()) == 0;
+  if (!is_npy) return "is not a NumPy file";
+  if (byte(6) < 1 || byte(6) > 3 || byte(7) != 0)
+    return "has NumPy format version " + std::to_string(byte(6)) + "." + std::to_string(byte(7)) +
+           "; 1.0, 2.0 and 3.0 are read";
+  const std::size_t begin = byte(6) == 1 ? 10 : 12;
+  if (file.size() < begin) return "ends in its header";
+  std::size_t length = 0;
+  for (std::size_t i = begin; i-- > 8;) length = length << 8U | byte(i);
+  if (length > max_header)
+    return "has a header of " + std::to_string(length) + " bytes; a plain array's has about 100";
+  if (length > file.size() - begin) return "ends in its header";
+  header.size = begin + length;
+  const std::string text(reinterpret_cast<const char*>(&file[begin]), length);
+  return parse_literal(text, header) ? "" : "has no header of a plain array";
+}
+
+std::string npy_header(std::string_view type, std::span<const std::uint64_t> shape) {
+  std::string text = "{'descr': '" + std::string(type) + "', 'fortran_order': False, 'shape': (";
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    text += (i == 0 ? "" : ", ") + std::to_string(shape[i]);
+  text += "), }";
+  const std::size_t before = magic.size() + 4;
+  const std::size_t whole = (before + text.size() + 1 + alignment - 1) / alignment * alignment;
+  text.resize(whole - before - 1, ' ');
+  text += '\n';
+  std::string start(magic);
+  start +=
+      {'\x01', '\x00', static_cast<char>(text.size() & 0xff), static_cast<char>(text.size() >> 8)};
+  return start + text;
+}
+
 FileResult read_npy(const std::filesystem::path& file, Image<float>& image,
                     std::optional<ImageSize> wanted) {
   InputFile input;
-  Header header;
+  NpyHeader header;
   if (FileResult read = read_header(file, input, header); !read.ok()) return read;
   if (header.type != "<f4")
     return FileResult::bad(file, "holds '" + header.type + "'; expected '<f4'");
@@ -136,7 +144,7 @@ FileResult read_npy(const std::filesystem::path& file, Image<float>& image,
 FileResult read_npy_depth(const std::filesystem::path& file, std::optional<ImageSize> wanted,
                           std::optional<double> scale, SharedDepth& depth) {
   InputFile input;
-  Header header;
+  NpyHeader header;
   if (FileResult read = read_header(file, input, header); !read.ok()) return read;
   const auto read_as = [&]<typename T>(T) {
     return read_depth_of<T>(file, input, header, wanted, scale, depth);
@@ -155,18 +163,11 @@ FileResult read_npy_depth(const std::filesystem::path& file, std::optional<Image
 }
 
 void write_npy(const std::filesystem::path& file, ImageView<const float> image) {
-  std::string text = "{'descr': '<f4', 'fortran_order': False, 'shape': (" +
-                     std::to_string(image.height) + ", " + std::to_string(image.width) + "), }";
-  const std::size_t before = magic.size() + 4;
-  const std::size_t whole = (before + text.size() + 1 + alignment - 1) / alignment * alignment;
-  text.resize(whole - before - 1, ' ');
-  text += '\n';
-
-  std::string start(magic);
-  start +=
-      {'\x01', '\x00', static_cast<char>(text.size() & 0xff), static_cast<char>(text.size() >> 8)};
+  const std::array shape{static_cast<std::uint64_t>(image.height),
+                         static_cast<std::uint64_t>(image.width)};
+  const std::string start = npy_header("<f4", shape);
   OutputFile output(file);
-  output.write((start + text).data(), whole);
+  output.write(start.data(), start.size());
   if (image.stride == image.width) {
     output.write(image.data, static_cast<std::size_t>(image.width) *
                                  static_cast<std::size_t>(image.height) * sizeof(float));

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <penumbra/base/image.hpp>
 
@@ -10,6 +16,21 @@
 #include <io/files/image_size.hpp>
 
 namespace penumbra::io {
+
+/// What stands before the samples of a NumPy file.
+struct NpyHeader {
+  std::string type;  ///< "<f4"
+  bool is_fortran = false;
+  std::vector<std::uint64_t> shape;
+  std::size_t size = 0;  ///< bytes before the samples
+};
+
+/// Reads the header at the beginning of a file of a plain array (format versions 1 to 3). Returns
+/// what is wrong, or nothing.
+[[nodiscard]] std::string parse_npy_header(std::span<const std::byte> file, NpyHeader& header);
+
+/// Returns the header of samples in C order.
+[[nodiscard]] std::string npy_header(std::string_view type, std::span<const std::uint64_t> shape);
 
 /// Reads a NumPy file of H x W little-endian float32 in C order (format versions 1 to 3). Reuses
 /// the buffer of `image` if the size stays the same. Returns a fault of the file, or another

@@ -176,7 +176,6 @@ TEST(CloudBadFile, PlyIsChecked) {
 
 TEST(CloudBadFile, NumpyIsChecked) {
   const std::string good = test::float_npy();
-  const std::string records = test::structured_npy();
   const auto header = [&](const std::string& dictionary) {
     return test::npy(dictionary, raw(1.0F, 2.0F, 3.0F));
   };
@@ -193,27 +192,16 @@ TEST(CloudBadFile, NumpyIsChecked) {
                        {shape("(3,)"), "1 dimensions"},
                        {shape("(1, 1, 3)"), "3 dimensions"},
                        {shape("(1, 2)"), "C >= 3"},
-                       {shape("(3, 18446744073709551615)"), "65536"},
+                       {shape("(3, 18446744073709551615)"), "no cloud"},
                        {shape("(18446744073709551615, 3)"), "4 GiB"},
                        {shape("(100000000, 3)"), "1200000000"},
-                       {shape("(-1, 3)"), "size"},
-                       {shape("(1, 3"), "size"},
+                       {shape("(-1, 3)"), "plain array"},
+                       {shape("(1, 3"), "plain array"},
                        {shape("(1, 3)", "'<f2'"), "<f2"},
                        {shape("(1, 3)", "'>f4'"), ">f4"},
-                       {shape("(1, 3)", "[('x', '>f4')]"), ">f4"},
-                       {shape("(1,)", "[('x', '<i8')]"), "64-bit"},
-                       {shape("(1,)", "[('x', '<f4', (65536, 65536, 4294967296))]"), "\"x\""},
-                       {shape("(1,)", "[('x', '<f4', (0,))]"), "\"x\""},
-                       {shape("(1,)", "[('x', '<c8')]"), "<c8"},
-                       {shape("(1,)", "[('x', '')]"), "type"},
-                       {shape("(1,)", "[('x', '|V99999999999')]"), "_"},
-                       {shape("(1,)", "[(('title', 'x'), '<f4')]"), "string"},
-                       {shape("(1,)", "[('x', '<f4'"), "dictionary"},
-                       {shape("(1, 1)", "[('x', '<f4')]"), "2 dimensions"},
-                       {header("{'descr': '<f4'}"), "0 dimensions"},
-                       {header("{'descr': '<f4"), "dictionary"},
-                       {header("[1]"), "dictionary"},
-                       {records.substr(0, records.size() - 1), "truncated"}});
+                       {shape("(1,)", "[('x', '<f4')]"), "plain array"},
+                       {header("{'descr': '<f4'}"), "plain array"},
+                       {header("[1]"), "plain array"}});
 }
 
 TEST(CloudBadFile, OtherFilesAreNamed) {

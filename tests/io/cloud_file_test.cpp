@@ -171,22 +171,6 @@ TEST_F(CloudFile, NumpyRowsArePoints) {
   EXPECT_EQ(points_of(doubles), raw(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
 }
 
-TEST_F(CloudFile, StructuredNumpyKeepsNamesAndIsWrittenAsColumns) {
-  const StoredCloud stored = read("a.npy", test::structured_npy());
-  expect_fields(stored.cloud, {{"x", type_f32, 1},
-                               {"y", type_f32, 1},
-                               {"z", type_f32, 1},
-                               {"ring", type_u8, 1},
-                               {"_", type_u8, 3},
-                               {"t", type_f64, 1},
-                               {"n", type_i16, 3},
-                               {"_", type_u8, 2}});
-  const std::string file = written("b.npy", stored.cloud);
-  EXPECT_HAS(file, "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 8), }");
-  EXPECT_EQ(file.substr(128), raw(1.0, 2.0, 3.0, 5.0, 0.25, 1.0, -2.0, 3.0, 2.0, 3.0, 4.0, 5.0,
-                                  0.25, 1.0, -2.0, 3.0));
-}
-
 TEST_F(CloudFile, KittiIsWrittenAsItWasRead) {
   const StoredCloud stored = read("a.bin", test::kitti());
   expect_fields(

@@ -138,17 +138,6 @@ inline std::string fortran_npy() {
   return npy("{'descr': '<f8', 'fortran_order': True, 'shape': (2, 3), }\n",
              raw(1.0, 4.0, 2.0, 5.0, 3.0, 6.0));
 }
-inline std::string structured_npy() {
-  const auto point = [](float x) {
-    return raw(x, x + 1, x + 2) + raw('\x05') + std::string(3, '\0') + raw(0.25) +
-           raw(short{1}, short{-2}, short{3}) + std::string(2, '\0');
-  };
-  return npy(
-      "{'descr': [('x', '<f4'), ('y', '<f4'), ('z', '<f4'), ('ring', '|u1'), ('', '|V3'), ('t', "
-      "'<f8'), ('n', '<i2', (3,)), ('', '|V2')], 'fortran_order': False, 'shape': (2,), }\n",
-      point(1) + point(2));
-}
-
 inline std::string kitti() { return raw(1.0F, 2.0F, 3.0F, 0.5F, 4.0F, 5.0F, 6.0F, 0.25F); }
 
 /// A good file of each kind: name and bytes.
@@ -161,7 +150,6 @@ inline std::vector<std::pair<std::string, std::string>> cloud_samples() {
           {"big.ply", binary_ply<true>()},
           {"float.npy", float_npy()},
           {"fortran.npy", fortran_npy()},
-          {"structured.npy", structured_npy()},
           {"kitti.bin", kitti()}};
 }
 
