@@ -3,11 +3,14 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <utility>
 #include <vector>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/cloud/cloud_pipeline.hpp>
+#include <penumbra/cloud/cloud_targets-inl.hpp>
 #include <penumbra/poses/pose_stage-inl.hpp>
 #include <penumbra/robot/drawn_links-inl.hpp>
 
@@ -48,6 +51,9 @@ struct CloudPipeline::State {
   [[nodiscard]] bool is_reached(const Eigen::Vector3d& point,
                                 const std::optional<Eigen::Vector3d>& origin) const;
   void take(const CloudLabels& found, const Scan& scan);
+  void judge(const Scan& scan);
+  [[nodiscard]] TargetReport judge(const Scan& scan, const Target& target);
+  [[nodiscard]] Eigen::Isometry3d frame_of(const Target& target) const;
 
   Robot robot;
   CloudConfig config;
@@ -63,6 +69,9 @@ struct CloudPipeline::State {
   std::vector<float> ranges;
   std::vector<std::uint8_t> labels;
   std::vector<std::uint16_t> links;
+  bool is_labelled = false;                      // not all unknown
+  std::map<std::string, TargetMemory> memories;  // of the targets
+  std::vector<TargetReport> targets;
   CloudReport report;
 };
 
@@ -120,6 +129,7 @@ double CloudPipeline::State::movement() const {
 }
 
 bool CloudPipeline::State::refuse(FrameStatus status, std::string message) {
+  is_labelled = false;
   report.status = status;
   report.message = std::move(message);
   return false;
@@ -226,6 +236,44 @@ void CloudPipeline::State::take(const CloudLabels& found, const Scan& scan) {
   }
 }
 
+/// Returns the pose of a target's frame in the points' frame, at the scan's begin.
+Eigen::Isometry3d CloudPipeline::State::frame_of(const Target& target) const {
+  const auto placement = placement_of(target.shape);
+  if (!placement || placement->frame.kind == ReferenceFrame::Kind::camera)
+    return Eigen::Isometry3d::Identity();
+  if (placement->frame.kind == ReferenceFrame::Kind::root) return T_sensor_body[0];
+  const auto link = robot.find_link(placement->frame.link);
+  if (!link) throw InputError("there is no link '" + placement->frame.link + "'");
+  if (!reaches.empty()) throw InputError("the poses of all links are not known");
+  return T_sensor_body[*link];
+}
+
+TargetReport CloudPipeline::State::judge(const Scan& scan, const Target& target) {
+  TargetReport result;
+  result.name = target.name;
+  result.stamp = scan.stamp;
+  try {
+    if (!is_labelled) throw InputError(report.message);
+    if (!target.has_identity) memories.erase(target.name);
+    if (!scan.origin) throw InputError("clouds without rays do not show what is hidden");
+    result.judgement = cloud::judge_on_rays(
+        {scan.points, *scan.origin, labels, links, poses.links().size(), config.rule.tolerance},
+        target, frame_of(target), memories[target.name]);
+    result.verdict = result.judgement->verdict;
+    result.reason = result.judgement->reason;
+    for (Blame& blame : result.judgement->blame) blame.name = poses.links()[blame.link];
+  } catch (const InputError& error) {
+    result.reason = error.what();
+  }
+  return result;
+}
+
+void CloudPipeline::State::judge(const Scan& scan) {
+  targets.clear();
+  for (const Target& target : scan.targets) targets.push_back(judge(scan, target));
+  report.targets = targets;
+}
+
 CloudPipeline::CloudPipeline(Robot robot, const CloudConfig& config)
     : state_(std::make_unique<State>(std::move(robot), config)) {}
 CloudPipeline::~CloudPipeline() = default;
@@ -238,6 +286,7 @@ const CloudReport& CloudPipeline::process(const Scan& scan, const PoseAt& pose_a
   State& s = *state_;
   s.report = CloudReport();
   s.report.stamp = scan.stamp;
+  s.is_labelled = true;
   s.labels.assign(scan.points.count, unknown_label);
   s.links.assign(scan.points.count, 0);
   if (s.place_parts(scan, pose_at))
@@ -248,6 +297,7 @@ const CloudReport& CloudPipeline::process(const Scan& scan, const PoseAt& pose_a
   s.report.labels = s.labels;
   s.report.point_links = s.links;
   s.report.links = s.poses.links();
+  s.judge(scan);
   return s.report;
 }
 

@@ -15,6 +15,7 @@
 #include <penumbra/cloud/cloud_labels.hpp>
 #include <penumbra/poses/robot_pose.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/targets/target.hpp>
 
 namespace penumbra {
 
@@ -27,6 +28,9 @@ struct Scan {
   std::span<const std::int32_t> times = {};
   /// Where the rays start, in the points' frame. Null: points without rays, as of merged clouds.
   std::optional<Eigen::Vector3d> origin = Eigen::Vector3d::Zero();
+  /// 3-D boxes and points to judge, by the poses at the scan's begin. ReferenceFrame::camera: the
+  /// points' frame.
+  std::span<const Target> targets = {};
 };
 
 /// Sets `pose` to the robot's pose at a stamp, or its fault, as PoseLookup::at.
@@ -51,8 +55,9 @@ struct CloudReport {
   std::span<const std::uint8_t> labels;           ///< values of Label, one for each point
   std::span<const std::uint16_t> point_links;     ///< index + 1 in `links`; 0: none
   std::array<std::size_t, label_count> points{};  ///< their number, by label
-  std::size_t parts = 0;               ///< in which the scan was labelled, each with its own poses
-  std::span<const std::string> links;  ///< as FrameReport::links
+  std::size_t parts = 0;  ///< in which the scan was labelled, each with its own poses
+  std::span<const TargetReport> targets;  ///< in the order of the scan's
+  std::span<const std::string> links;     ///< as FrameReport::links
 };
 
 /// Labels the scans of one sensor by the poses of a robot. During a scan with times the poses are
@@ -71,9 +76,10 @@ class CloudPipeline {
   CloudPipeline(CloudPipeline&&) noexcept;
   CloudPipeline& operator=(CloudPipeline&&) noexcept;
 
-  /// Labels a scan. Calls `pose_at` for stamps of the scan; without a stamp, for times after 0.
-  /// Bodies attached by the pose at the scan's begin are labelled, too; the first scan with others
-  /// takes as long as the construction.
+  /// Labels a scan, and judges its targets on the rays that meet them; what has no measured ray, or
+  /// is of a cloud without rays, is unknown. Calls `pose_at` for stamps of the scan; without a
+  /// stamp, for times after 0. Bodies attached by the pose at the scan's begin are labelled, too;
+  /// the first scan with others takes as long as the construction.
   const CloudReport& process(const Scan& scan, const PoseAt& pose_at);
 
   [[nodiscard]] const Robot& robot() const;

@@ -206,20 +206,13 @@ Judgement TargetJudge::State::judge_at_depth(const TargetView& target, TargetMem
   const bool wants_depths = target.wants_point && frame.is_measured();
   const Visibility visibility =
       observer.observe({frame, target, expected, robot, wants_depths}, memory);
-  Judgement judgement;
+  Judgement judgement = visibility.judgement();
   judgement.verdict = decide(visibility, target.thresholds, memory);
-  judgement.covered = visibility.covered;
-  judgement.inside = visibility.inside;
-  judgement.occluded = visibility.fraction(PixelState::occluded);
-  judgement.front = visibility.fraction(PixelState::front);
-  judgement.unknown = visibility.fraction(PixelState::unknown);
-  judgement.clear = visibility.fraction(PixelState::clear);
   if (frame.is_measured() && visibility.has_pose) {
     judgement.measured = visibility.share(visibility.measured);
     if (expected.known()) judgement.hidden_by_other = visibility.fraction(PixelState::other);
     if (expected.known()) judgement.seen_past = visibility.share(visibility.past);
   }
-  judgement.blame = visibility.links->blame(visibility.inside);
   if (judgement.verdict == Verdict::unknown) {
     const bool has_lens = !camera.distortion.is_none();
     judgement.reason =

@@ -38,6 +38,8 @@ struct Visibility {
   [[nodiscard]] bool is_unmeasured(double least) const {
     return static_cast<double>(measured) < least * static_cast<double>(measured + unmeasured);
   }
+  /// Returns the counts and shares of a judgement.
+  [[nodiscard]] Judgement judgement() const;
   /// Turns up to `count` pixels of a state into unknown, and subtracts them from `count`.
   void mark_unknown(PixelState state, std::size_t& count);
   void mark_all_unknown();  ///< all clear and front pixels

@@ -233,6 +233,18 @@ void ExtentObserver::remember(const TargetView& target, TargetMemory& memory) co
   memory.moved.setZero();
 }
 
+Judgement Visibility::judgement() const {
+  Judgement judgement;
+  judgement.covered = covered;
+  judgement.inside = inside;
+  judgement.occluded = fraction(PixelState::occluded);
+  judgement.front = fraction(PixelState::front);
+  judgement.unknown = fraction(PixelState::unknown);
+  judgement.clear = fraction(PixelState::clear);
+  judgement.blame = links->blame(inside);
+  return judgement;
+}
+
 Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
                TargetMemory& memory) {
   if (is_out_of_view(visibility, thresholds)) return Verdict::out_of_view;

@@ -282,6 +282,111 @@ TEST(CloudPipeline, MergedCloudsHaveNoRays) {
       (std::vector{Label::occluded, Label::occluded, Label::clear, Label::clear, Label::clear}));
 }
 
+/// Where a ray of length 1 from the sensor enters a box whose edges lie along the axes.
+std::optional<double> box_entry(const Vector3d& ray, const Vector3d& centre, const Vector3d& half) {
+  double enters = 0.0, leaves = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const double a = (centre[i] - half[i]) / ray[i], b = (centre[i] + half[i]) / ray[i];
+    enters = std::max(enters, std::min(a, b));
+    leaves = std::min(leaves, std::max(a, b));
+  }
+  return enters < leaves ? std::optional(enters) : std::nullopt;
+}
+
+/// The bar before a box before a wall; the bar points to the sensor's right.
+struct BoxScene {
+  Vector3d centre{0.5, 3.0, 0.0}, half{0.2, 0.1, 0.2};
+  bool is_there = true;
+  std::size_t on_box = 0, behind_bar = 0;  // rays
+
+  [[nodiscard]] Cloud scan() {
+    Cloud cloud;
+    constexpr int steps = 200;
+    for (int i = 0; i < steps; ++i)
+      for (int j = 0; j < steps; ++j) {
+        const Vector3d ray =
+            Vector3d(0.4 * (i + 0.5) / steps, 1.0, 0.4 * (j + 0.5) / steps - 0.2).normalized();
+        const auto bar = box_entry(ray, {0.5, 2.0, 0.0}, {0.5, 0.05, 0.05});
+        const auto box = box_entry(ray, centre, half);
+        on_box += box ? 1 : 0;
+        behind_bar += box && bar ? 1 : 0;
+        cloud.add(ray * (bar ? *bar : box && is_there ? *box : 4.0 / ray.y()), 0);
+      }
+    return cloud;
+  }
+};
+
+TEST(CloudPipeline, JudgesBoxesAsTheRaysSeeThem) {
+  CloudPipeline pipeline(bar_robot(), config());
+  const auto judge = [&](BoxScene scene, const PoseAt& pose) {
+    const Cloud cloud = scene.scan();
+    Target target{
+        .name = "box",
+        .shape = BoxTarget{.pose = at(scene.centre.x(), scene.centre.y(), scene.centre.z()),
+                           .size = 2.0 * scene.half}};
+    target.has_identity = false;
+    // The same box in the root's frame.
+    Target of_root = target;
+    of_root.shape =
+        BoxTarget{.pose = at(scene.centre.x(), scene.centre.y() - 2.0, scene.centre.z()),
+                  .size = 2.0 * scene.half,
+                  .frame = ReferenceFrame::root()};
+    const std::vector<Target> targets{target, of_root};
+    Scan scan = cloud.scan();
+    scan.targets = targets;
+    const CloudReport& report = pipeline.process(scan, pose);
+    EXPECT_EQ(report.targets.size(), 2U);
+    EXPECT_EQ(report.targets[0].verdict, report.targets[1].verdict);
+    return report.targets[0];
+  };
+  BoxScene scene;
+  static_cast<void>(scene.scan());
+  ASSERT_GT(scene.on_box, 3'000U);
+  const double hidden = static_cast<double>(scene.behind_bar) / static_cast<double>(scene.on_box);
+  const TargetReport partial = judge(BoxScene(), standing({}));
+  EXPECT_EQ(partial.verdict, Verdict::partial);
+  EXPECT_EQ(partial.judgement->inside, scene.on_box);
+  EXPECT_DOUBLE_EQ(partial.judgement->occluded, hidden);
+  EXPECT_EQ(partial.judgement->blame.front().name, "bar");
+  EXPECT_DOUBLE_EQ(partial.judgement->blame.front().fraction, hidden);
+
+  BoxScene small;
+  small.half = {0.1, 0.1, 0.03};
+  EXPECT_EQ(judge(small, standing({})).verdict, Verdict::hidden);
+  BoxScene aside;
+  aside.centre = {0.5, 3.0, 0.35};
+  EXPECT_EQ(judge(aside, standing({})).verdict, Verdict::visible);
+  BoxScene absent = aside;
+  absent.is_there = false;
+  const TargetReport past = judge(absent, standing({}));
+  EXPECT_EQ(past.verdict, Verdict::unknown);
+  EXPECT_TRUE(holds(past.reason, "looks past"));
+  BoxScene elsewhere;
+  elsewhere.centre = {-5.0, 3.0, 0.0};
+  EXPECT_TRUE(holds(judge(elsewhere, standing({})).reason, "0 measured rays"));
+  const TargetReport no_pose = judge(BoxScene(), turning(0));
+  EXPECT_EQ(no_pose.verdict, Verdict::unknown);
+  EXPECT_TRUE(holds(no_pose.reason, "joint 'turn' is stale"));
+}
+
+TEST(CloudPipeline, JudgesPointsAndNoPixels) {
+  CloudPipeline pipeline(bar_robot(), config());
+  BoxScene scene;
+  const Cloud cloud = scene.scan();
+  const std::vector<Target> targets{
+      {.name = "behind", .shape = PointTarget{.position = {0.5, 2.95, 0.0}, .radius = 0.05}},
+      {.name = "on the box", .shape = PointTarget{.position = {0.5, 2.95, 0.15}, .radius = 0.05}},
+      {.name = "pixels", .shape = KeypointTarget{}}};
+  Scan scan = cloud.scan();
+  scan.targets = targets;
+  const CloudReport& report = pipeline.process(scan, standing({}));
+  EXPECT_EQ(report.targets[0].verdict, Verdict::hidden);
+  EXPECT_EQ(report.targets[1].verdict, Verdict::visible);
+  EXPECT_TRUE(holds(report.targets[2].reason, "only 3-D boxes and points"));
+  scan.origin.reset();
+  EXPECT_TRUE(holds(pipeline.process(scan, standing({})).targets[0].reason, "without rays"));
+}
+
 TEST(CloudPipeline, BadConfigurationsAreRefused) {
   CloudConfig wrong = config();
   wrong.sensor_parent = "nobody";

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/cloud/cloud_targets-inl.hpp>
+#include <penumbra/targets/target_visibility-inl.hpp>
+
+namespace penumbra::cloud {
+namespace {
+
+/// A box or ball, and rays from one origin.
+class RayTarget {
+ public:
+  RayTarget(const TargetShape& shape, const Eigen::Isometry3d& T_points_frame,
+            const Eigen::Vector3d& origin) {
+    if (const auto* box = std::get_if<BoxTarget>(&shape)) {
+      half_ = 0.5 * box->size;
+      radius_ = half_.norm();
+      place(T_points_frame * box->pose, origin);
+    } else if (const auto* ball = std::get_if<PointTarget>(&shape)) {
+      radius_ = ball->radius;
+      is_ball_ = true;
+      place(T_points_frame * Eigen::Isometry3d(Eigen::Translation3d(ball->position)), origin);
+    } else {
+      throw InputError("only 3-D boxes and points are judged on clouds");
+    }
+  }
+
+  /// Metres by which the target may be nearer or farther.
+  [[nodiscard]] double margin() const { return is_ball_ ? radius_ : 0.0; }
+
+  /// Returns the range at which a ray, of length 1, enters the box, or passes the ball's centre.
+  [[nodiscard]] std::optional<double> entry(const Eigen::Vector3d& ray) const {
+    const double along = ray.dot(to_centre_);
+    const double across = to_centre_.squaredNorm() - along * along;
+    if (along < 0.0 || across > radius_ * radius_) return std::nullopt;
+    if (is_ball_) return along;
+    const Eigen::Array3d direction = (R_box_points_ * ray).array();
+    const Eigen::Array3d a = (-half_ - origin_).array() / direction,
+                         b = (half_ - origin_).array() / direction;
+    const double enters = a.min(b).maxCoeff(), leaves = a.max(b).minCoeff();
+    if (!(enters < leaves) || leaves < 0.0) return std::nullopt;
+    return std::max(enters, 0.0);
+  }
+
+ private:
+  void place(const Eigen::Isometry3d& T_points_shape, const Eigen::Vector3d& origin) {
+    to_centre_ = T_points_shape.translation() - origin;
+    R_box_points_ = T_points_shape.linear().transpose();
+    origin_ = -R_box_points_ * to_centre_;
+  }
+
+  Eigen::Vector3d half_ = Eigen::Vector3d::Zero(), to_centre_, origin_;  // origin_: in the box
+  Eigen::Matrix3d R_box_points_;
+  double radius_ = 0.0;  // of a ball around it
+  bool is_ball_ = false;
+};
+
+/// A ray's range and label against the ranges at which the target is.
+PixelState state_of(Label label, double range, const DepthLimits& limits, bool beyond_hides) {
+  const bool is_before = range < static_cast<double>(limits.near);
+  switch (label) {
+    case Label::clear:
+    case Label::front:
+      return is_before               ? PixelState::other
+             : label == Label::front ? PixelState::front
+                                     : PixelState::clear;
+    case Label::occluded:
+      if (is_before) return PixelState::occluded;
+      return range > static_cast<double>(limits.far) ? PixelState::clear : PixelState::unknown;
+    case Label::beyond:
+      return is_before || beyond_hides ? PixelState::occluded : PixelState::clear;
+    default:
+      return PixelState::unknown;
+  }
+}
+
+std::string reason_of(const Visibility& seen, const TargetThresholds& thresholds) {
+  if (seen.is_passed(thresholds.past_limit))
+    return "the sensor looks past where most of it is expected";
+  return "too many of its rays are robot at its own distance, or fringe";
+}
+
+}  // namespace
+
+Judgement judge_on_rays(const LabelledRays& rays, const Target& target,
+                        const Eigen::Isometry3d& T_points_frame, TargetMemory& memory) {
+  check_target(target);
+  const RayTarget shape(target.shape, T_points_frame, rays.origin);
+  Visibility seen;
+  LinkCounts links(rays.link_count);
+  seen.links = &links;
+  seen.is_expected = true;
+  for (std::size_t i = 0; i < rays.points.count; ++i) {
+    const Eigen::Vector3d ray = rays.points[i].cast<double>() - rays.origin;
+    const double range = ray.norm();
+    if (!std::isfinite(range) || range < CloudLabeller::least_range) continue;
+    const auto entry = shape.entry(ray / range);
+    if (!entry) continue;
+    const double margin = rays.tolerance.at(*entry) + target.depth_margin + shape.margin();
+    const DepthLimits limits{static_cast<float>(*entry - margin),
+                             static_cast<float>(*entry + margin)};
+    const PixelState state =
+        state_of(static_cast<Label>(rays.labels[i]), range, limits, target.thresholds.beyond_hides);
+    ++seen.inside;
+    ++seen.pixels[state];
+    if (state == PixelState::occluded) links.add(rays.links[i], 1);
+    if (state != PixelState::clear && state != PixelState::front) continue;
+    ++seen.measured;
+    if (range > static_cast<double>(limits.far)) ++seen.past;
+  }
+  seen.covered = seen.inside;
+  Judgement judgement = seen.judgement();
+  judgement.measured = seen.share(seen.measured);
+  judgement.hidden_by_other = seen.fraction(PixelState::other);
+  judgement.seen_past = seen.share(seen.past);
+  if (seen.inside < target.thresholds.point_min_pixels) {
+    judgement.reason = std::to_string(seen.inside) + " measured rays of the scan meet it";
+    return judgement;
+  }
+  judgement.verdict = decide(seen, target.thresholds, memory);
+  if (judgement.verdict == Verdict::unknown) judgement.reason = reason_of(seen, target.thresholds);
+  return judgement;
+}
+
+}  // namespace penumbra::cloud
