@@ -7,7 +7,7 @@ set(libraries penumbra)
 if(TARGET penumbra_live AND PENUMBRA_INSTALL_LIVE)
   # Penumbra::live is for ros/penumbra_ros alone: its headers may change at any time.
   list(APPEND libraries penumbra_live)
-  foreach(room files ros mcap bag assembly live)
+  foreach(room files ros cloud mcap bag assembly live)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/io/${room}
       DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra_live/io
       FILES_MATCHING PATTERN "*.hpp" PATTERN "*-inl.hpp" EXCLUDE

@@ -138,8 +138,8 @@ bool CloudPipeline::State::refuse(FrameStatus status, std::string message) {
 /// Returns why no point is a measurement; empty: some are.
 std::string CloudPipeline::State::fault_of(const Scan& scan) {
   const Eigen::Vector3f origin = scan.origin.value_or(Eigen::Vector3d::Zero()).cast<float>();
-  constexpr std::size_t enough = 1000;
-  const std::size_t step = std::max<std::size_t>(1, scan.points.count / enough);
+  constexpr std::size_t most_tested = 1000;
+  const std::size_t step = std::max<std::size_t>(1, scan.points.count / most_tested);
   ranges.clear();
   for (std::size_t i = 0; i < scan.points.count; i += step)
     if (const float range = (scan.points[i] - origin).norm(); std::isfinite(range) && range > 0.0F)
@@ -176,17 +176,17 @@ bool CloudPipeline::State::place_parts(const Scan& scan, const PoseAt& pose_at) 
   if (scan.times.empty() || !scan.origin) return place_at(0);
   const auto [least, most] = std::minmax_element(scan.times.begin(), scan.times.end());
   const std::int64_t begin = *least, length = std::int64_t{*most} - begin;
-  constexpr std::int64_t samples = 8;  // of the motion
-  for (std::int64_t i = 0; i <= (length > 0 ? samples : 0); ++i)
-    if (!place_at(begin + i * length / samples)) return false;
+  constexpr std::int64_t instants = 8;  // of the motion
+  for (std::int64_t i = 0; i <= (length > 0 ? instants : 0); ++i)
+    if (!place_at(begin + i * length / instants)) return false;
   if (length == 0) return true;
   const auto count = static_cast<std::int64_t>(std::clamp(
-      std::ceil(samples * movement() / part_movement), 1.0, static_cast<double>(max_parts)));
+      std::ceil(instants * movement() / part_movement), 1.0, static_cast<double>(max_parts)));
   report.parts = static_cast<std::size_t>(count);
-  const auto sampled = static_cast<std::ptrdiff_t>(T_sensor_body.size());
+  const auto tried = static_cast<std::ptrdiff_t>(T_sensor_body.size());
   for (std::int64_t part = 0; part < count; ++part)
     if (!place_at(begin + (2 * part + 1) * length / (2 * count))) return false;
-  T_sensor_body.erase(T_sensor_body.begin(), T_sensor_body.begin() + sampled);
+  T_sensor_body.erase(T_sensor_body.begin(), T_sensor_body.begin() + tried);
   for (const std::int32_t time : scan.times)
     part_of.push_back(static_cast<std::uint16_t>(
         std::min(count - 1, (std::int64_t{time} - begin) * count / length)));

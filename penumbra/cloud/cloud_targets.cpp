@@ -29,15 +29,19 @@ class RayTarget {
     }
   }
 
+  /// Whether a ray, of any length, may meet the ball around the target.
+  [[nodiscard]] bool may_meet(const Eigen::Vector3f& ray) const {
+    const float along = ray.dot(centre_);
+    return tangent_ <= 0.0F || (along > 0.0F && along * along >= tangent_ * ray.squaredNorm());
+  }
+
   /// Metres by which the target may be nearer or farther.
   [[nodiscard]] double margin() const { return is_ball_ ? radius_ : 0.0; }
 
-  /// Returns the range at which a ray, of length 1, enters the box, or passes the ball's centre.
+  /// Returns the range at which a ray of length 1 enters the box, or passes the ball's centre; the
+  /// ray meets the ball around it.
   [[nodiscard]] std::optional<double> entry(const Eigen::Vector3d& ray) const {
-    const double along = ray.dot(to_centre_);
-    const double across = to_centre_.squaredNorm() - along * along;
-    if (along < 0.0 || across > radius_ * radius_) return std::nullopt;
-    if (is_ball_) return along;
+    if (is_ball_) return ray.dot(to_centre_);
     const Eigen::Array3d direction = (R_box_points_ * ray).array();
     const Eigen::Array3d a = (-half_ - origin_).array() / direction,
                          b = (half_ - origin_).array() / direction;
@@ -51,12 +55,17 @@ class RayTarget {
     to_centre_ = T_points_shape.translation() - origin;
     R_box_points_ = T_points_shape.linear().transpose();
     origin_ = -R_box_points_ * to_centre_;
+    centre_ = to_centre_.cast<float>();
+    constexpr double rounding = 1e-4;  // of float32, with room
+    tangent_ = static_cast<float>((1.0 - rounding) * to_centre_.squaredNorm() - radius_ * radius_);
   }
 
   Eigen::Vector3d half_ = Eigen::Vector3d::Zero(), to_centre_, origin_;  // origin_: in the box
   Eigen::Matrix3d R_box_points_;
   double radius_ = 0.0;  // of a ball around it
   bool is_ball_ = false;
+  Eigen::Vector3f centre_ = Eigen::Vector3f::Zero();
+  float tangent_ = 0.0F;  // squared length of the ball's tangents from the origin, or less
 };
 
 /// A ray's range and label against the ranges at which the target is.
@@ -94,8 +103,11 @@ Judgement judge_on_rays(const LabelledRays& rays, const Target& target,
   LinkCounts links(rays.link_count);
   seen.links = &links;
   seen.is_expected = true;
+  const Eigen::Vector3f start = rays.origin.cast<float>();
   for (std::size_t i = 0; i < rays.points.count; ++i) {
-    const Eigen::Vector3d ray = rays.points[i].cast<double>() - rays.origin;
+    const Eigen::Vector3f point = rays.points[i];
+    if (!shape.may_meet(point - start)) continue;
+    const Eigen::Vector3d ray = point.cast<double>() - rays.origin;
     const double range = ray.norm();
     if (!std::isfinite(range) || range < CloudLabeller::least_range) continue;
     const auto entry = shape.entry(ray / range);

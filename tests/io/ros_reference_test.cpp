@@ -242,6 +242,30 @@ Json cloud_json() {
           {"is_dense", true}};
 }
 
+Json scan_json() {
+  const auto number = [](float value) { return static_cast<double>(value); };
+  return {{"header", header_json()},
+          {"angle_min", -1.5},
+          {"angle_max", 1.5},
+          {"angle_increment", 1.5},
+          {"time_increment", number(1e-4F)},
+          {"scan_time", number(0.025F)},
+          {"range_min", number(0.1F)},
+          {"range_max", 30},
+          {"ranges", {1, "NaN", 2}},
+          {"intensities", {7, 8, 9}}};
+}
+
+Json livox_json() {
+  const auto point = [](int time, int x, int byte) -> Json {
+    return {{"offset_time", time},  {"x", x},          {"y", x + 1},      {"z", x + 2},
+            {"reflectivity", byte}, {"tag", byte + 1}, {"line", byte + 2}};
+  };
+  return {{"header", header_json()}, {"timebase", "1000000000"},
+          {"point_num", 2},          {"lidar_id", 3},
+          {"rsvd", {4, 5, 6}},       {"points", {point(0, 1, 10), point(100, 4, 20)}}};
+}
+
 // In the order of for_each_sample.
 std::vector<Json> wanted_messages() {
   return {{{"header", header_json()},
@@ -263,6 +287,8 @@ std::vector<Json> wanted_messages() {
           {{"header", header_json()},
            {"pose", pose_json(test::sample_pose(), "position", "orientation")}},
           cloud_json(),
+          scan_json(),
+          livox_json(),
           diagnostics_json(),
           keypoints_json(),
           targets_json(),
