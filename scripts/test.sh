@@ -145,7 +145,7 @@ unity=ON  # many sources at once
 quick='-DCMAKE_CXX_FLAGS=--param ggc-min-expand=300 --param ggc-min-heapsize=500000'
 # AddressSanitizer watches the code that reads files or writes images, ThreadSanitizer the renderer's
 # threads. Their trees hold only those rooms. Most rooms are tested in one tree.
-asan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;camera;render;labels;cloud'
+asan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;time;camera;render;labels;poses;tracking;targets;cloud'
 tsan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;camera;render'
 not_in_release=-DPENUMBRA_SKIP_TESTS='base;mesh;robot'
 not_in_asan=-DPENUMBRA_SKIP_TESTS='time;camera;targets;tracking;pipeline;scene;house'
