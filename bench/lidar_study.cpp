@@ -92,7 +92,8 @@ void run(const Case& c, std::uint64_t seed, std::size_t scans) {
     parts += report->parts;
     without.add(points, process(pipeline, points, motion, false));
   }
-  if (with.false_measurements != 0) throw std::logic_error("measurements are not told apart");
+  if (with.false_measurements != 0)
+    throw std::logic_error("measurements and dropped rays are mixed up");
   std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2),
                    times.end());
   static const std::array<const char*, 3> motions{"stands", "moves", "turns"};

@@ -11,10 +11,34 @@
 
 namespace penumbra::io {
 
-CloudInput::CloudInput(CloudInputOptions options, const RobotInput& robot)
-    : options_(std::move(options)), robot_(robot) {
-  refresh();
+namespace {
+
+PoseOptions pose_options(const CloudInputOptions& options) {
+  return {.source = options.poses,
+          .frame_prefix = options.frame_prefix,
+          .camera_parent = options.mount.parent,
+          .camera_frame = options.mount.frame};
 }
+
+}  // namespace
+
+CloudInput::CloudInput(CloudInputOptions options, std::shared_ptr<PosedRobot> posed)
+    : options_(std::move(options)),
+      posed_(std::move(posed)),
+      queue_(posed_->robot, posed_->history,
+             {.policy = DropPolicy::every,
+              .time_offset = options_.time_offset,
+              .max_wait = options_.max_wait,
+              .max_frames = options_.max_frames,
+              .poses = pose_options(options_)},
+             [this](std::shared_ptr<Frame> cloud, DropReason reason) {
+               keep_lost(std::move(cloud), "not labelled: " + std::string(to_string(reason)));
+             }),
+      lookup_(posed_->robot, pose_options(options_)),
+      pipeline_(posed_->robot, {.rule = options_.rule,
+                                .threads = options_.threads,
+                                .sensor_parent = options_.mount.parent,
+                                .T_parent_sensor = options_.mount.T_parent_camera}) {}
 
 template <typename M>
 void CloudInput::take(M message, const SerializedMessage& bytes, std::int64_t now) {
@@ -42,84 +66,28 @@ void CloudInput::push(std::shared_ptr<ReceivedCloud> cloud, std::int64_t now) {
     cloud->source_message = "the cloud is of the frame '" + printable(frame) +
                             "', the first one of '" + printable(frame_) + "'";
   if (frame_.empty()) frame_ = frame;
-  refresh();
-  if (!cloud->source_message.empty()) return drop(cloud, cloud->source_message);
-  if (!setup_)
-    return drop(cloud, setup_fault_.empty() ? "the robot is not known yet" : setup_fault_);
+  if (!cloud->source_message.empty()) return keep_lost(cloud, cloud->source_message);
   const auto& times = cloud->points.times;
   const std::int32_t last = times.empty() ? 0 : *std::max_element(times.begin(), times.end());
   cloud->stamp = cloud->header.stamp > 0 ? stamp_after(cloud->header.stamp, last) : 0;
-  setup_->queue.push(std::move(cloud), now);
+  queue_.push(std::move(cloud), now);
 }
 
-void CloudInput::drop(std::shared_ptr<Frame> cloud, const std::string& why) {
-  if (options_.policy != DropPolicy::every) return;
+void CloudInput::keep_lost(std::shared_ptr<Frame> cloud, const std::string& why) {
   cloud->source_message = why;
   lost_.push_back(std::static_pointer_cast<ReceivedCloud>(std::move(cloud)));
 }
 
-void CloudInput::refresh() {
-  const std::shared_ptr<PosedRobot>& posed = robot_.posed();
-  if (!posed || (frame_.empty() && !options_.known_mount)) {
-    setup_.reset();
-    return;
-  }
-  setup_fault_.clear();
-  try {
-    const CameraMount mount =
-        options_.known_mount ? *options_.known_mount
-                             : find_mount(posed->robot, options_.mount, robot_.frames(), frame_)
-                                   .value_or(mount_by_root(posed->robot, options_.mount, frame_));
-    if (!setup_ || setup_->posed != posed || !(setup_->mount == mount)) setup_ = make_setup(mount);
-  } catch (const InputError& error) {
-    if (options_.known_mount) throw;
-    setup_fault_ = error.what();
-    setup_.reset();
-  }
-}
-
-std::unique_ptr<CloudInput::Setup> CloudInput::make_setup(const CameraMount& mount) {
-  const std::shared_ptr<PosedRobot>& posed = robot_.posed();
-  const PoseOptions poses{.source = options_.poses,
-                          .frame_prefix = options_.mount.frame_prefix,
-                          .camera_parent = mount.parent,
-                          .camera_frame = mount.frame};
-  const auto on_drop = [this](std::shared_ptr<Frame> cloud, DropReason reason) {
-    drop(std::move(cloud), "not labelled: " + std::string(to_string(reason)));
-  };
-  return std::make_unique<Setup>(
-      Setup{.posed = posed,
-            .mount = mount,
-            .queue = FrameQueue(posed->robot, posed->history,
-                                {.policy = options_.policy,
-                                 .time_offset = options_.time_offset,
-                                 .max_wait = options_.max_wait,
-                                 .max_frames = options_.max_frames,
-                                 .poses = poses},
-                                on_drop),
-            .lookup = PoseLookup(posed->robot, poses),
-            .pipeline = CloudPipeline(posed->robot, {.rule = options_.rule,
-                                                     .threads = options_.threads,
-                                                     .sensor_parent = mount.parent,
-                                                     .T_parent_sensor = mount.T_parent_camera})});
-}
-
-void CloudInput::finish() {
-  if (setup_) setup_->queue.finish();
-}
-
 std::shared_ptr<ReceivedCloud> CloudInput::next(std::int64_t now) {
-  if (!setup_) return nullptr;
   if (!lost_.empty()) {
     auto first = std::move(lost_.front());
     lost_.pop_front();
     return first;
   }
-  return std::static_pointer_cast<ReceivedCloud>(setup_->queue.next(now));
+  return std::static_pointer_cast<ReceivedCloud>(queue_.next(now));
 }
 
 const CloudReport& CloudInput::label(const ReceivedCloud& cloud) {
-  Setup& s = *setup_;
   Scan scan{
       .stamp = cloud.header.stamp, .points = cloud.points.points, .times = cloud.points.times};
   std::string fault = cloud.source_message;
@@ -127,16 +95,16 @@ const CloudReport& CloudInput::label(const ReceivedCloud& cloud) {
     scan.origin.reset();
   } else if (!options_.sensor_frame.empty() && fault.empty()) {
     TransformAnswer sensor;
-    s.posed->history.transforms().at(s.queue.pose_stamp(cloud.header.stamp), frame_,
-                                     options_.sensor_frame, sensor);
+    posed_->history.transforms().at(queue_.pose_stamp(cloud.header.stamp), frame_,
+                                    options_.sensor_frame, sensor);
     if (sensor.status == TransformStatus::ok)
       scan.origin = sensor.T_target_source.translation();
     else
       fault = sensor.message;
   }
-  return s.pipeline.process(scan, [&](std::int64_t stamp, RobotPose& pose) {
+  return pipeline_.process(scan, [&](std::int64_t stamp, RobotPose& pose) {
     if (fault.empty())
-      s.lookup.at(s.posed->history, s.queue.pose_stamp(stamp), pose);
+      lookup_.at(posed_->history, queue_.pose_stamp(stamp), pose);
     else
       pose = {.status = FrameStatus::missing_transform, .message = fault};
   });

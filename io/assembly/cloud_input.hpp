@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -40,30 +39,26 @@ struct CloudInputOptions {
   bool use_times = true;          ///< see read_points
   bool has_rays = true;           ///< false: merged clouds, see Scan::origin
   std::string sensor_frame = {};  ///< where rays start, in TF; empty: the clouds' own frame
-  MountOptions mount = {};
-  std::optional<CameraMount> known_mount = {};  ///< in place of what TF says, as from a bag
+  std::string frame_prefix = {};  ///< PoseOptions::frame_prefix
+  CameraMount mount = {};         ///< of the clouds' frame
   PoseSource poses = PoseSource::joints;
   double time_offset = 0.0;  ///< see FrameQueueOptions
-  double max_wait = 0.2;     ///< likewise
-  std::size_t max_frames = 8;
-  DropPolicy policy = DropPolicy::newest;
+  double max_wait = 0.5;     ///< likewise
+  std::size_t max_frames = 32;
 };
 
-/// The clouds of one sensor: keeps them until the poses of the whole scan are known, and labels
-/// them. Part of FrameAssembler.
+/// The clouds of one sensor of a bag: keeps them until the poses of the whole scan are known, and
+/// labels them. Part of FrameAssembler. Gives out every cloud; one that cannot be labelled says so.
 class CloudInput {
  public:
-  /// `robot` must outlive this. Throws InputError for a known mount with which no setup can be
-  /// made.
-  CloudInput(CloudInputOptions options, const RobotInput& robot);
+  /// Throws InputError as FrameQueue, PoseLookup and CloudPipeline.
+  CloudInput(CloudInputOptions options, std::shared_ptr<PosedRobot> posed);
 
   /// Takes a decoded message and the bytes that it refers to.
   template <typename M>
   void take(M message, const SerializedMessage& bytes, std::int64_t now);
-  /// Updates the setup. Call this when the robot may have changed.
-  void refresh();
   /// Gives out what waits: no further message will come.
-  void finish();
+  void finish() { queue_.finish(); }
 
   /// Returns the next cloud whose poses are known or no longer awaited; null if there is none.
   [[nodiscard]] std::shared_ptr<ReceivedCloud> next(std::int64_t now);
@@ -71,23 +66,15 @@ class CloudInput {
   [[nodiscard]] const CloudReport& label(const ReceivedCloud& cloud);
 
  private:
-  struct Setup {
-    std::shared_ptr<PosedRobot> posed;
-    CameraMount mount;
-    FrameQueue queue;
-    PoseLookup lookup;
-    CloudPipeline pipeline;
-  };
-
   void push(std::shared_ptr<ReceivedCloud> cloud, std::int64_t now);
-  [[nodiscard]] std::unique_ptr<Setup> make_setup(const CameraMount& mount);
-  void drop(std::shared_ptr<Frame> cloud, const std::string& why);
+  void keep_lost(std::shared_ptr<Frame> cloud, const std::string& why);
 
   CloudInputOptions options_;
-  const RobotInput& robot_;
+  std::shared_ptr<PosedRobot> posed_;
   std::string frame_;  // of the clouds
-  std::unique_ptr<Setup> setup_;
-  std::string setup_fault_;
+  FrameQueue queue_;
+  PoseLookup lookup_;
+  CloudPipeline pipeline_;
   std::deque<std::shared_ptr<ReceivedCloud>> lost_;  // that do not wait for poses
 };
 

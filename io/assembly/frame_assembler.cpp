@@ -33,7 +33,7 @@ FrameAssembler::FrameAssembler(RobotInputOptions robot,
   for (const CameraInputOptions& camera : cameras)
     cameras_.push_back(std::make_unique<CameraInput>(camera, robot_));
   for (const CloudInputOptions& cloud : clouds)
-    clouds_.push_back(std::make_unique<CloudInput>(cloud, robot_));
+    clouds_.push_back(std::make_unique<CloudInput>(cloud, robot_.posed()));
 }
 
 std::size_t FrameAssembler::add_topic(InputTopic topic) {
@@ -78,7 +78,6 @@ void FrameAssembler::set_robot(MadeRobot made) {
 
 void FrameAssembler::follow_robot() {
   for (const auto& camera : cameras_) camera->refresh();
-  for (const auto& cloud : clouds_) cloud->refresh();
 }
 
 void FrameAssembler::finish() {

@@ -38,6 +38,7 @@ class FrameAssembler {
  public:
   /// Throws InputError for options that FrameQueue refuses, if a camera is known; otherwise its
   /// frames have the fault.
+  /// `clouds`: of a robot that is given.
   FrameAssembler(RobotInputOptions robot, const std::vector<CameraInputOptions>& cameras,
                  const std::vector<CloudInputOptions>& clouds = {});
   FrameAssembler(const FrameAssembler&) = delete;

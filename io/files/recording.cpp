@@ -325,6 +325,8 @@ std::optional<CloudRecording> CloudRecording::open(const std::filesystem::path& 
     recording.T_parent_sensor = read_pose_csv(recording.pose);
   }
   if (const YamlNode* merged = sensor.find("merged")) recording.has_rays = !merged->boolean();
+  if (recording.has_rays && recording.parent.empty() && recording.pose.empty())
+    sensor.fail("says neither by parent nor by pose where the sensor is");
   if (const YamlNode* bodies = root.find("attached"))
     recording.attached = bodies_of(*bodies, folder);
   return recording;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -29,8 +30,6 @@ constexpr std::array label_names = {"clear", "front", "occluded", "unknown", "be
 static_assert(label_names.size() == label_count);
 
 constexpr const char* clouds_folder = "clouds";  // below the output
-constexpr double longest_wait = 0.5;             // seconds of recording, as for images
-constexpr std::size_t most_waiting = 32;
 
 CloudRule changed_rule(CloudRule rule, const CloudRunOptions& options) {
   for (const auto& change : options.rule_changes) change(rule);
@@ -209,13 +208,10 @@ std::vector<CloudInputOptions> cloud_inputs(const CloudRunOptions& options,
                       .use_times = options.use_times,
                       .has_rays = options.has_rays,
                       .sensor_frame = options.sensor_frame,
-                      .mount = {.frame_prefix = options.input.bag.frame_prefix},
-                      .known_mount = clouds.mounts[i],
+                      .frame_prefix = options.input.bag.frame_prefix,
+                      .mount = clouds.mounts[i],
                       .poses = clouds.topics.poses,
-                      .time_offset = options.input.bag.time_offset,
-                      .max_wait = longest_wait,
-                      .max_frames = most_waiting,
-                      .policy = DropPolicy::every});
+                      .time_offset = options.input.bag.time_offset});
   return inputs;
 }
 
@@ -262,7 +258,7 @@ void BagRun::write(std::size_t sensor, const ReceivedCloud& cloud) {
         encode(cloud_output(message, report, options_.how, data_), payload_);
       },
       cloud.message);
-  writer_.write(channels_[sensor], cloud.arrived, cloud.header.stamp,
+  writer_.write(channels_[sensor], cloud.arrived, std::max<std::int64_t>(0, cloud.header.stamp),
                 static_cast<std::uint32_t>(summary.clouds), payload_);
 }
 

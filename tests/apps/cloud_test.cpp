@@ -158,6 +158,19 @@ TEST_F(CloudBag, WithoutPosesTrustsNothing) {
   expect_refused(cloud({"--poses", "joints"}), {"has no joint states"});
 }
 
+TEST_F(CloudBag, ACloudWithoutAStampIsNotTrusted) {
+  bag_.edit<io::PointCloud2Message>("/points", [](auto& message) { message.header.stamp = 0; });
+  const Outcome outcome = cloud({"--topic", "/points"});
+  EXPECT_EQ(outcome.status, 2);
+  expect_has(outcome.err, {"no_stamp"});
+  const auto bag = io::open_bag(path("clean.mcap"));
+  for (io::BagMessage message; bag->next(message);) {
+    io::PointCloud2Message decoded;
+    ASSERT_FALSE(io::Decoder<io::PointCloud2Message>().decode(message.data, decoded));
+    EXPECT_EQ(decoded.width, 0U);
+  }
+}
+
 TEST_F(CloudBag, SaysWhatIsWrong) {
   expect_refused(cloud({"--topic", "/pionts"}), {"--topic", "/pionts", "/points"});
   expect_refused(cloud({"--topic", "/joint_states"}), {"JointState", "PointCloud2"});
@@ -234,7 +247,9 @@ TEST_F(CloudFolder, BadFilesAreSaid) {
   expect_refused(penumbra({"cloud", path(), "-o", path("x")}), {"no frames.cloud", "penumbra run"});
   edit_file(path("clouds.yaml"), "%d.pcd", "%d.xyz");
   expect_refused(cloud(), {".xyz", ".pcd, .ply, .npy or .bin"});
-  edit_file(path("clouds.yaml"), "parent: base", "parents: base");
+  edit_file(path("clouds.yaml"), "parent: base, pose: camera_pose.csv, ", "");
+  expect_refused(cloud(), {"clouds.yaml", "where the sensor is"});
+  edit_file(path("clouds.yaml"), "{model", "{parents: base, model");
   expect_refused(cloud(), {"clouds.yaml", "parents"});
 }
 

@@ -41,7 +41,7 @@ Robot bar_robot(const std::string& block = R"(<box size="0.2 0.2 0.2"/>)") {
                       "/", {.allow_missing_meshes = true});
 }
 
-/// A sensor 2 m beside the base that looks at it.
+/// A sensor that stands 2 m from the base and looks at it.
 CloudConfig config() {
   return {.rule = {.tolerance = {bar_tolerance, 0, 0}, .beam = 0.0},
           .T_parent_sensor = at(0, -2, 0)};
