@@ -14,6 +14,7 @@
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
 
+#include <io/assembly/cloud_input.hpp>
 #include <io/dds/participant.hpp>
 #include <io/run/calibration_input.hpp>
 #include <io/run/cloud_run.hpp>
@@ -129,7 +130,9 @@ struct ServerArguments {
 struct LiveArguments {
   io::SessionOptions session;  ///< renderer, what is drawn, the rule of labels, topics
   io::ParticipantOptions graph;
-  std::vector<NamedCamera> cameras;  ///< empty: one, found by type and name
+  std::vector<NamedCamera>
+      cameras;  ///< empty: one, found by type and name, unless there are clouds
+  std::vector<io::CloudInputOptions> clouds;
   std::string name_space;
   std::vector<std::string> remaps;     ///< FROM:=TO
   bool reliable = false;               ///< asked of images, joint states and tf

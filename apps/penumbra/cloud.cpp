@@ -106,7 +106,7 @@ int execute(const io::CloudRunOptions& options) {
     if (!sensor.time_note.empty()) std::cout << sensor.name << ": " << sensor.time_note << '\n';
     if (sensor.parts > 1)
       std::cout << sensor.name << ": the robot moved: up to " << sensor.parts << " poses a scan\n";
-    print_notes(sensor.warnings());
+    print_notes(sensor.notes());
   }
   print_table(std::move(rows));
   std::cout << "results: " << options.output.string() << '\n';

@@ -11,6 +11,7 @@
 #include <apps/penumbra/text.hpp>
 #include <io/assembly/result_encoder.hpp>
 #include <io/dds/graph_names.hpp>
+#include <io/live/cloud_text.hpp>
 #include <io/live/live_fusion.hpp>
 #include <io/live/name_resolver.hpp>
 
@@ -65,6 +66,24 @@ void add_cameras(CLI::App& app, LiveArguments& live) {
              const auto [name, topic] = to_pair("--camera", text, "NAME=TOPIC of depth images");
              add_camera(live.cameras, name, topic);
            });
+}
+
+void add_clouds(CLI::App& app, std::vector<io::CloudInputOptions>& clouds) {
+  add_list(
+      app, "--cloud",
+      "clouds or laser scans, which come without the robot on /penumbra/TOPIC; words after the "
+      "topic, as \"/points sensor=ouster_os1\", say what is measured and how (docs/"
+      "point_clouds.md); may be given several times. Cameras are then judged only if named",
+      "TOPIC", [&](const std::string& text) {
+        try {
+          clouds.push_back(io::parse_cloud(text));
+        } catch (const InputError& error) {
+          throw InputError(std::string("--cloud: ") + error.what());
+        }
+        for (std::size_t i = 0; i + 1 < clouds.size(); ++i)
+          if (clouds[i].topic == clouds.back().topic)
+            throw InputError("--cloud: " + clouds[i].topic + " is given twice");
+      });
 }
 
 void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps) {
@@ -129,6 +148,7 @@ void add_play(CLI::App& app, PlayArguments& play) {
 void add_live(CLI::App& app, LiveArguments& live) {
   app.footer(live_examples);
   add_cameras(app, live);
+  add_clouds(app, live.clouds);
   add_option(
       app, "--publish",
       "results to publish: of vdi,labels,mask,filtered_depth,points,targets,target_views,overlay,"
@@ -155,18 +175,21 @@ void check_live(const CLI::App& /*app*/, const LiveArguments& live) {
   if (live.server.address && !live.server.port)
     throw InputError("--address: belongs to the page that --port serves; give --port, too");
   const io::BagOptions& topics = live.session.input.bag;
-  if (live.cameras.empty()) return;
-  if (topics.depth_topic)
+  const bool has_camera = !live.cameras.empty() || topics.depth_topic;
+  if (live.server.port && !live.clouds.empty() && !has_camera)
+    throw InputError("--port: the page shows cameras, and with --cloud they must be named");
+  if (live.cameras.empty() && live.clouds.empty()) return;
+  if (!live.cameras.empty() && topics.depth_topic)
     throw InputError("--depth-topic: --camera is given too; leave one of them out");
-  if (live.cameras.size() == 1) return;
+  if (live.cameras.size() + (topics.depth_topic ? 1 : 0) + live.clouds.size() == 1) return;
   const auto refuse = [](const char* option) {
     throw InputError(
         std::string(option) +
-        ": belongs to one camera, and --camera names several; start one penumbra live for "
+        ": belongs to one camera or sensor, and several are named; start one penumbra live for "
         "each, or leave it out");
   };
-  if (topics.camera_info_topic) refuse("--camera-info-topic");
-  if (topics.color_topic) refuse("--color-topic");
+  if (topics.camera_info_topic && live.cameras.size() > 1) refuse("--camera-info-topic");
+  if (topics.color_topic && live.cameras.size() > 1) refuse("--color-topic");
   if (topics.camera_frame) refuse("--camera-frame");
   if (topics.parent) refuse("--parent");
   if (topics.pose) refuse("--pose");

@@ -184,13 +184,14 @@ each image with the robot's pose at its own stamp. Publishes below /penumbra (wi
 /penumbra/NAME): vdi, labels, mask, filtered_depth, points, targets, overlay/compressed, robot_mask, each only
 while somebody subscribes to it. /diagnostics says once a second why nothing is published. What is
 not known is published as unknown. --port serves the viewer's page of each camera. Ctrl-C and
-SIGTERM end it; after --duration its exit status is 2 if it judged no image.
+SIGTERM end it; after --duration its exit status is 2 if it judged nothing.
 ROS_DOMAIN_ID, ROS_LOCALHOST_ONLY=1 and CYCLONEDDS_URI are used.
 
 Examples:
   penumbra live --package ur_description=/opt/ur_description --port 8470
   penumbra live --depth-topic /camera/camera/depth/image_rect_raw --target-topic /detections
   penumbra live --camera left=/left/depth/image_rect_raw --camera right=/right/depth/image_rect_raw
+  penumbra live --cloud "/ouster/points sensor=ouster_os1" --cloud "/scan sensor=hokuyo"
   penumbra live --namespace cell --remap /tf:=/cell/tf --publish mask,targets --summary live.json)";
 
 inline constexpr const char* cloud_examples = R"(

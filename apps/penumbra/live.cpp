@@ -41,6 +41,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto report_period = 1s;
 constexpr auto longest_receive = 100ms;
 constexpr auto discovery_step = 200ms;
+constexpr const char* behind = "results not published: subscribers were behind";
 
 double cpu_seconds() {
   rusage usage{};
@@ -162,7 +163,15 @@ class Live {
       }));
       sinks.push_back(results_.back().get());
     }
-    runner_ = std::make_unique<io::LiveRunner>(options, config_of(arguments), sinks);
+    std::vector<io::CloudSink*> cloud_sinks;
+    for (const io::CloudInputOptions& cloud : arguments.clouds) {
+      const std::string topic = cloud_result_name(cloud.topic);
+      clouds_.push_back(std::make_unique<GraphClouds>(graph, names.resolve(topic),
+                                                      names.resolve(topic + labelled_end)));
+      cloud_sinks.push_back(clouds_.back().get());
+    }
+    runner_ = std::make_unique<io::LiveRunner>(options, config_of(arguments), sinks, io::make_robot,
+                                               io::LiveRunner::default_robot_retry, cloud_sinks);
     pages.watch(*runner_, options.cameras);
     if (options.cameras.size() > 1 && is_published(arguments, io::target_views_topic))
       fuse(options, names, graph);
@@ -193,11 +202,13 @@ class Live {
   /// Returns the fault that ended run(), or null.
   [[nodiscard]] const std::exception_ptr& fault() const { return fault_; }
 
-  /// Returns the number of judged images.
+  /// Returns the number of judged images and labelled clouds.
   [[nodiscard]] std::size_t judged() {
     return runner_->with_inbox([&](const io::LiveInbox& inbox) {
       std::size_t images = 0;
       for (std::size_t i = 0; i < results_.size(); ++i) images += inbox.camera(i).counts().judged;
+      for (std::size_t i = 0; i < clouds_.size(); ++i)
+        images += inbox.cloud_tally(i).all.labelled();
       return images;
     });
   }
@@ -206,6 +217,7 @@ class Live {
     io::LiveRun run{.seconds = seconds(), .cpu_seconds = cpu_seconds() - cpu_at_start_};
     if (fault_) run.fault = words_of(fault_);
     for (const auto& results : results_) run.results.push_back(results->counts());
+    for (const auto& clouds : clouds_) run.clouds_not_written.push_back(clouds->not_written());
     const auto links = subscriptions_->links();
     return runner_->with_inbox(
         [&](const io::LiveInbox& inbox) { return io::live_summary_json(inbox, links, run); });
@@ -269,16 +281,22 @@ class Live {
     }
   }
 
-  /// Adds the results that subscribers lost to the cameras' statuses, which are the last ones.
+  /// Adds the results that subscribers lost to the statuses of cameras and clouds, which follow the
+  /// robot's.
   void add_losses(io::DiagnosticArrayMessage& message) const {
-    auto status = message.status.end() - static_cast<std::ptrdiff_t>(results_.size());
+    auto status = message.status.begin() + 1;
     for (const auto& results : results_) {
       const io::WrittenResults counts = results->counts();
       const auto add = [&](const char* key, std::size_t number) {
         if (number > 0) status->values.push_back({key, std::to_string(number)});
       };
-      add("results not published: subscribers were behind", counts.not_written);
+      add(behind, counts.not_written);
       add("results not acknowledged by subscribers", counts.unacknowledged);
+      ++status;
+    }
+    for (const auto& clouds : clouds_) {
+      if (const std::size_t number = clouds->not_written(); number > 0)
+        status->values.push_back({behind, std::to_string(number)});
       ++status;
     }
   }
@@ -288,6 +306,7 @@ class Live {
   Clock::time_point begin_ = Clock::now();
   double cpu_at_start_ = cpu_seconds();
   std::vector<std::unique_ptr<GraphResults>> results_;
+  std::vector<std::unique_ptr<GraphClouds>> clouds_;
   std::unique_ptr<io::Publication> target_views_;  // null with one camera
   std::optional<io::LiveFusion> fusion_;           // likewise
   std::unique_ptr<io::LiveRunner> runner_;
@@ -307,6 +326,8 @@ void print_topics(const io::LiveOptions& options, int domain) {
     if (!camera.color_topic.empty()) std::cout << ", color " << camera.color_topic;
     std::cout << '\n';
   }
+  for (const io::CloudInputOptions& cloud : options.clouds)
+    std::cout << "cloud: " << io::printable(cloud.topic) << '\n';
   std::cout << "poses: from " << to_string(options.poses) << '\n' << std::flush;
 }
 
@@ -324,8 +345,9 @@ int execute(const LiveArguments& arguments) {
   io::LiveOptions options = live_options(arguments, names);
   const io::CameraInputOptions common = camera_options(arguments);
   options.cameras = named_cameras(arguments, names, common);
+  options.clouds = named_clouds(arguments, names);
   io::BagOptions searched = searched_topics(arguments, names);
-  check_remaps(names, options.cameras);
+  check_remaps(names, options.cameras, arguments.clouds);
   std::optional<io::PendingFile> summary;
   if (arguments.summary) {
     io::check_is_no_folder("--summary", *arguments.summary);
@@ -338,7 +360,7 @@ int execute(const LiveArguments& arguments) {
   LivePages pages(arguments, graph->domain());
   pages.print();
   Diagnostics diagnostics(*graph, names, pages);
-  if (options.cameras.empty()) {
+  if (options.cameras.empty() && options.clouds.empty()) {
     CameraSearch search(*graph, std::move(searched));
     auto camera = find_camera(arguments, search, common, diagnostics, stop);
     if (!camera) {
@@ -359,7 +381,7 @@ int execute(const LiveArguments& arguments) {
   }
   if (live.fault()) std::rethrow_exception(live.fault());
   if (stopped || live.judged() > 0) return 0;
-  std::cerr << "penumbra: no image was judged\n";
+  std::cerr << "penumbra: nothing was judged\n";
   return 2;
 }
 

@@ -75,6 +75,20 @@ std::vector<io::CameraInputOptions> named_cameras(const LiveArguments& arguments
   return cameras;
 }
 
+std::vector<io::CloudInputOptions> named_clouds(const LiveArguments& arguments,
+                                                const io::NameResolver& names) {
+  const io::CameraInputOptions common = camera_options(arguments);
+  std::vector<io::CloudInputOptions> clouds = arguments.clouds;
+  for (io::CloudInputOptions& cloud : clouds) {
+    cloud.topic = names.resolve(cloud.topic);
+    cloud.mount = common.mount;
+    cloud.poses = common.poses;
+    cloud.time_offset = common.time_offset;
+    cloud.max_frames = common.max_frames;
+  }
+  return clouds;
+}
+
 io::BagOptions searched_topics(const LiveArguments& arguments, const io::NameResolver& names) {
   io::BagOptions topics = arguments.session.input.bag;
   for (auto* const name : {&topics.depth_topic, &topics.camera_info_topic, &topics.color_topic})

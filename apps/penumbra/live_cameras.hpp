@@ -23,6 +23,10 @@ namespace penumbra::app {
     const LiveArguments& arguments, const io::NameResolver& names,
     const io::CameraInputOptions& common);
 
+/// Returns the sensors of clouds. The topics need not exist yet.
+[[nodiscard]] std::vector<io::CloudInputOptions> named_clouds(const LiveArguments& arguments,
+                                                              const io::NameResolver& names);
+
 /// Returns the user's choices for the topics of a camera that is searched.
 [[nodiscard]] io::BagOptions searched_topics(const LiveArguments& arguments,
                                              const io::NameResolver& names);

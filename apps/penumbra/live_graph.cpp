@@ -6,12 +6,14 @@
 namespace penumbra::app {
 namespace {
 
-constexpr int result_depth = 10;   // of results that a subscriber has not fetched
-constexpr int image_depth = 8;     // of images that are not read yet: 0.25 s on a busy machine
+constexpr int result_depth = 10;  // of results that a subscriber has not fetched
+constexpr int image_depth =
+    8;  // of images and clouds that are not read yet: 0.25 s on a busy machine
 constexpr int state_depth = 1000;  // of joint states and transforms: a second of them
 
 bool is_image(io::TopicRole role) {
-  return role == io::TopicRole::depth || role == io::TopicRole::color;
+  return role == io::TopicRole::depth || role == io::TopicRole::color ||
+         role == io::TopicRole::cloud;
 }
 
 }  // namespace
@@ -52,6 +54,19 @@ io::WrittenResults GraphResults::counts() const {
   return counts;
 }
 
+bool GraphClouds::wants(const std::string& type, bool labelled) {
+  if (labelled && type != io::message_type<io::PointCloud2Message>()) return false;
+  std::unique_ptr<io::Publication>& publication = publications_[labelled ? 1 : 0];
+  if (!publication)
+    publication = graph_.advertise(topics_[labelled ? 1 : 0], type,
+                                   {.reliable = true, .depth = result_depth});
+  return publication->subscribers() > 0;
+}
+
+void GraphClouds::write(bool labelled, std::span<const std::byte> payload) {
+  if (!publications_[labelled ? 1 : 0]->write(payload)) ++not_written_;
+}
+
 LiveSubscriptions::LiveSubscriptions(io::Participant& graph, io::LiveRunner& runner, bool reliable)
     : graph_(graph), runner_(runner), reliable_(reliable) {
   topics_ = runner.with_inbox([](const io::LiveInbox& inbox) {
@@ -89,7 +104,7 @@ void LiveSubscriptions::follow(bool with_color) {
     io::InputTopic& topic = topics_[i];
     const std::string type = type_on_graph(topic.name, all);
     if (topic.type.empty()) {
-      const auto types = io::LiveInbox::target_types();
+      const auto types = io::LiveInbox::types_of(topic.role);
       if (std::find(types.begin(), types.end(), type) != types.end()) {
         topic.type = type;
         runner_.with_inbox([&](io::LiveInbox& inbox) {

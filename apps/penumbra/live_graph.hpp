@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <io/assembly/result_encoder.hpp>
@@ -38,6 +39,26 @@ class GraphResults final : public io::ResultSink {
   std::array<std::unique_ptr<io::Publication>, io::result_topics.size()> publications_;
   std::array<std::atomic<std::size_t>, io::result_topics.size()> written_ = {};
   std::atomic<std::size_t> not_written_ = 0, unacknowledged_ = 0;
+};
+
+/// Publishes the clouds of a sensor that have subscribers, with the type of its messages.
+class GraphClouds final : public io::CloudSink {
+ public:
+  /// `topic`: "/penumbra/points", that of the labelled clouds "/penumbra/points/labelled".
+  GraphClouds(io::Participant& graph, std::string topic, std::string labelled_topic)
+      : graph_(graph), topics_{std::move(topic), std::move(labelled_topic)} {}
+
+  [[nodiscard]] bool wants(const std::string& type, bool labelled) override;
+  void write(bool labelled, std::span<const std::byte> payload) override;
+
+  /// Returns how many were not published because subscribers were behind. Any thread may call this.
+  [[nodiscard]] std::size_t not_written() const { return not_written_; }
+
+ private:
+  io::Participant& graph_;
+  std::array<std::string, 2> topics_;
+  std::array<std::unique_ptr<io::Publication>, 2> publications_;  // by `labelled`
+  std::atomic<std::size_t> not_written_ = 0;
 };
 
 /// Hands a graph's messages to a runner. One thread calls receive(); any thread calls the rest.

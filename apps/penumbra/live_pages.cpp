@@ -83,10 +83,13 @@ void LivePages::watch(io::LiveRunner& runner, const std::vector<io::CameraInputO
 }
 
 void LivePages::publish(const io::DiagnosticArrayMessage& message) {
-  const std::size_t first_camera = message.status.size() - std::max<std::size_t>(pages_.size(), 1);
+  // The robot's, those of the cameras and of clouds, or the one of a camera that is searched.
+  const std::size_t first_camera = message.status.size() > 1 ? 1 : 0;
   for (std::size_t i = 0; i < pages_.size(); ++i) {
     std::vector<const Status*> statuses;
-    for (std::size_t s = 0; s < first_camera; ++s) statuses.push_back(&message.status[s]);
+    for (std::size_t s = 0; s < message.status.size(); ++s)
+      if (s < first_camera || s >= first_camera + pages_.size())
+        statuses.push_back(&message.status[s]);
     statuses.push_back(&message.status[first_camera + i]);
     pages_[i]->publish(statuses);
   }

@@ -29,19 +29,26 @@ std::string result_name(const std::string& camera, const io::ResultTopic& topic)
   return "penumbra/" + (camera.empty() ? "" : camera + "/") + std::string(topic.name);
 }
 
+std::string cloud_result_name(const std::string& topic) {
+  return (topic.starts_with('/') ? "penumbra" : "penumbra/") + topic;
+}
+
 std::string target_views_name() { return "penumbra/" + std::string(io::target_views_topic); }
 
-void check_remaps(const io::NameResolver& names,
-                  const std::vector<io::CameraInputOptions>& cameras) {
+void check_remaps(const io::NameResolver& names, const std::vector<io::CameraInputOptions>& cameras,
+                  const std::vector<io::CloudInputOptions>& clouds) {
   static_cast<void>(names.resolve(diagnostics_topic));
   static_cast<void>(names.resolve(target_views_name()));
   std::vector<std::string> of_cameras;
   of_cameras.reserve(cameras.size() + 1);
   for (const io::CameraInputOptions& camera : cameras) of_cameras.push_back(camera.name);
-  if (of_cameras.empty()) of_cameras.emplace_back();
+  if (of_cameras.empty() && clouds.empty()) of_cameras.emplace_back();
   for (const std::string& camera : of_cameras)
     for (const io::ResultTopic& topic : io::result_topics)
       static_cast<void>(names.resolve(result_name(camera, topic)));
+  for (const io::CloudInputOptions& cloud : clouds)
+    for (const char* const end : {"", labelled_end})
+      static_cast<void>(names.resolve(cloud_result_name(cloud.topic) + end));
   if (const auto unused = names.unused(); !unused.empty())
     throw InputError("--remap '" + io::printable(unused.front()) +
                      "': no topic has this name; topics that are found by their type are named by "

@@ -23,12 +23,18 @@ inline constexpr const char* diagnostics_topic = "/diagnostics";
 /// Returns the topic of a camera's result before it is resolved. `camera`: empty for the only one.
 [[nodiscard]] std::string result_name(const std::string& camera, const io::ResultTopic& topic);
 
+/// Returns the topic of a sensor's clouds without the robot before it is resolved. `topic`: the
+/// input's.
+[[nodiscard]] std::string cloud_result_name(const std::string& topic);
+
+inline constexpr const char* labelled_end = "/labelled";  ///< of clouds with labels
+
 /// Returns the topic of the verdicts over all cameras before it is resolved.
 [[nodiscard]] std::string target_views_name();
 
 /// Throws InputError for a remapped name that no topic has. Call it after all names are resolved.
-void check_remaps(const io::NameResolver& names,
-                  const std::vector<io::CameraInputOptions>& cameras);
+void check_remaps(const io::NameResolver& names, const std::vector<io::CameraInputOptions>& cameras,
+                  const std::vector<io::CloudInputOptions>& clouds);
 
 /// Returns all options but the cameras. Throws InputError for the file of the robot.
 [[nodiscard]] io::LiveOptions live_options(const LiveArguments& arguments,

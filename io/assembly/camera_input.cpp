@@ -15,7 +15,6 @@ namespace {
 /// caller's clock. Drivers send them together, but some send one camera_info for all images.
 constexpr double newest_companion_wait = 0.1, every_companion_wait = 0.2;
 constexpr std::size_t newest_most_colors = 8, every_most_colors = 64;
-constexpr std::size_t most_intervals = 4;
 
 std::string why_dropped(DropReason reason) {
   switch (reason) {
@@ -42,12 +41,6 @@ CameraInput::CameraInput(CameraInputOptions options, const RobotInput& robot)
   setup_ = make_setup(known.cameras, known.mount);
 }
 
-void CameraInput::note_arrival(std::int64_t now) {
-  if (last_depth_) intervals_.push_back(now - *last_depth_);
-  if (intervals_.size() > most_intervals) intervals_.pop_front();
-  last_depth_ = now;
-}
-
 void CameraInput::take_depth(KeptImage image, std::int64_t now) {
   const std::uint64_t index = counts_.received++;
   const std::int64_t stamp = image.header().stamp;
@@ -64,18 +57,18 @@ void CameraInput::take_depth(KeptImage image, std::int64_t now) {
       waiting->source_message = "the depth image is of the frame '" + printable(frame) +
                                 "', the first one of '" + printable(depth_frame_) + "'";
   } else {
-    note_arrival(now);
+    arrivals_.add(now);
     depth_frame_ = frame;
     refresh();
-    if (!setup_) return drop(DropReason::not_ready);
-    if (stamp < valid_from_) return drop(DropReason::changed);
+    if (!setup_) return counts_.drop(DropReason::not_ready);
+    if (stamp < valid_from_) return counts_.drop(DropReason::changed);
   }
   setup_->queue.push(waiting, now);
 }
 
 void CameraInput::take_unreadable(const std::string& fault, std::int64_t now) {
   const std::uint64_t index = counts_.received++;
-  if (!is_lossless()) return drop(DropReason::unreadable);
+  if (!is_lossless()) return counts_.drop(DropReason::unreadable);
   const auto waiting = std::make_shared<AssembledFrame>();
   waiting->index = index;
   waiting->source_message = fault;
@@ -144,7 +137,7 @@ void CameraInput::refresh() {
 
 void CameraInput::replace_setup(std::shared_ptr<CameraSetup> setup) {
   if (setup_) {
-    drop(DropReason::changed, setup_->queue.waiting());
+    counts_.drop(DropReason::changed, setup_->queue.waiting());
     targets_.replaced += setup_->targets.replaced();
     targets_.discarded += setup_->targets.discarded() + setup_->targets.waiting();
   }
@@ -179,7 +172,7 @@ std::shared_ptr<CameraSetup> CameraInput::make_setup(JudgedCameras cameras, Came
                 .camera_frame = mount.frame}};
   const auto on_drop = [this](std::shared_ptr<Frame> frame, DropReason reason) {
     if (is_lossless()) return keep_without_pose(std::move(frame), why_dropped(reason));
-    drop(reason);
+    counts_.drop(reason);
     if (reason == DropReason::no_camera_info) ++without_info_;
   };
   const auto check = [this](const Frame& frame, bool over) {
@@ -284,11 +277,6 @@ void CameraInput::done(bool is_judged, std::size_t unjudged_targets) {
   --counts_.in_work;
   ++(is_judged ? counts_.judged : counts_.failed);
   targets_.discarded += unjudged_targets;
-}
-
-std::optional<std::int64_t> CameraInput::depth_period() const {
-  if (intervals_.empty()) return std::nullopt;
-  return *std::min_element(intervals_.begin(), intervals_.end());
 }
 
 UnjudgedTargets CameraInput::targets() const {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -13,6 +12,7 @@
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/poses/pose_lookup.hpp>
 
+#include <io/assembly/arrivals.hpp>
 #include <io/assembly/assembled_frame.hpp>
 #include <io/assembly/camera_infos.hpp>
 #include <io/assembly/camera_mount.hpp>
@@ -50,20 +50,6 @@ struct CameraInputOptions {
   /// says so (DropPolicy::every). Not set for live topics: the setup follows what is received, and
   /// the newest image is given (DropPolicy::newest).
   std::optional<KnownCamera> known = {};
-};
-
-/// Counts depth images by result: received = judged + failed + dropped + waiting + in_work.
-struct ImageCounts {
-  std::size_t received = 0;
-  std::size_t judged = 0;  ///< judged and published
-  std::size_t failed = 0;  ///< no result could be computed
-  std::size_t waiting = 0;
-  std::size_t in_work = 0;
-  std::array<std::size_t, drop_reasons> dropped{};
-
-  [[nodiscard]] std::size_t of(DropReason reason) const {
-    return dropped[static_cast<std::size_t>(reason)];
-  }
 };
 
 /// Targets that were never judged.
@@ -121,10 +107,7 @@ class CameraInput {
   /// Returns the number of consecutive images that were dropped as DropReason::no_camera_info.
   [[nodiscard]] std::size_t without_info() const { return without_info_; }
   [[nodiscard]] std::size_t camera_changes() const { return camera_changes_; }
-  [[nodiscard]] std::optional<std::int64_t> last_depth() const { return last_depth_; }
-  /// Returns the period of the images in nanoseconds, or nothing if it is not known yet. It is the
-  /// shortest of the last intervals, because a long one may be a pause.
-  [[nodiscard]] std::optional<std::int64_t> depth_period() const;
+  [[nodiscard]] const Arrivals& arrivals() const { return arrivals_; }  ///< of depth images
   [[nodiscard]] UnjudgedTargets targets() const;
 
  private:
@@ -137,14 +120,10 @@ class CameraInput {
   };
 
   [[nodiscard]] bool is_lossless() const { return options_.known.has_value(); }
-  void note_arrival(std::int64_t now);
   [[nodiscard]] std::shared_ptr<CameraSetup> find_setup();
   [[nodiscard]] std::shared_ptr<CameraSetup> make_setup(JudgedCameras cameras, CameraMount mount);
   [[nodiscard]] JudgedCameras find_cameras() const;
   void replace_setup(std::shared_ptr<CameraSetup> setup);
-  void drop(DropReason reason, std::size_t images = 1) {
-    counts_.dropped[static_cast<std::size_t>(reason)] += images;
-  }
   void keep_without_pose(std::shared_ptr<Frame> frame, const std::string& why);
   [[nodiscard]] Companions check_info(const Frame& frame, bool over);
   [[nodiscard]] Companions check_all(const Frame& frame, bool over) const;
@@ -167,9 +146,8 @@ class CameraInput {
   bool with_color_ = false;
   ColorImages colors_;
   ImageCounts counts_;
-  std::optional<std::int64_t> last_depth_;
-  std::deque<std::int64_t> intervals_;  // between the last depth images
-  UnjudgedTargets targets_;             // of previous setups
+  Arrivals arrivals_;
+  UnjudgedTargets targets_;  // of previous setups
 };
 
 }  // namespace penumbra::io

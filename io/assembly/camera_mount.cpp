@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -35,6 +36,12 @@ MountOptions mount_options(const BagOptions& bag) {
   options.pose = read_pose_csv(*bag.pose);
   options.pose_source = "--pose " + bag.pose->string();
   return options;
+}
+
+bool is_above_robot(const Robot& robot, const MountOptions& options, const FrameTree& frames,
+                    const std::string& frame) {
+  const auto above = frames.chain(options.frame_prefix + robot.links().front());
+  return std::find(above.begin(), above.end(), frame_name(frame)) != above.end();
 }
 
 std::string mounted_frame(const MountOptions& options, const std::string& frame_of_images) {

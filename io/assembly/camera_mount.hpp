@@ -46,6 +46,10 @@ struct CameraMount {
                                                     const FrameTree& frames,
                                                     const std::string& frame_of_images);
 
+/// Returns whether a frame is the root link's or above it in TF, as odom and map are: no sensor's.
+[[nodiscard]] bool is_above_robot(const Robot& robot, const MountOptions& options,
+                                  const FrameTree& frames, const std::string& frame);
+
 /// Returns the frame that find_mount looks for in TF.
 [[nodiscard]] std::string mounted_frame(const MountOptions& options,
                                         const std::string& frame_of_images);

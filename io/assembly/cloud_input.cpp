@@ -11,103 +11,135 @@
 
 namespace penumbra::io {
 
-namespace {
-
-PoseOptions pose_options(const CloudInputOptions& options) {
-  return {.source = options.poses,
-          .frame_prefix = options.frame_prefix,
-          .camera_parent = options.mount.parent,
-          .camera_frame = options.mount.frame};
+CloudInput::CloudInput(CloudInputOptions options, const RobotInput& robot)
+    : options_(std::move(options)), robot_(robot) {
+  if (options_.known) setup_ = make_setup(*options_.known);
 }
 
-}  // namespace
-
-CloudInput::CloudInput(CloudInputOptions options, std::shared_ptr<PosedRobot> posed)
-    : options_(std::move(options)),
-      posed_(std::move(posed)),
-      queue_(posed_->robot, posed_->history,
-             {.policy = DropPolicy::every,
-              .time_offset = options_.time_offset,
-              .max_wait = options_.max_wait,
-              .max_frames = options_.max_frames,
-              .poses = pose_options(options_)},
-             [this](std::shared_ptr<Frame> cloud, DropReason reason) {
-               keep_lost(std::move(cloud), "not labelled: " + std::string(to_string(reason)));
-             }),
-      lookup_(posed_->robot, pose_options(options_)),
-      pipeline_(posed_->robot, {.rule = options_.rule,
-                                .threads = options_.threads,
-                                .sensor_parent = options_.mount.parent,
-                                .T_parent_sensor = options_.mount.T_parent_camera}) {}
-
 template <typename M>
-void CloudInput::take(M message, const SerializedMessage& bytes, std::int64_t now) {
+std::string CloudInput::take(M message, const SerializedMessage& bytes, std::int64_t now) {
   auto cloud = std::make_shared<ReceivedCloud>();
   if constexpr (requires { message.data; }) {  // the others own their points
-    cloud->payload.assign(bytes.data.begin(), bytes.data.end());
-    const auto at = message.data.empty() ? 0 : message.data.data() - bytes.data.data();
-    message.data = std::span<const std::byte>(cloud->payload)
-                       .subspan(static_cast<std::size_t>(at), message.data.size());
+    if (bytes.owner) {
+      cloud->owner = bytes.owner;
+    } else {
+      const auto copy =
+          std::make_shared<std::vector<std::byte>>(message.data.begin(), message.data.end());
+      message.data = *copy;
+      cloud->owner = copy;
+    }
   }
   cloud->header = message.header;
   cloud->arrived = now;
   cloud->message = std::move(message);
   cloud->source_message =
       read_points(std::get<M>(cloud->message), options_.use_times, cloud->points);
+  std::string fault = options_.known ? "" : cloud->source_message;
   push(std::move(cloud), now);
+  return fault;
 }
-template void CloudInput::take(PointCloud2Message, const SerializedMessage&, std::int64_t);
-template void CloudInput::take(LaserScanMessage, const SerializedMessage&, std::int64_t);
-template void CloudInput::take(LivoxMessage, const SerializedMessage&, std::int64_t);
+template std::string CloudInput::take(PointCloud2Message, const SerializedMessage&, std::int64_t);
+template std::string CloudInput::take(LaserScanMessage, const SerializedMessage&, std::int64_t);
+template std::string CloudInput::take(LivoxMessage, const SerializedMessage&, std::int64_t);
 
 void CloudInput::push(std::shared_ptr<ReceivedCloud> cloud, std::int64_t now) {
-  const std::string frame(frame_name(cloud->header.frame_id));
-  if (cloud->source_message.empty() && !frame_.empty() && frame != frame_)
-    cloud->source_message = "the cloud is of the frame '" + printable(frame) +
-                            "', the first one of '" + printable(frame_) + "'";
-  if (frame_.empty()) frame_ = frame;
-  if (!cloud->source_message.empty()) return keep_lost(cloud, cloud->source_message);
+  ++counts_.received;
+  arrivals_.add(now);
+  std::string frame(frame_name(cloud->header.frame_id));
+  if (!options_.known) {
+    frame_ = std::move(frame);
+    refresh();
+    if (!setup_) return counts_.drop(DropReason::not_ready);
+    if (!cloud->source_message.empty()) return counts_.drop(DropReason::unreadable);
+  } else {
+    if (cloud->source_message.empty() && !frame_.empty() && frame != frame_)
+      cloud->source_message = "the cloud is of the frame '" + printable(frame) +
+                              "', the first one of '" + printable(frame_) + "'";
+    if (frame_.empty()) frame_ = std::move(frame);
+    if (!cloud->source_message.empty()) return lost_.push_back(std::move(cloud));
+  }
   const auto& times = cloud->points.times;
   const std::int32_t last = times.empty() ? 0 : *std::max_element(times.begin(), times.end());
   cloud->stamp = cloud->header.stamp > 0 ? stamp_after(cloud->header.stamp, last) : 0;
-  queue_.push(std::move(cloud), now);
+  setup_->queue.push(std::move(cloud), now);
 }
 
-void CloudInput::keep_lost(std::shared_ptr<Frame> cloud, const std::string& why) {
-  cloud->source_message = why;
-  lost_.push_back(std::static_pointer_cast<ReceivedCloud>(std::move(cloud)));
+void CloudInput::refresh() {
+  if (options_.known) return;
+  Basis basis{.robot = robot_.posed().get(), .frames = robot_.frames_revision(), .frame = frame_};
+  if (basis == basis_) return;
+  const bool only_frames_are_new =
+      setup_ && basis.robot == basis_.robot && basis.frame == basis_.frame;
+  basis_ = std::move(basis);
+  setup_fault_.clear();
+  std::optional<CameraMount> mount;
+  try {
+    mount = find_mount();
+  } catch (const InputError& error) {
+    setup_fault_ = error.what();
+  }
+  if (only_frames_are_new && mount && *mount == setup_->mount) return;
+  if (setup_) counts_.drop(DropReason::changed, setup_->queue.waiting());
+  setup_ = mount ? make_setup(std::move(*mount)) : nullptr;
+}
+
+std::optional<CameraMount> CloudInput::find_mount() const {
+  if (!robot_.posed() || frame_.empty()) return std::nullopt;
+  const Robot& robot = robot_.posed()->robot;
+  if (!options_.is_in_other_frame() &&
+      is_above_robot(robot, options_.mount, robot_.frames(), frame_))
+    throw InputError("the clouds are given in frame '" + printable(frame_) +
+                     "', above the robot, and not in their sensor's: name that as sensor_frame, or "
+                     "say that the clouds are merged");
+  return io::find_mount(robot, options_.mount, robot_.frames(), frame_)
+      .value_or(mount_by_root(robot, options_.mount, frame_));
+}
+
+std::shared_ptr<CloudSetup> CloudInput::make_setup(CameraMount mount) {
+  const FrameQueueOptions queue{.policy = options_.known ? DropPolicy::every : DropPolicy::newest,
+                                .time_offset = options_.time_offset,
+                                .max_wait = options_.max_wait,
+                                .max_frames = options_.max_frames,
+                                .poses = {.source = options_.poses,
+                                          .frame_prefix = options_.mount.frame_prefix,
+                                          .camera_parent = mount.parent,
+                                          .camera_frame = mount.frame}};
+  return std::make_shared<CloudSetup>(
+      robot_.posed(), std::move(mount), queue,
+      [this](std::shared_ptr<Frame> cloud, DropReason reason) {
+        if (!options_.known) return counts_.drop(reason);
+        cloud->source_message = "not labelled: " + std::string(to_string(reason));
+        lost_.push_back(std::static_pointer_cast<ReceivedCloud>(std::move(cloud)));
+      });
+}
+
+void CloudInput::finish() {
+  if (setup_) setup_->queue.finish();
 }
 
 std::shared_ptr<ReceivedCloud> CloudInput::next(std::int64_t now) {
+  std::shared_ptr<ReceivedCloud> found;
   if (!lost_.empty()) {
-    auto first = std::move(lost_.front());
+    found = std::move(lost_.front());
     lost_.pop_front();
-    return first;
+  } else if (setup_) {
+    found = std::static_pointer_cast<ReceivedCloud>(setup_->queue.next(now));
   }
-  return std::static_pointer_cast<ReceivedCloud>(queue_.next(now));
+  if (!found) return nullptr;
+  found->setup = setup_;
+  ++counts_.in_work;
+  return found;
 }
 
-const CloudReport& CloudInput::label(const ReceivedCloud& cloud) {
-  Scan scan{
-      .stamp = cloud.header.stamp, .points = cloud.points.points, .times = cloud.points.times};
-  std::string fault = cloud.source_message;
-  if (!options_.has_rays) {
-    scan.origin.reset();
-  } else if (!options_.sensor_frame.empty() && fault.empty()) {
-    TransformAnswer sensor;
-    posed_->history.transforms().at(queue_.pose_stamp(cloud.header.stamp), frame_,
-                                    options_.sensor_frame, sensor);
-    if (sensor.status == TransformStatus::ok)
-      scan.origin = sensor.T_target_source.translation();
-    else
-      fault = sensor.message;
-  }
-  return pipeline_.process(scan, [&](std::int64_t stamp, RobotPose& pose) {
-    if (fault.empty())
-      lookup_.at(posed_->history, queue_.pose_stamp(stamp), pose);
-    else
-      pose = {.status = FrameStatus::missing_transform, .message = fault};
-  });
+void CloudInput::done(bool is_labelled) {
+  --counts_.in_work;
+  ++(is_labelled ? counts_.judged : counts_.failed);
+}
+
+ImageCounts CloudInput::counts() const {
+  ImageCounts counts = counts_;
+  counts.waiting = (setup_ ? setup_->queue.waiting() : 0) + lost_.size();
+  return counts;
 }
 
 }  // namespace penumbra::io

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/poses/pose_lookup.hpp>
 
+#include <io/assembly/arrivals.hpp>
 #include <io/assembly/camera_mount.hpp>
 #include <io/assembly/message_handler.hpp>
 #include <io/assembly/robot_input.hpp>
@@ -22,16 +25,6 @@ namespace penumbra::io {
 
 using CloudMessage = std::variant<PointCloud2Message, LaserScanMessage, LivoxMessage>;
 
-/// A message of points. Its stamp as a frame is that of its last point, whose pose is awaited. A
-/// source_message says why it cannot be labelled.
-struct ReceivedCloud : Frame {
-  CloudMessage message;
-  MessageHeader header;
-  CloudPoints points;
-  std::vector<std::byte> payload;  ///< that the message refers to
-  std::int64_t arrived = 0;        ///< on the caller's clock
-};
-
 struct CloudInputOptions {
   std::string topic = {};
   CloudRule rule = {};
@@ -39,43 +32,103 @@ struct CloudInputOptions {
   bool use_times = true;          ///< see read_points
   bool has_rays = true;           ///< false: merged clouds, see Scan::origin
   std::string sensor_frame = {};  ///< where rays start, in TF; empty: the clouds' own frame
-  std::string frame_prefix = {};  ///< PoseOptions::frame_prefix
-  CameraMount mount = {};         ///< of the clouds' frame
+  MountOptions mount = {};
   PoseSource poses = PoseSource::joints;
-  double time_offset = 0.0;  ///< see FrameQueueOptions
-  double max_wait = 0.5;     ///< likewise
-  std::size_t max_frames = 32;
+  double time_offset = 0.0;    ///< see FrameQueueOptions
+  double max_wait = 0.5;       ///< likewise
+  std::size_t max_frames = 8;  ///< likewise
+  CloudOutput output = {};     ///< for the one who writes them
+  /// Set for bags: every cloud is given out; one that cannot be labelled says so
+  /// (DropPolicy::every). Not set for live topics: the setup follows what is received, and the
+  /// newest cloud is given (DropPolicy::newest).
+  std::optional<CameraMount> known = {};
+
+  /// Returns whether the clouds' own frame need not be their sensor's.
+  [[nodiscard]] bool is_in_other_frame() const { return !has_rays || !sensor_frame.empty(); }
 };
 
-/// The clouds of one sensor of a bag: keeps them until the poses of the whole scan are known, and
-/// labels them. Part of FrameAssembler. Gives out every cloud; one that cannot be labelled says so.
+/// The robot and the mount that a sensor's clouds are labelled with, and the clouds that wait for
+/// their poses. Another robot, frame or mount gives another setup. Constant members may be read at
+/// any time; see FrameAssembler for the others.
+struct CloudSetup {
+  CloudSetup(std::shared_ptr<PosedRobot> of, CameraMount where, const FrameQueueOptions& options,
+             FrameQueue::OnDrop on_drop)
+      : posed(std::move(of)),
+        mount(std::move(where)),
+        poses(options.poses),
+        queue(posed->robot, posed->history, options, std::move(on_drop)) {}
+
+  const std::shared_ptr<PosedRobot> posed;
+  const CameraMount mount;
+  const PoseOptions poses;
+  FrameQueue queue;
+};
+
+/// A message of points. Its stamp as a frame is that of its last point, whose pose is awaited. A
+/// source_message says why it cannot be labelled.
+struct ReceivedCloud : Frame {
+  std::shared_ptr<CloudSetup> setup;
+  CloudMessage message;
+  MessageHeader header;
+  CloudPoints points;
+  std::shared_ptr<const void> owner;  ///< of the bytes that the message refers to
+  std::int64_t arrived = 0;           ///< on the caller's clock
+};
+
+/// The clouds of one sensor: keeps them until the poses of the whole scan are known. Part of
+/// FrameAssembler; uses no threads and no clock. CloudWorker labels what it gives out.
 class CloudInput {
  public:
-  /// Throws InputError as FrameQueue, PoseLookup and CloudPipeline.
-  CloudInput(CloudInputOptions options, std::shared_ptr<PosedRobot> posed);
+  /// `robot` must outlive this. Throws InputError for options that FrameQueue refuses.
+  CloudInput(CloudInputOptions options, const RobotInput& robot);
 
-  /// Takes a decoded message and the bytes that it refers to.
+  /// Takes a decoded message and the bytes that it refers to. Returns why a live one cannot be
+  /// used, one line, or nothing.
   template <typename M>
-  void take(M message, const SerializedMessage& bytes, std::int64_t now);
+  std::string take(M message, const SerializedMessage& bytes, std::int64_t now);
+
+  /// Updates the setup. Call this when the robot may have changed.
+  void refresh();
   /// Gives out what waits: no further message will come.
-  void finish() { queue_.finish(); }
+  void finish();
 
   /// Returns the next cloud whose poses are known or no longer awaited; null if there is none.
   [[nodiscard]] std::shared_ptr<ReceivedCloud> next(std::int64_t now);
-  /// Labels a cloud that next() returned last; the report is valid until the next call.
-  [[nodiscard]] const CloudReport& label(const ReceivedCloud& cloud);
+  /// Counts the outcome of a cloud. Call this once for each.
+  void done(bool is_labelled);
+  [[nodiscard]] std::optional<std::int64_t> wake_at() const {
+    return setup_ ? setup_->queue.wake_at() : std::nullopt;
+  }
+
+  [[nodiscard]] const CloudInputOptions& options() const { return options_; }
+  [[nodiscard]] ImageCounts counts() const;
+  /// Returns the current setup, or null if setup_fault() is set or the robot is not known.
+  [[nodiscard]] const CloudSetup* setup() const { return setup_.get(); }
+  [[nodiscard]] const std::string& setup_fault() const { return setup_fault_; }
+  [[nodiscard]] const Arrivals& arrivals() const { return arrivals_; }
 
  private:
+  /// The inputs of a setup.
+  struct Basis {
+    const PosedRobot* robot = nullptr;
+    std::uint64_t frames = 0;
+    std::string frame;
+    bool operator==(const Basis&) const = default;
+  };
+
   void push(std::shared_ptr<ReceivedCloud> cloud, std::int64_t now);
-  void keep_lost(std::shared_ptr<Frame> cloud, const std::string& why);
+  [[nodiscard]] std::optional<CameraMount> find_mount() const;
+  [[nodiscard]] std::shared_ptr<CloudSetup> make_setup(CameraMount mount);
 
   CloudInputOptions options_;
-  std::shared_ptr<PosedRobot> posed_;
+  const RobotInput& robot_;
   std::string frame_;  // of the clouds
-  FrameQueue queue_;
-  PoseLookup lookup_;
-  CloudPipeline pipeline_;
-  std::deque<std::shared_ptr<ReceivedCloud>> lost_;  // that do not wait for poses
+  std::shared_ptr<CloudSetup> setup_;
+  Basis basis_;  // of the setup, or of the last attempt to make one
+  std::string setup_fault_;
+  std::deque<std::shared_ptr<ReceivedCloud>> lost_;  // of bags: that do not wait for poses
+  ImageCounts counts_;
+  Arrivals arrivals_;
 };
 
 }  // namespace penumbra::io

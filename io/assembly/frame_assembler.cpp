@@ -19,11 +19,15 @@ constexpr bool is_of_pixels =
 
 }  // namespace
 
-std::span<const std::string> FrameAssembler::target_types() {
-  static const std::array types = {
+std::span<const std::string> FrameAssembler::types_of(TopicRole role) {
+  static const std::array targets = {
       message_type<Detection2DArrayMessage>(), message_type<Detection3DArrayMessage>(),
       message_type<KeypointsMessage>(), message_type<PoseStampedMessage>()};
-  return types;
+  static const std::array clouds = {message_type<PointCloud2Message>(),
+                                    message_type<LaserScanMessage>(), message_type<LivoxMessage>()};
+  if (role == TopicRole::targets) return targets;
+  if (role == TopicRole::cloud) return clouds;
+  return {};
 }
 
 FrameAssembler::FrameAssembler(RobotInputOptions robot,
@@ -33,7 +37,7 @@ FrameAssembler::FrameAssembler(RobotInputOptions robot,
   for (const CameraInputOptions& camera : cameras)
     cameras_.push_back(std::make_unique<CameraInput>(camera, robot_));
   for (const CloudInputOptions& cloud : clouds)
-    clouds_.push_back(std::make_unique<CloudInput>(cloud, robot_.posed()));
+    clouds_.push_back(std::make_unique<CloudInput>(cloud, robot_));
 }
 
 std::size_t FrameAssembler::add_topic(InputTopic topic) {
@@ -78,6 +82,7 @@ void FrameAssembler::set_robot(MadeRobot made) {
 
 void FrameAssembler::follow_robot() {
   for (const auto& camera : cameras_) camera->refresh();
+  for (const auto& cloud : clouds_) cloud->refresh();
 }
 
 void FrameAssembler::finish() {
@@ -130,6 +135,7 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
     case TopicRole::targets:
       return handler_of_targets(topic);
     case TopicRole::cloud:
+      if (from.type.empty()) return {};
       if (from.type == message_type<LaserScanMessage>())
         return handler_of_clouds<LaserScanMessage>(topic);
       return from.type == message_type<LivoxMessage>()
@@ -150,7 +156,8 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
 template <typename M>
 MessageHandler FrameAssembler::handler_of_clouds(std::size_t topic) {
   return handler<M>(topic, [this, topic](M& cloud, const auto& message, std::int64_t now) {
-    clouds_[topics_[topic].camera]->take(std::move(cloud), message, now);
+    const std::string fault = clouds_[topics_[topic].camera]->take(std::move(cloud), message, now);
+    if (!fault.empty()) add_fault(topics_[topic].name, now, fault);
   });
 }
 

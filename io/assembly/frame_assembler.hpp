@@ -38,7 +38,6 @@ class FrameAssembler {
  public:
   /// Throws InputError for options that FrameQueue refuses, if a camera is known; otherwise its
   /// frames have the fault.
-  /// `clouds`: of a robot that is given.
   FrameAssembler(RobotInputOptions robot, const std::vector<CameraInputOptions>& cameras,
                  const std::vector<CloudInputOptions>& clouds = {});
   FrameAssembler(const FrameAssembler&) = delete;
@@ -49,9 +48,9 @@ class FrameAssembler {
   /// definition has other fields than those that are read.
   std::size_t add_topic(InputTopic topic);
   [[nodiscard]] std::span<const InputTopic> topics() const { return topics_; }
-  /// Sets the message type of a target topic, one of target_types().
+  /// Sets the message type of a topic of targets or clouds, one of types_of().
   void set_type(std::size_t topic, const std::string& type);
-  [[nodiscard]] static std::span<const std::string> target_types();
+  [[nodiscard]] static std::span<const std::string> types_of(TopicRole role);
 
   /// Receives a message of topics()[topic]. Messages that cannot be read are counted.
   void receive(std::size_t topic, const SerializedMessage& message, std::int64_t now);
@@ -85,8 +84,9 @@ class FrameAssembler {
   [[nodiscard]] std::optional<std::int64_t> wake_at(std::size_t camera) const {
     return cameras_[camera]->wake_at();
   }
-  /// The clouds of a sensor: CloudInput::next() and label().
+  /// The clouds of a sensor, as next(), done() and wake_at() of cameras.
   [[nodiscard]] CloudInput& cloud(std::size_t i) { return *clouds_[i]; }
+  [[nodiscard]] const CloudInput& cloud(std::size_t i) const { return *clouds_[i]; }
   [[nodiscard]] std::size_t cloud_count() const { return clouds_.size(); }
   /// Ends all waits: no further message will come.
   void finish();

@@ -138,6 +138,7 @@ bool is_of_robot(TopicRole role) {
          role == TopicRole::transforms || role == TopicRole::static_transforms ||
          role == TopicRole::targets || role == TopicRole::attached;
 }
+bool is_of_camera(TopicRole role) { return !is_of_robot(role) && role != TopicRole::cloud; }
 
 std::string name_of(const CameraInput& camera) {
   const std::string& name = camera.options().name;
@@ -169,13 +170,43 @@ LiveFault robot_fault(const LiveInbox& inbox, std::span<const LiveLink> links, s
   return {};
 }
 
+namespace {
+
+std::int64_t patience_of(const Arrivals& arrivals) {
+  return silence + periods_awaited * arrivals.period().value_or(0);
+}
+
+bool is_silent(const Arrivals& arrivals, std::int64_t now) {
+  return !arrivals.last() || now - *arrivals.last() > patience_of(arrivals);
+}
+
+/// Returns why messages that arrive give no result, or what is wrong with the results.
+LiveFault result_fault(const LiveInbox& inbox, const LiveTally& tally,
+                       const std::vector<std::string>& warnings, const Arrivals& arrivals,
+                       std::span<const LiveLink> links, std::int64_t now) {
+  if (!inbox.robot().posed()) {
+    const LiveFault robot = robot_fault(inbox, links, now);
+    return {Status::error, "nothing can be judged: " + robot.why};
+  }
+  if (!tally.last.fault.empty()) return {Status::error, tally.last.fault};
+  if (!tally.last_published) return {Status::stale, "nothing was judged yet"};
+  if (now - *tally.last_published > patience_of(arrivals))
+    return {Status::error,
+            "nothing was published for " + seconds_since(*tally.last_published, now)};
+  if (tally.last.status == FrameStatus::ok)
+    return warnings.empty() ? LiveFault() : LiveFault{Status::warn, warnings.front()};
+  const std::uint8_t level = has_pose(tally.last.status) ? Status::warn : Status::error;
+  return {level, std::string(to_string(tally.last.status)) + ": " + tally.last.message};
+}
+
+}  // namespace
+
 LiveFault camera_fault(const LiveInbox& inbox, std::size_t number, std::span<const LiveLink> links,
                        std::int64_t now) {
   const CameraInput& camera = inbox.camera(number);
   const LiveTally& tally = inbox.tally(number);
-  const std::int64_t patience = silence + periods_awaited * camera.depth_period().value_or(0);
-  if (!camera.last_depth() || now - *camera.last_depth() > patience)
-    return {Status::stale, "no depth images" + since(camera.last_depth(), now) + ": " +
+  if (is_silent(camera.arrivals(), now))
+    return {Status::stale, "no depth images" + since(camera.arrivals().last(), now) + ": " +
                                why_silent(inbox, TopicRole::depth, number, links)};
   if (!camera.has_info())
     return {Status::error,
@@ -190,21 +221,18 @@ LiveFault camera_fault(const LiveInbox& inbox, std::size_t number, std::span<con
                 " images have no camera_info of their own, as others do: they may be "
                 "another camera's and are not judged: " +
                 why_silent(inbox, TopicRole::camera_info, number, links)};
-  if (!inbox.robot().posed()) {
-    const LiveFault robot = robot_fault(inbox, links, now);
-    return {Status::error, "nothing can be judged: " + robot.why};
-  }
-  if (!tally.last.fault.empty()) return {Status::error, tally.last.fault};
-  if (!tally.last_published) return {Status::stale, "no image was judged yet"};
-  if (now - *tally.last_published > patience)
-    return {Status::error,
-            "nothing was published for " + seconds_since(*tally.last_published, now)};
-  if (tally.last.status == FrameStatus::ok) {
-    const std::vector<std::string> warnings = inbox.warnings(number);
-    return warnings.empty() ? LiveFault() : LiveFault{Status::warn, warnings.front()};
-  }
-  const std::uint8_t level = has_pose(tally.last.status) ? Status::warn : Status::error;
-  return {level, std::string(to_string(tally.last.status)) + ": " + tally.last.message};
+  return result_fault(inbox, tally, inbox.warnings(number), camera.arrivals(), links, now);
+}
+
+LiveFault cloud_fault(const LiveInbox& inbox, std::size_t number, std::span<const LiveLink> links,
+                      std::int64_t now) {
+  const CloudInput& cloud = inbox.cloud(number);
+  const CloudTally& tally = inbox.cloud_tally(number);
+  if (is_silent(cloud.arrivals(), now))
+    return {Status::stale, "no clouds" + since(cloud.arrivals().last(), now) + ": " +
+                               why_silent(inbox, TopicRole::cloud, number, links)};
+  if (!cloud.setup_fault().empty()) return {Status::error, cloud.setup_fault()};
+  return result_fault(inbox, tally, tally.warnings, cloud.arrivals(), links, now);
 }
 
 DiagnosticStatusMessage LiveDiagnostics::make_status(const std::string& subject,
@@ -258,8 +286,34 @@ DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, s
     add_count(status, "camera_info changed", camera.camera_changes());
   add_targets(status, camera.targets());
   for (std::size_t i = 0; i < inbox.topics().size(); ++i)
-    if (!is_of_robot(inbox.topics()[i].role) && inbox.topics()[i].camera == number)
+    if (is_of_camera(inbox.topics()[i].role) && inbox.topics()[i].camera == number)
       add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));
+  return status;
+}
+
+DiagnosticStatusMessage LiveDiagnostics::cloud_status(const LiveInbox& inbox, std::size_t number,
+                                                      std::span<const LiveLink> links,
+                                                      const Period& period) const {
+  const CloudInput& cloud = inbox.cloud(number);
+  const CloudTally& tally = inbox.cloud_tally(number);
+  const ImageCounts counts = cloud.counts();
+  const LiveFault current = cloud_fault(inbox, number, links, period.now);
+  const double rate = static_cast<double>(counts.judged - labelled_[number]) / period.seconds;
+  Status status = make_status("cloud " + printable(cloud.options().topic), current);
+  if (current.why.empty()) status.message = decimal(rate, " clouds/s labelled");
+  add(status, "labelled per second", decimal(rate, ""));
+  if (cloud.setup() != nullptr)
+    add(status, "sensor on link",
+        cloud.setup()->mount.parent + ", by " + cloud.setup()->mount.source);
+  add_counts(status, counts);
+  for (const std::string& line : tally.warnings) add(status, "warning", line);
+  for (std::size_t i = 0; i < label_count; ++i)
+    add_count(status, "points " + std::string(point_label_names[i]), tally.all.points[i]);
+  add_count(status, "most poses of a scan", tally.all.parts);
+  add_tally(status, tally);
+  for_each_topic(inbox, TopicRole::cloud, number, [&](std::size_t i) {
+    add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));
+  });
   return status;
 }
 
@@ -279,6 +333,11 @@ DiagnosticArrayMessage LiveDiagnostics::report(const LiveInbox& inbox,
   for (std::size_t c = 0; c < inbox.camera_count(); ++c) {
     array.status.push_back(camera_status(inbox, c, links, period));
     judged_[c] = inbox.camera(c).counts().judged;
+  }
+  labelled_.resize(inbox.cloud_count());
+  for (std::size_t c = 0; c < inbox.cloud_count(); ++c) {
+    array.status.push_back(cloud_status(inbox, c, links, period));
+    labelled_[c] = inbox.cloud(c).counts().judged;
   }
   received_.assign(inbox.received().begin(), inbox.received().end());
   before_ = moment.now;

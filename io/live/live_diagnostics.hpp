@@ -42,7 +42,8 @@ struct DiagnosticSource {
   std::string hardware_id = {};   ///< the name of the machine
 };
 
-/// Makes diagnostic_msgs: one status of the robot and one of each camera. A status has the rates
+/// Makes diagnostic_msgs: one status of the robot, one of each camera, then one of each sensor of
+/// clouds. A status has the rates
 /// since the last report and, if nothing is published, the reason.
 class LiveDiagnostics {
  public:
@@ -66,6 +67,9 @@ class LiveDiagnostics {
   [[nodiscard]] DiagnosticStatusMessage camera_status(const LiveInbox& inbox, std::size_t number,
                                                       std::span<const LiveLink> links,
                                                       const Period& period) const;
+  [[nodiscard]] DiagnosticStatusMessage cloud_status(const LiveInbox& inbox, std::size_t number,
+                                                     std::span<const LiveLink> links,
+                                                     const Period& period) const;
   [[nodiscard]] double rate_of(const LiveInbox& inbox, std::size_t topic,
                                const Period& period) const;
 
@@ -74,6 +78,7 @@ class LiveDiagnostics {
 
   std::int64_t before_;                // time of the last report
   std::vector<std::size_t> judged_;    // of each camera, at the last report
+  std::vector<std::size_t> labelled_;  // of each sensor of clouds, at the last report
   std::vector<std::size_t> received_;  // of each topic, at the last report
   DiagnosticSource source_;
 };
@@ -82,5 +87,7 @@ class LiveDiagnostics {
                                     std::int64_t now);
 [[nodiscard]] LiveFault camera_fault(const LiveInbox& inbox, std::size_t camera,
                                      std::span<const LiveLink> links, std::int64_t now);
+[[nodiscard]] LiveFault cloud_fault(const LiveInbox& inbox, std::size_t cloud,
+                                    std::span<const LiveLink> links, std::int64_t now);
 
 }  // namespace penumbra::io

@@ -29,11 +29,14 @@ void set_robots(LiveOptions& options, const std::vector<std::string>& namespaces
 }
 
 LiveInbox::LiveInbox(const LiveOptions& options)
-    : FrameAssembler(options.robot, options.cameras),
+    : FrameAssembler(options.robot, options.cameras, options.clouds),
       options_(options),
-      tallies_(options.cameras.size()) {
+      tallies_(options.cameras.size()),
+      cloud_tallies_(options.clouds.size()) {
   add_topics_of_robot();
   for (std::size_t i = 0; i < options_.cameras.size(); ++i) add_topics_of_camera(i);
+  for (std::size_t i = 0; i < options_.clouds.size(); ++i)
+    add_topic({.role = TopicRole::cloud, .camera = i, .name = options_.clouds[i].topic});
 }
 
 void LiveInbox::add_topics_of_robot() {
@@ -92,7 +95,23 @@ void LiveInbox::add_topics_of_camera(std::size_t camera) {
 void LiveInbox::done(std::size_t camera, const LiveOutcome& outcome, std::int64_t now,
                      std::int64_t system_now) {
   FrameAssembler::done(camera, outcome.is_published, outcome.unjudged_targets);
-  LiveTally& tally = tallies_[camera];
+  count(tallies_[camera], outcome, now, system_now);
+}
+
+void LiveInbox::done_cloud(std::size_t number, const LiveOutcome& outcome,
+                           const CloudReport* report, std::int64_t now, std::int64_t system_now) {
+  cloud(number).done(report != nullptr);
+  CloudTally& tally = cloud_tallies_[number];
+  count(tally, outcome, now, system_now);
+  if (report == nullptr) return;
+  for (CloudSummary* summary : {&tally.all, &tally.looking}) summary->add(*report, "", 0.0);
+  if (tally.looking.clouds < CloudTally::looked_at) return;
+  tally.warnings = tally.looking.warnings();
+  tally.looking = {};
+}
+
+void LiveInbox::count(LiveTally& tally, const LiveOutcome& outcome, std::int64_t now,
+                      std::int64_t system_now) {
   tally.last = outcome;
   if (outcome.renderer) tally.renderer = outcome.renderer;
   if (!outcome.is_published) return;

@@ -15,6 +15,7 @@
 #include <penumbra/scene/target_fusion.hpp>
 
 #include <io/assembly/frame_assembler.hpp>
+#include <io/cloud/cloud_summary.hpp>
 #include <io/files/report_json.hpp>
 #include <io/live/latency_histogram.hpp>
 
@@ -37,6 +38,7 @@ struct LiveOptions {
   std::vector<std::string> motion_topics = {};  ///< of trajectory_msgs/JointTrajectory
   std::vector<std::string> target_topics = {};
   std::vector<CameraInputOptions> cameras = {};
+  std::vector<CloudInputOptions> clouds = {};
   DriftLimits drift = {};  ///< beyond which a camera's motion is a warning
 };
 
@@ -44,7 +46,7 @@ struct LiveOptions {
 void set_robots(LiveOptions& options, const std::vector<std::string>& namespaces,
                 const std::function<std::string(const std::string&)>& resolve);
 
-/// The outcome of judging a frame.
+/// The outcome of judging a frame, or of labelling a cloud.
 struct LiveOutcome {
   bool is_published = false;
   std::string fault;  ///< why the image could not be judged; empty if it is published
@@ -61,7 +63,7 @@ struct LiveOutcome {
   std::function<std::vector<std::string>()> find_warnings;
 };
 
-/// The results of a camera's images.
+/// The results of a camera's images or of a sensor's clouds.
 struct LiveTally {
   std::map<std::string, std::size_t, std::less<>> statuses;  ///< frames by status
   LatencyHistogram latency;      ///< from stamp to published, ms of the system's clock
@@ -74,6 +76,13 @@ struct LiveTally {
   std::optional<std::int64_t> last_published;  ///< on the caller's clock
 };
 
+/// The results of a sensor's clouds. Its warnings are of the last `looked_at` complete clouds.
+struct CloudTally : LiveTally {
+  static constexpr std::size_t looked_at = 50;
+
+  CloudSummary all, looking;
+};
+
 /// An assembler of a graph's topics that tallies the outcome of its frames.
 class LiveInbox : public FrameAssembler {
  public:
@@ -84,6 +93,10 @@ class LiveInbox : public FrameAssembler {
   void done(std::size_t camera, const LiveOutcome& outcome, std::int64_t now,
             std::int64_t system_now);
 
+  /// The same for a cloud. `report`: null if it could not be labelled.
+  void done_cloud(std::size_t cloud, const LiveOutcome& outcome, const CloudReport* report,
+                  std::int64_t now, std::int64_t system_now);
+
   /// Sets the warnings about a camera's setup.
   void warn(std::size_t camera, const std::shared_ptr<const CameraSetup>& setup,
             std::vector<std::string> warnings);
@@ -93,13 +106,17 @@ class LiveInbox : public FrameAssembler {
 
   [[nodiscard]] const LiveOptions& options() const { return options_; }
   [[nodiscard]] const LiveTally& tally(std::size_t i) const { return tallies_[i]; }
+  [[nodiscard]] const CloudTally& cloud_tally(std::size_t i) const { return cloud_tallies_[i]; }
 
  private:
+  static void count(LiveTally& tally, const LiveOutcome& outcome, std::int64_t now,
+                    std::int64_t system_now);
   void add_topics_of_robot();
   void add_topics_of_camera(std::size_t camera);
 
   LiveOptions options_;
   std::vector<LiveTally> tallies_;
+  std::vector<CloudTally> cloud_tallies_;
 };
 
 }  // namespace penumbra::io

@@ -3,7 +3,11 @@
 #include <chrono>
 #include <utility>
 
+#include <penumbra/base/error.hpp>
+
+#include <io/assembly/cloud_worker.hpp>
 #include <io/live/live_runner.hpp>
+#include <io/ros/message_encoder.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -40,15 +44,19 @@ std::int64_t LiveRunner::system_now() { return nanoseconds_of<std::chrono::syste
 
 LiveRunner::LiveRunner(const LiveOptions& options, const PipelineConfig& config,
                        const std::vector<ResultSink*>& sinks, RobotMaker maker,
-                       std::chrono::milliseconds robot_retry)
+                       std::chrono::milliseconds robot_retry,
+                       const std::vector<CloudSink*>& cloud_sinks)
     : inbox_(options), config_(config), maker_(std::move(maker)), robot_retry_(robot_retry) {
   for (ResultSink* sink : sinks) cameras_.emplace_back().sink = sink;
+  for (CloudSink* sink : cloud_sinks) clouds_.emplace_back().sink = sink;
 }
 
 void LiveRunner::start() {
   background_ = std::thread([this] { work_in_background(); });
   for (std::size_t i = 0; i < cameras_.size(); ++i)
     cameras_[i].thread = std::thread([this, i] { work(i); });
+  for (std::size_t i = 0; i < clouds_.size(); ++i)
+    clouds_[i].thread = std::thread([this, i] { label(i); });
 }
 
 void LiveRunner::stop() {
@@ -61,6 +69,8 @@ void LiveRunner::stop() {
   if (background_.joinable()) background_.join();
   for (CameraThread& camera : cameras_)
     if (camera.thread.joinable()) camera.thread.join();
+  for (CloudThread& cloud : clouds_)
+    if (cloud.thread.joinable()) cloud.thread.join();
 }
 
 void LiveRunner::receive(std::size_t topic, const SerializedMessage& message) {
@@ -138,8 +148,8 @@ std::exception_ptr LiveRunner::fault() {
   return fault_;
 }
 
-void LiveRunner::wait(std::size_t camera, std::unique_lock<std::mutex>& lock) {
-  const auto wake_at = inbox_.wake_at(camera);
+void LiveRunner::wait(const std::optional<std::int64_t>& wake_at,
+                      std::unique_lock<std::mutex>& lock) {
   if (!wake_at) return changed_.wait(lock);
   const auto at_most = std::chrono::nanoseconds(std::max<std::int64_t>(*wake_at - steady_now(), 0));
   changed_.wait_for(lock, at_most);
@@ -158,7 +168,7 @@ void LiveRunner::work(std::size_t camera) {
       lock.lock();
       if (stopping_) break;
       if (!inbox_.next(camera, steady_now(), with_color, job)) {
-        wait(camera, lock);
+        wait(inbox_.wake_at(camera), lock);
         continue;
       }
       if (with_overlay) self.next_overlay = steady_now() + overlay_period;
@@ -183,6 +193,54 @@ void LiveRunner::work(std::size_t camera) {
   } catch (...) {
     fail(lock);
   }
+}
+
+void LiveRunner::label(std::size_t number) {
+  CloudThread& self = clouds_[number];
+  std::unique_lock lock(mutex_);
+  const CloudInputOptions options = inbox_.options().clouds[number];
+  CloudWorker worker(options, &mutex_);
+  try {
+    while (!stopping_) {
+      const auto cloud = inbox_.cloud(number).next(steady_now());
+      if (!cloud) {
+        wait(inbox_.cloud(number).wake_at(), lock);
+        continue;
+      }
+      lock.unlock();
+      LiveOutcome outcome;
+      outcome.stamp = cloud->header.stamp;
+      outcome.arrived = cloud->arrived;
+      const CloudReport* report = nullptr;
+      try {
+        report = &worker.label(*cloud);
+        outcome.status = report->status;
+        outcome.message = report->message;
+        publish(*cloud, *report, options.output, self);
+        outcome.is_published = true;
+      } catch (const InputError& error) {
+        outcome.fault = error.what();
+      }
+      const std::int64_t now = steady_now(), system = system_now();
+      lock.lock();
+      inbox_.done_cloud(number, outcome, report, now, system);
+    }
+  } catch (...) {
+    fail(lock);
+  }
+}
+
+void LiveRunner::publish(const ReceivedCloud& cloud, const CloudReport& report, CloudOutput how,
+                         CloudThread& self) {
+  const auto write = [&]<typename M>(const M& message) {
+    for (const bool labelled : {false, true}) {
+      if (!self.sink->wants(message_type<M>(), labelled)) continue;
+      how.labelled = labelled;
+      encode(cloud_output(message, report, how, self.data), self.payload);
+      self.sink->write(labelled, self.payload);
+    }
+  };
+  std::visit(write, cloud.message);
 }
 
 }  // namespace penumbra::io

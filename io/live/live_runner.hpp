@@ -22,8 +22,23 @@
 
 namespace penumbra::io {
 
-/// Judges the messages of the graph. One thread serves each camera, one does what takes a second
-/// (makes robots, diagnoses setups), and one receives.
+/// Takes the clouds of a sensor without the robot. One thread at a time calls it.
+class CloudSink {
+ public:
+  CloudSink() = default;
+  CloudSink(const CloudSink&) = delete;
+  CloudSink& operator=(const CloudSink&) = delete;
+  virtual ~CloudSink() = default;
+
+  /// Returns whether to make this result. `type`: of the message, as "sensor_msgs/msg/LaserScan".
+  /// `labelled`: with CloudOutput::labelled.
+  [[nodiscard]] virtual bool wants(const std::string& type, bool labelled) = 0;
+  /// Writes a result that it wants. `payload`: the message in CDR, valid during the call.
+  virtual void write(bool labelled, std::span<const std::byte> payload) = 0;
+};
+
+/// Judges the messages of the graph. One thread serves each camera and each sensor of clouds, one
+/// does what takes a second (makes robots, diagnoses setups), and one receives.
 ///
 /// One mutex guards the inbox: robot, poses, waiting images and counts. It is held while a message
 /// is received and while a job is picked, and never while a job is processed or meshes are read. So
@@ -35,11 +50,13 @@ class LiveRunner {
 
   static constexpr std::chrono::seconds default_robot_retry{5};
 
-  /// `sinks`: one for each camera; they must outlive this. `robot_retry`: the time after which a
+  /// `sinks`: one for each camera; `cloud_sinks`: one for each sensor of clouds; they must outlive
+  /// this. `robot_retry`: the time after which a
   /// robot that could not be made is tried again. Throws like LiveInbox.
   LiveRunner(const LiveOptions& options, const PipelineConfig& config,
              const std::vector<ResultSink*>& sinks, RobotMaker maker = make_robot,
-             std::chrono::milliseconds robot_retry = default_robot_retry);
+             std::chrono::milliseconds robot_retry = default_robot_retry,
+             const std::vector<CloudSink*>& cloud_sinks = {});
   ~LiveRunner() { stop(); }
   LiveRunner(const LiveRunner&) = delete;
   LiveRunner& operator=(const LiveRunner&) = delete;
@@ -91,6 +108,11 @@ class LiveRunner {
     std::int64_t next_overlay = 0;  // earliest time; used by this thread only
     std::thread thread;
   };
+  struct CloudThread {
+    CloudSink* sink = nullptr;
+    std::vector<std::byte> data, payload;
+    std::thread thread;
+  };
   /// Warnings that the background thread has not found yet.
   struct PendingWarnings {
     std::size_t camera;
@@ -98,11 +120,14 @@ class LiveRunner {
     std::function<std::vector<std::string>()> find;
   };
   void work(std::size_t camera);
+  void label(std::size_t cloud);
+  static void publish(const ReceivedCloud& cloud, const CloudReport& report, CloudOutput how,
+                      CloudThread& self);
   void work_in_background();
   void serve(const RobotLoadRequest& request, std::unique_lock<std::mutex>& lock);
   void find_warnings(std::unique_lock<std::mutex>& lock);
   void fail(std::unique_lock<std::mutex>& lock);
-  void wait(std::size_t camera, std::unique_lock<std::mutex>& lock);
+  void wait(const std::optional<std::int64_t>& wake_at, std::unique_lock<std::mutex>& lock);
 
   std::mutex mutex_;
   std::condition_variable changed_, requested_;
@@ -113,6 +138,7 @@ class LiveRunner {
   std::exception_ptr fault_;                      // likewise
   std::atomic<bool> has_failed_ = false;
   std::vector<CameraThread> cameras_;
+  std::vector<CloudThread> clouds_;
   LiveFusion* fusion_ = nullptr;
   RobotMaker maker_;
   std::chrono::milliseconds robot_retry_;

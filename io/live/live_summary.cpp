@@ -11,40 +11,59 @@ Json quantiles_json(const LatencyHistogram& times) {
           {"p99", or_null(times.quantile(0.99))}};
 }
 
-Json camera_json(const LiveInbox& inbox, std::size_t number, const WrittenResults& results) {
-  const CameraInput& camera = inbox.camera(number);
-  const LiveTally& tally = inbox.tally(number);
-  const ImageCounts counts = camera.counts();
-  const UnjudgedTargets targets = camera.targets();
+/// Of images or clouds.
+Json counts_json(const ImageCounts& counts, const LiveTally& tally) {
   Json dropped = Json::object();
   for (std::size_t i = 0; i < drop_reasons; ++i)
     dropped[std::string(to_string(static_cast<DropReason>(i)))] = counts.dropped[i];
   Json frames = Json::object();
   for (const auto& [status, count] : tally.statuses) frames[status] = count;
-  Json written = Json::object();
-  for (const ResultTopic& topic : result_topics)
-    written[std::string(topic.name)] = results.written[static_cast<std::size_t>(topic.result)];
-  return {{"name", camera.options().name},
-          {"depth_topic", camera.options().depth_topic},
-          {"renderer", tally.renderer ? renderer_json(*tally.renderer) : Json(nullptr)},
-          {"received", counts.received},
+  return {{"received", counts.received},
           {"judged", counts.judged},
           {"failed", counts.failed},
           {"waiting", counts.waiting},
           {"in_work", counts.in_work},
           {"dropped", dropped},
           {"frames", frames},
-          {"results_written", written},
           {"stamp_to_published_ms", quantiles_json(tally.latency)},
           {"arrival_to_published_ms", quantiles_json(tally.processing)},
-          {"stamps_of_another_clock", tally.beyond_clock},
-          {"camera_info_changes", camera.camera_changes()},
-          {"warnings", inbox.warnings(number)},
-          {"calibration", drift_json(tally.last.drift)},
-          {"targets_not_judged",
-           {{"replaced", targets.replaced},
-            {"discarded", targets.discarded},
-            {"messages_before_setup", targets.early}}}};
+          {"stamps_of_another_clock", tally.beyond_clock}};
+}
+
+Json camera_json(const LiveInbox& inbox, std::size_t number, const WrittenResults& results) {
+  const CameraInput& camera = inbox.camera(number);
+  const LiveTally& tally = inbox.tally(number);
+  const UnjudgedTargets targets = camera.targets();
+  Json written = Json::object();
+  for (const ResultTopic& topic : result_topics)
+    written[std::string(topic.name)] = results.written[static_cast<std::size_t>(topic.result)];
+  Json result{{"name", camera.options().name},
+              {"depth_topic", camera.options().depth_topic},
+              {"renderer", tally.renderer ? renderer_json(*tally.renderer) : Json(nullptr)}};
+  result.update(counts_json(camera.counts(), tally));
+  result.update({{"results_written", written},
+                 {"camera_info_changes", camera.camera_changes()},
+                 {"warnings", inbox.warnings(number)},
+                 {"calibration", drift_json(tally.last.drift)},
+                 {"targets_not_judged",
+                  {{"replaced", targets.replaced},
+                   {"discarded", targets.discarded},
+                   {"messages_before_setup", targets.early}}}});
+  return result;
+}
+
+Json cloud_json(const LiveInbox& inbox, std::size_t number) {
+  const CloudInput& cloud = inbox.cloud(number);
+  const CloudTally& tally = inbox.cloud_tally(number);
+  Json points = Json::object();
+  for (std::size_t i = 0; i < label_count; ++i)
+    points[std::string(point_label_names[i])] = tally.all.points[i];
+  Json result{{"topic", cloud.options().topic}};
+  result.update(counts_json(cloud.counts(), tally));
+  result.update({{"points", points},
+                 {"most_poses_of_a_scan", tally.all.parts},
+                 {"warnings", tally.warnings}});
+  return result;
 }
 
 }  // namespace
@@ -67,6 +86,11 @@ std::string live_summary_json(const LiveInbox& inbox, std::span<const LiveLink> 
     not_written += results.not_written;
     unacknowledged += results.unacknowledged;
   }
+  Json clouds = Json::array();
+  for (std::size_t i = 0; i < inbox.cloud_count(); ++i) {
+    clouds.push_back(cloud_json(inbox, i));
+    not_written += run.clouds_not_written.at(i);
+  }
   const double share = run.seconds > 0.0 ? run.cpu_seconds / run.seconds : 0.0;
   return Json{{"seconds", run.seconds},
               {"cpu_share", share},
@@ -74,6 +98,7 @@ std::string live_summary_json(const LiveInbox& inbox, std::span<const LiveLink> 
               {"results_not_acknowledged", unacknowledged},
               {"robots", inbox.robot().robots()},
               {"cameras", cameras},
+              {"clouds", clouds},
               {"topics", topics},
               {"fault", or_null(run.fault)}}
       .dump(2, ' ', false, Json::error_handler_t::replace);

@@ -23,9 +23,10 @@ struct WrittenResults {
 /// The duration and outcome of a `penumbra live`.
 struct LiveRun {
   double seconds = 0.0;
-  double cpu_seconds = 0.0;                  ///< of all threads
-  std::vector<WrittenResults> results = {};  ///< one for each camera of the inbox
-  std::string fault = {};                    ///< the fault that ended it; empty if there was none
+  double cpu_seconds = 0.0;                          ///< of all threads
+  std::vector<WrittenResults> results = {};          ///< one for each camera of the inbox
+  std::vector<std::size_t> clouds_not_written = {};  ///< of each sensor: subscribers were too slow
+  std::string fault = {};  ///< the fault that ended it; empty if there was none
 };
 
 /// Returns the outcome of all messages as JSON. `links`: one for each of inbox.topics().

@@ -104,19 +104,6 @@ UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const Cam
 
 }  // namespace
 
-namespace {
-
-/// Whether a frame is above the robot in tf, as odom and map are, and no option says where the
-/// sensor is.
-bool above_root(const std::string& frame, const BagScene& scene, const Robot& robot,
-                const InputOptions& options) {
-  if (options.bag.in_other_frame) return false;
-  const auto above = scene.frames.chain(options.bag.frame_prefix + robot.links().front());
-  return std::find(above.begin(), above.end(), std::string(frame_name(frame))) != above.end();
-}
-
-}  // namespace
-
 BagClouds open_bag_clouds(const InputOptions& options, const LineSink& print) {
   BagSceneReader reader(options.path, options.bag, false);
   print_topics(reader.topics(), false, print);
@@ -130,7 +117,8 @@ BagClouds open_bag_clouds(const InputOptions& options, const LineSink& print) {
                    .static_transforms = {}};
   for (const TopicUse& use : clouds.topics.clouds) {
     const std::string frame = reader.scene().cloud_frames.at(use.name);
-    if (above_root(frame, reader.scene(), clouds.robot, options))
+    if (!options.bag.in_other_frame &&
+        is_above_robot(clouds.robot, mount_options(options.bag), reader.scene().frames, frame))
       throw InputError(use.name + ": its clouds are given in frame '" + printable(frame) +
                        "', above the robot, and not in their sensor's: name that with "
                        "--sensor-frame, give --merged, or choose other clouds with --topic");

@@ -10,6 +10,7 @@
 #include <penumbra/time/pose_history.hpp>
 
 #include <io/assembly/bag_scene.hpp>
+#include <io/assembly/cloud_worker.hpp>
 #include <io/assembly/frame_assembler.hpp>
 #include <io/cloud/cloud_file.hpp>
 #include <io/files/frame_reader.hpp>
@@ -26,9 +27,7 @@
 namespace penumbra::io {
 namespace {
 
-constexpr std::array label_names = {"clear", "front", "occluded", "unknown", "beyond", "fringe"};
-static_assert(label_names.size() == label_count);
-
+constexpr std::size_t most_waiting = 32;         // clouds of a bag, for their poses
 constexpr const char* clouds_folder = "clouds";  // below the output
 
 CloudRule changed_rule(CloudRule rule, const CloudRunOptions& options) {
@@ -49,7 +48,8 @@ const CloudReport& timed(CloudSummary& summary, const std::string& fault, const 
 
 Json points_json(const CloudReport& report) {
   Json points;
-  for (std::size_t i = 0; i < label_count; ++i) points[label_names[i]] = report.points[i];
+  for (std::size_t i = 0; i < label_count; ++i)
+    points[std::string(point_label_names[i])] = report.points[i];
   return points;
 }
 
@@ -169,7 +169,7 @@ CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
   if (summary.clouds == 0) throw InputError("--frames: the recording has none of these clouds");
   Json report{{"penumbra", PENUMBRA_VERSION}, {"clouds", std::move(clouds_)}, {"links", Json()}};
   report["links"] = robot_.links();
-  report["notes"] = summary.warnings();
+  report["notes"] = summary.notes();
   folder.add_text("report.json", report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   folder.finish();
   return result;
@@ -194,6 +194,7 @@ class BagRun {
   PendingFile pending_;
   mcap::Writer writer_;
   std::vector<std::uint16_t> channels_;
+  std::vector<CloudWorker> workers_;
   CloudRunResult result_;
   std::vector<std::byte> data_, payload_;
 };
@@ -208,10 +209,11 @@ std::vector<CloudInputOptions> cloud_inputs(const CloudRunOptions& options,
                       .use_times = options.use_times,
                       .has_rays = options.has_rays,
                       .sensor_frame = options.sensor_frame,
-                      .frame_prefix = options.input.bag.frame_prefix,
-                      .mount = clouds.mounts[i],
+                      .mount = {.frame_prefix = options.input.bag.frame_prefix},
                       .poses = clouds.topics.poses,
-                      .time_offset = options.input.bag.time_offset});
+                      .time_offset = options.input.bag.time_offset,
+                      .max_frames = most_waiting,
+                      .known = clouds.mounts[i]});
   return inputs;
 }
 
@@ -225,6 +227,7 @@ BagRun::BagRun(const CloudRunOptions& options, const BagClouds& clouds)
                  {}, cloud_inputs(options, clouds)),
       pending_(options.output),
       writer_(pending_.part(), {.profile = "ros2"}) {
+  for (const CloudInputOptions& input : cloud_inputs(options, clouds)) workers_.emplace_back(input);
   for (const TopicUse& use : clouds.topics.clouds) {
     const std::uint16_t schema =
         writer_.add_schema(use.type, "ros2msg", std::string(definition_of(use.type)));
@@ -249,7 +252,7 @@ std::optional<std::size_t> BagRun::input_of(const BagTopic& topic) {
 void BagRun::write(std::size_t sensor, const ReceivedCloud& cloud) {
   CloudSummary& summary = result_.sensors[sensor];
   const CloudReport& report = timed(summary, cloud.source_message, [&]() -> const CloudReport& {
-    return assembler_.cloud(sensor).label(cloud);
+    return workers_[sensor].label(cloud);
   });
   if (summary.time_note.empty()) summary.time_note = cloud.points.time_note;
   if (report.labels.empty() && !cloud.source_message.empty()) return;  // unreadable
@@ -264,7 +267,10 @@ void BagRun::write(std::size_t sensor, const ReceivedCloud& cloud) {
 
 void BagRun::write_ready(std::int64_t now) {
   for (std::size_t i = 0; i < assembler_.cloud_count(); ++i)
-    while (const auto cloud = assembler_.cloud(i).next(now)) write(i, *cloud);
+    while (const auto cloud = assembler_.cloud(i).next(now)) {
+      write(i, *cloud);
+      assembler_.cloud(i).done(true);
+    }
 }
 
 CloudRunResult BagRun::run(const std::function<bool()>& go_on) {
@@ -294,47 +300,6 @@ CloudRunResult BagRun::run(const std::function<bool()>& go_on) {
 }
 
 }  // namespace
-
-void CloudSummary::add(const CloudReport& report, const std::string& fault, double elapsed) {
-  ++clouds;
-  ++statuses[report.status];
-  messages.emplace(report.status, fault.empty() ? report.message : fault);
-  for (std::size_t i = 0; i < label_count; ++i) points[i] += report.points[i];
-  parts = std::max(parts, report.parts);
-  milliseconds += elapsed;
-}
-
-std::size_t CloudSummary::labelled() const {
-  std::size_t count = 0;
-  for (const auto& [status, of] : statuses)
-    if (status == FrameStatus::ok || status == FrameStatus::missing_link) count += of;
-  return count;
-}
-
-std::vector<std::string> CloudSummary::warnings() const {
-  std::vector<std::string> lines;
-  for (const auto& [status, of] : statuses)
-    if (status != FrameStatus::ok)
-      lines.push_back(name + ": " + std::to_string(of) + " of " + std::to_string(clouds) +
-                      " clouds are " + std::string(to_string(status)) +
-                      ", the first: " + messages.at(status));
-  const auto of = [&](Label label) {
-    return static_cast<double>(points[static_cast<std::size_t>(label)]);
-  };
-  const double on_robot = of(Label::occluded) + of(Label::beyond);
-  if (labelled() == 0) return lines;
-  if (on_robot == 0.0)
-    lines.push_back(name +
-                    ": no point is on the robot: it is out of the sensor's view, or the "
-                    "sensor's pose is wrong");
-  constexpr double likely_wrong = 0.1;
-  if (const double share = of(Label::beyond) / on_robot; share > likely_wrong)
-    lines.push_back(name + ": " + std::to_string(std::lround(100.0 * share)) +
-                    " % of the points in the robot's direction lie behind it, which no sensor can "
-                    "see: the sensor's pose, the joint positions or their stamps are wrong, or the "
-                    "model is larger than the robot");
-  return lines;
-}
 
 CloudRunResult run_clouds(const CloudRunOptions& options, const LineSink& print,
                           const std::function<bool()>& go_on) {

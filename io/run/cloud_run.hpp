@@ -15,6 +15,7 @@
 #include <io/assembly/bag_topics.hpp>
 #include <io/assembly/camera_mount.hpp>
 #include <io/cloud/cloud_points.hpp>
+#include <io/cloud/cloud_summary.hpp>
 #include <io/run/run_input.hpp>
 
 namespace penumbra::io {
@@ -30,24 +31,6 @@ struct CloudRunOptions {
   std::string sensor_frame;  ///< likewise; of bags
   int threads = 1;
   bool force = false;  ///< also a folder with other files
-};
-
-/// What became of the clouds of one topic, or of a recording.
-struct CloudSummary {
-  std::string name;
-  std::size_t clouds = 0;
-  std::map<FrameStatus, std::size_t> statuses;
-  std::map<FrameStatus, std::string> messages;    ///< the first of each
-  std::array<std::size_t, label_count> points{};  ///< by label, of all clouds
-  std::string time_note;                          ///< CloudPoints::time_note of the first
-  std::size_t parts = 0;                          ///< the most of a scan
-  double milliseconds = 0;                        ///< all labelling
-
-  /// `fault`: in place of the report's message, if not empty. `elapsed`: milliseconds.
-  void add(const CloudReport& report, const std::string& fault, double elapsed);
-  [[nodiscard]] std::size_t labelled() const;  ///< clouds whose points are not all unknown
-  /// Returns a line for each thing that looks wrong.
-  [[nodiscard]] std::vector<std::string> warnings() const;
 };
 
 struct CloudRunResult {

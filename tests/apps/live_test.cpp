@@ -74,7 +74,7 @@ TEST(LiveCommand, EndsByItselfAndSaysWhatCame) {
       {"live", "--depth-topic", "/nobody/depth", "--duration", "1.2", "--summary", summary},
       {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
   EXPECT_EQ(outcome.status, 2) << outcome.err;
-  expect_has(outcome.err, {"no image was judged"});
+  expect_has(outcome.err, {"nothing was judged"});
   expect_has(outcome.err, {"no publisher of /nobody/depth"});
   expect_has(read_file(summary), {"\"received\": 0"});
   expect_has(read_file(summary), {"\"renderer\": null"});

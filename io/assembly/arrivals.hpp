@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include <penumbra/pipeline/frame_queue.hpp>
+
+namespace penumbra::io {
+
+/// Counts the messages of a sensor by result: received = judged + failed + dropped + waiting +
+/// in_work.
+struct ImageCounts {
+  std::size_t received = 0;
+  std::size_t judged = 0;  ///< judged and published
+  std::size_t failed = 0;  ///< no result could be computed
+  std::size_t waiting = 0;
+  std::size_t in_work = 0;
+  std::array<std::size_t, drop_reasons> dropped{};
+
+  [[nodiscard]] std::size_t of(DropReason reason) const {
+    return dropped[static_cast<std::size_t>(reason)];
+  }
+  void drop(DropReason reason, std::size_t images = 1) {
+    dropped[static_cast<std::size_t>(reason)] += images;
+  }
+};
+
+/// When a sensor's last messages arrived, in nanoseconds of the caller's clock.
+class Arrivals {
+ public:
+  void add(std::int64_t now) {
+    if (last_) intervals_.push_back(now - *last_);
+    if (intervals_.size() > most_intervals) intervals_.pop_front();
+    last_ = now;
+  }
+  [[nodiscard]] std::optional<std::int64_t> last() const { return last_; }
+  /// Returns the period, or nothing if it is not known yet. It is the shortest of the last
+  /// intervals, because a long one may be a pause.
+  [[nodiscard]] std::optional<std::int64_t> period() const {
+    if (intervals_.empty()) return std::nullopt;
+    return *std::min_element(intervals_.begin(), intervals_.end());
+  }
+
+ private:
+  static constexpr std::size_t most_intervals = 4;
+  std::optional<std::int64_t> last_;
+  std::deque<std::int64_t> intervals_;
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <io/cloud/cloud_summary.hpp>
+
+namespace penumbra::io {
+
+void CloudSummary::add(const CloudReport& report, const std::string& fault, double elapsed) {
+  ++clouds;
+  ++statuses[report.status];
+  messages.emplace(report.status, fault.empty() ? report.message : fault);
+  for (std::size_t i = 0; i < label_count; ++i) points[i] += report.points[i];
+  parts = std::max(parts, report.parts);
+  milliseconds += elapsed;
+}
+
+std::size_t CloudSummary::labelled() const {
+  std::size_t count = 0;
+  for (const auto& [status, of] : statuses)
+    if (status == FrameStatus::ok || status == FrameStatus::missing_link) count += of;
+  return count;
+}
+
+std::vector<std::string> CloudSummary::warnings() const {
+  std::vector<std::string> lines;
+  const auto of = [&](Label label) {
+    return static_cast<double>(points[static_cast<std::size_t>(label)]);
+  };
+  const double on_robot = of(Label::occluded) + of(Label::beyond);
+  if (labelled() == 0) return lines;
+  if (on_robot == 0.0)
+    lines.emplace_back(
+        "no point is on the robot: it is out of the sensor's view, or the sensor's pose is wrong");
+  constexpr double likely_wrong = 0.1;
+  if (const double share = of(Label::beyond) / on_robot; share > likely_wrong)
+    lines.push_back(std::to_string(std::lround(100.0 * share)) +
+                    " % of the points in the robot's direction lie behind it, which no sensor can "
+                    "see: the sensor's pose, the joint positions or their stamps are wrong, or the "
+                    "model is larger than the robot");
+  return lines;
+}
+
+std::vector<std::string> CloudSummary::notes() const {
+  std::vector<std::string> lines;
+  for (const auto& [status, of] : statuses)
+    if (status != FrameStatus::ok)
+      lines.push_back(name + ": " + std::to_string(of) + " of " + std::to_string(clouds) +
+                      " clouds are " + std::string(to_string(status)) +
+                      ", the first: " + messages.at(status));
+  for (const std::string& line : warnings()) lines.push_back(name + ": " + line);
+  return lines;
+}
+
+}  // namespace penumbra::io
