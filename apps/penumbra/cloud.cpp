@@ -61,6 +61,10 @@ void add_cloud(CLI::App& app, io::CloudRunOptions& cloud) {
   const std::size_t first = app.get_options().size();
   add_list(app, "--topic", "clouds; default: all; may be given several times", "TOPIC",
            [&input](const std::string& text) { input.bag.cloud_topics.push_back(text); });
+  add_list(app, "--target-topic",
+           "Detection3DArray or PoseStamped to judge on the clouds of their stamp; may be given "
+           "several times",
+           "TOPIC", [&input](const std::string& text) { input.bag.target_topics.push_back(text); });
   add_text(app, "--sensor-frame",
            "where the rays start, in tf, if the clouds are given in another frame", "FRAME",
            cloud.sensor_frame);

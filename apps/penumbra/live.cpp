@@ -165,9 +165,9 @@ class Live {
     }
     std::vector<io::CloudSink*> cloud_sinks;
     for (const io::CloudInputOptions& cloud : arguments.clouds) {
-      const std::string topic = cloud_result_name(cloud.topic);
-      clouds_.push_back(std::make_unique<GraphClouds>(graph, names.resolve(topic),
-                                                      names.resolve(topic + labelled_end)));
+      auto topics = cloud_result_names(cloud.topic);
+      for (std::string& topic : topics) topic = names.resolve(topic);
+      clouds_.push_back(std::make_unique<GraphClouds>(graph, std::move(topics)));
       cloud_sinks.push_back(clouds_.back().get());
     }
     runner_ = std::make_unique<io::LiveRunner>(options, config_of(arguments), sinks, io::make_robot,

@@ -54,17 +54,16 @@ io::WrittenResults GraphResults::counts() const {
   return counts;
 }
 
-bool GraphClouds::wants(const std::string& type, bool labelled) {
-  if (labelled && type != io::message_type<io::PointCloud2Message>()) return false;
-  std::unique_ptr<io::Publication>& publication = publications_[labelled ? 1 : 0];
-  if (!publication)
-    publication = graph_.advertise(topics_[labelled ? 1 : 0], type,
-                                   {.reliable = true, .depth = result_depth});
-  return publication->subscribers() > 0;
+bool GraphClouds::wants(io::CloudResult result, const std::string& type) {
+  const auto number = static_cast<std::size_t>(result);
+  if (!publications_[number])
+    publications_[number] =
+        graph_.advertise(topics_[number], type, {.reliable = true, .depth = result_depth});
+  return publications_[number]->subscribers() > 0;
 }
 
-void GraphClouds::write(bool labelled, std::span<const std::byte> payload) {
-  if (!publications_[labelled ? 1 : 0]->write(payload)) ++not_written_;
+void GraphClouds::write(io::CloudResult result, std::span<const std::byte> payload) {
+  if (!publications_[static_cast<std::size_t>(result)]->write(payload)) ++not_written_;
 }
 
 LiveSubscriptions::LiveSubscriptions(io::Participant& graph, io::LiveRunner& runner, bool reliable)

@@ -44,20 +44,20 @@ class GraphResults final : public io::ResultSink {
 /// Publishes the clouds of a sensor that have subscribers, with the type of its messages.
 class GraphClouds final : public io::CloudSink {
  public:
-  /// `topic`: "/penumbra/points", that of the labelled clouds "/penumbra/points/labelled".
-  GraphClouds(io::Participant& graph, std::string topic, std::string labelled_topic)
-      : graph_(graph), topics_{std::move(topic), std::move(labelled_topic)} {}
+  /// `topics`: of each CloudResult.
+  GraphClouds(io::Participant& graph, std::array<std::string, 3> topics)
+      : graph_(graph), topics_(std::move(topics)) {}
 
-  [[nodiscard]] bool wants(const std::string& type, bool labelled) override;
-  void write(bool labelled, std::span<const std::byte> payload) override;
+  [[nodiscard]] bool wants(io::CloudResult result, const std::string& type) override;
+  void write(io::CloudResult result, std::span<const std::byte> payload) override;
 
   /// Returns how many were not published because subscribers were behind. Any thread may call this.
   [[nodiscard]] std::size_t not_written() const { return not_written_; }
 
  private:
   io::Participant& graph_;
-  std::array<std::string, 2> topics_;
-  std::array<std::unique_ptr<io::Publication>, 2> publications_;  // by `labelled`
+  std::array<std::string, 3> topics_;
+  std::array<std::unique_ptr<io::Publication>, 3> publications_;  // of each CloudResult
   std::atomic<std::size_t> not_written_ = 0;
 };
 

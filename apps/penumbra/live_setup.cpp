@@ -29,8 +29,9 @@ std::string result_name(const std::string& camera, const io::ResultTopic& topic)
   return "penumbra/" + (camera.empty() ? "" : camera + "/") + std::string(topic.name);
 }
 
-std::string cloud_result_name(const std::string& topic) {
-  return (topic.starts_with('/') ? "penumbra" : "penumbra/") + topic;
+std::array<std::string, 3> cloud_result_names(const std::string& topic) {
+  const std::string name = (topic.starts_with('/') ? "penumbra" : "penumbra/") + topic;
+  return {name, name + "/labelled", name + "/targets"};
 }
 
 std::string target_views_name() { return "penumbra/" + std::string(io::target_views_topic); }
@@ -47,8 +48,8 @@ void check_remaps(const io::NameResolver& names, const std::vector<io::CameraInp
     for (const io::ResultTopic& topic : io::result_topics)
       static_cast<void>(names.resolve(result_name(camera, topic)));
   for (const io::CloudInputOptions& cloud : clouds)
-    for (const char* const end : {"", labelled_end})
-      static_cast<void>(names.resolve(cloud_result_name(cloud.topic) + end));
+    for (const std::string& name : cloud_result_names(cloud.topic))
+      static_cast<void>(names.resolve(name));
   if (const auto unused = names.unused(); !unused.empty())
     throw InputError("--remap '" + io::printable(unused.front()) +
                      "': no topic has this name; topics that are found by their type are named by "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,9 @@ inline constexpr const char* diagnostics_topic = "/diagnostics";
 /// Returns the topic of a camera's result before it is resolved. `camera`: empty for the only one.
 [[nodiscard]] std::string result_name(const std::string& camera, const io::ResultTopic& topic);
 
-/// Returns the topic of a sensor's clouds without the robot before it is resolved. `topic`: the
-/// input's.
-[[nodiscard]] std::string cloud_result_name(const std::string& topic);
-
-inline constexpr const char* labelled_end = "/labelled";  ///< of clouds with labels
+/// Returns the topics of a sensor's results before they are resolved, in the order of CloudResult.
+/// `topic`: the input's.
+[[nodiscard]] std::array<std::string, 3> cloud_result_names(const std::string& topic);
 
 /// Returns the topic of the verdicts over all cameras before it is resolved.
 [[nodiscard]] std::string target_views_name();

@@ -33,9 +33,9 @@ constexpr std::array<std::string_view, 3> cloud_types = {
     "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan", "livox_ros_driver2/msg/CustomMsg"};
 
 using TopicTypes = std::span<const std::string_view>;
-constexpr std::array<std::string_view, 4> target_types = {
-    "vision_msgs/msg/Detection2DArray", "vision_msgs/msg/Detection3DArray",
-    "penumbra_msgs/msg/Keypoints", "geometry_msgs/msg/PoseStamped"};
+constexpr std::array<std::string_view, 4> target_types = {  // two of pixels, two of space
+    "vision_msgs/msg/Detection2DArray", "penumbra_msgs/msg/Keypoints",
+    "vision_msgs/msg/Detection3DArray", "geometry_msgs/msg/PoseStamped"};
 
 bool holds(std::string_view name, std::initializer_list<std::string_view> words) {
   std::string lower(name);
@@ -386,7 +386,9 @@ BagTopics choose_topics(const std::string& bag, std::span<const BagTopic> topics
                            "choose one with --plan-topic"))
       chosen.plans.push_back(std::move(*found));
   for (const std::string& name : options.target_topics)
-    chosen.targets.push_back(chooser.named("targets", "--target-topic", name, target_types));
+    chosen.targets.push_back(
+        chooser.named("targets", "--target-topic", name,
+                      TopicTypes(target_types).subspan(options.clouds ? 2 : 0)));
   if (options.robot) return chosen;
   chosen.descriptions = of_robots(chooser, options, "robot", "robot_description", text_type);
   if (!chosen.descriptions.empty()) return chosen;

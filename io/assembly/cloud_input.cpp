@@ -10,11 +10,15 @@
 #include <io/ros/message_decoder.hpp>
 
 namespace penumbra::io {
+namespace {
+
+/// Of targets after their cloud, nanoseconds.
+constexpr auto longest_delay = static_cast<std::int64_t>(1e9 * topic_target_history);
+
+}  // namespace
 
 CloudInput::CloudInput(CloudInputOptions options, const RobotInput& robot)
-    : options_(std::move(options)), robot_(robot) {
-  if (options_.known) setup_ = make_setup(*options_.known);
-}
+    : options_(std::move(options)), robot_(robot) {}
 
 template <typename M>
 std::string CloudInput::take(M message, const SerializedMessage& bytes, std::int64_t now) {
@@ -55,7 +59,10 @@ void CloudInput::push(std::shared_ptr<ReceivedCloud> cloud, std::int64_t now) {
     if (cloud->source_message.empty() && !frame_.empty() && frame != frame_)
       cloud->source_message = "the cloud is of the frame '" + printable(frame) +
                               "', the first one of '" + printable(frame_) + "'";
-    if (frame_.empty()) frame_ = std::move(frame);
+    if (!setup_) {
+      frame_ = std::move(frame);
+      setup_ = make_setup(*options_.known);
+    }
     if (!cloud->source_message.empty()) return lost_.push_back(std::move(cloud));
   }
   const auto& times = cloud->points.times;
@@ -80,6 +87,7 @@ void CloudInput::refresh() {
   }
   if (only_frames_are_new && mount && *mount == setup_->mount) return;
   if (setup_) counts_.drop(DropReason::changed, setup_->queue.waiting());
+  given_.clear();
   setup_ = mount ? make_setup(std::move(*mount)) : nullptr;
 }
 
@@ -105,7 +113,7 @@ std::shared_ptr<CloudSetup> CloudInput::make_setup(CameraMount mount) {
                                           .camera_parent = mount.parent,
                                           .camera_frame = mount.frame}};
   return std::make_shared<CloudSetup>(
-      robot_.posed(), std::move(mount), queue,
+      robot_.posed(), std::move(mount), frame_, queue,
       [this](std::shared_ptr<Frame> cloud, DropReason reason) {
         if (!options_.known) return counts_.drop(reason);
         cloud->source_message = "not labelled: " + std::string(to_string(reason));
@@ -125,10 +133,45 @@ std::shared_ptr<ReceivedCloud> CloudInput::next(std::int64_t now) {
   } else if (setup_) {
     found = std::static_pointer_cast<ReceivedCloud>(setup_->queue.next(now));
   }
-  if (!found) return nullptr;
+  if (!found) return find_again();
   found->setup = setup_;
   ++counts_.in_work;
+  if (!options_.has_targets) return found;
+  receive_targets();
+  give_targets(*found);
+  given_.push_back(found);
+  while (given_.front()->header.stamp < found->header.stamp - longest_delay) given_.pop_front();
   return found;
+}
+
+/// Takes the targets whose clouds are not past.
+void CloudInput::receive_targets() {
+  for (Target& target : setup_->targets.take()) targets_.push_back(std::move(target));
+  late_targets_ += std::erase_if(targets_, [&](const Target& target) {
+    return !given_.empty() && target.stamp && *target.stamp < given_.front()->header.stamp;
+  });
+  if (targets_.size() > TargetInbox::most_waiting) targets_.clear();  // of another clock
+}
+
+/// Moves a cloud's targets to it. Those without a stamp, which have a fault, are any cloud's.
+void CloudInput::give_targets(ReceivedCloud& cloud) {
+  const auto is_other = [&](const Target& target) {
+    return target.stamp && target.stamp != cloud.header.stamp;
+  };
+  const auto own = std::stable_partition(targets_.begin(), targets_.end(), is_other);
+  cloud.targets.assign(std::move_iterator(own), std::move_iterator(targets_.end()));
+  targets_.erase(own, targets_.end());
+}
+
+std::shared_ptr<ReceivedCloud> CloudInput::find_again() {
+  if (!setup_ || !options_.has_targets) return nullptr;
+  receive_targets();
+  for (const auto& cloud : given_) {
+    give_targets(*cloud);
+    cloud->is_again = true;
+    if (!cloud->targets.empty()) return cloud;
+  }
+  return nullptr;
 }
 
 void CloudInput::done(bool is_labelled) {

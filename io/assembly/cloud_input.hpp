@@ -20,6 +20,7 @@
 #include <io/assembly/message_handler.hpp>
 #include <io/assembly/robot_input.hpp>
 #include <io/cloud/cloud_points.hpp>
+#include <io/ros/target_inbox.hpp>
 
 namespace penumbra::io {
 
@@ -38,6 +39,7 @@ struct CloudInputOptions {
   double max_wait = 0.5;       ///< likewise
   std::size_t max_frames = 8;  ///< likewise
   CloudOutput output = {};     ///< for the one who writes them
+  bool has_targets = false;    ///< keeps clouds for targets that come later
   /// Set for bags: every cloud is given out; one that cannot be labelled says so
   /// (DropPolicy::every). Not set for live topics: the setup follows what is received, and the
   /// newest cloud is given (DropPolicy::newest).
@@ -51,21 +53,24 @@ struct CloudInputOptions {
 /// their poses. Another robot, frame or mount gives another setup. Constant members may be read at
 /// any time; see FrameAssembler for the others.
 struct CloudSetup {
-  CloudSetup(std::shared_ptr<PosedRobot> of, CameraMount where, const FrameQueueOptions& options,
-             FrameQueue::OnDrop on_drop)
+  /// `frame`: of the clouds.
+  CloudSetup(std::shared_ptr<PosedRobot> of, CameraMount where, const std::string& frame,
+             const FrameQueueOptions& options, FrameQueue::OnDrop on_drop)
       : posed(std::move(of)),
         mount(std::move(where)),
         poses(options.poses),
-        queue(posed->robot, posed->history, options, std::move(on_drop)) {}
+        queue(posed->robot, posed->history, options, std::move(on_drop)),
+        targets(posed->robot, frame, options.poses.frame_prefix) {}
 
   const std::shared_ptr<PosedRobot> posed;
   const CameraMount mount;
   const PoseOptions poses;
   FrameQueue queue;
+  TargetInbox targets;
 };
 
-/// A message of points. Its stamp as a frame is that of its last point, whose pose is awaited. A
-/// source_message says why it cannot be labelled.
+/// A message of points. Its stamp as a frame is that of its last point, whose pose is awaited. Its
+/// targets are those of its header's stamp. A source_message says why it cannot be labelled.
 struct ReceivedCloud : Frame {
   std::shared_ptr<CloudSetup> setup;
   CloudMessage message;
@@ -73,6 +78,7 @@ struct ReceivedCloud : Frame {
   CloudPoints points;
   std::shared_ptr<const void> owner;  ///< of the bytes that the message refers to
   std::int64_t arrived = 0;           ///< on the caller's clock
+  bool is_again = false;              ///< given out once more, for targets that came since
 };
 
 /// The clouds of one sensor: keeps them until the poses of the whole scan are known. Part of
@@ -87,14 +93,20 @@ class CloudInput {
   template <typename M>
   std::string take(M message, const SerializedMessage& bytes, std::int64_t now);
 
+  template <typename M>
+  void take_targets(const std::string& topic, const M& message) {
+    if (setup_) setup_->targets.add(topic, message);
+  }
+
   /// Updates the setup. Call this when the robot may have changed.
   void refresh();
   /// Gives out what waits: no further message will come.
   void finish();
 
-  /// Returns the next cloud whose poses are known or no longer awaited; null if there is none.
+  /// Returns the next cloud whose poses are known or no longer awaited, or an earlier one again
+  /// with targets that came since; null if there is none.
   [[nodiscard]] std::shared_ptr<ReceivedCloud> next(std::int64_t now);
-  /// Counts the outcome of a cloud. Call this once for each.
+  /// Counts the outcome of a cloud. Call this once for each that is not given out again.
   void done(bool is_labelled);
   [[nodiscard]] std::optional<std::int64_t> wake_at() const {
     return setup_ ? setup_->queue.wake_at() : std::nullopt;
@@ -106,6 +118,8 @@ class CloudInput {
   [[nodiscard]] const CloudSetup* setup() const { return setup_.get(); }
   [[nodiscard]] const std::string& setup_fault() const { return setup_fault_; }
   [[nodiscard]] const Arrivals& arrivals() const { return arrivals_; }
+  /// Returns the number of targets that came more than 0.5 s after their cloud.
+  [[nodiscard]] std::size_t late_targets() const { return late_targets_; }
 
  private:
   /// The inputs of a setup.
@@ -119,6 +133,9 @@ class CloudInput {
   void push(std::shared_ptr<ReceivedCloud> cloud, std::int64_t now);
   [[nodiscard]] std::optional<CameraMount> find_mount() const;
   [[nodiscard]] std::shared_ptr<CloudSetup> make_setup(CameraMount mount);
+  void receive_targets();
+  void give_targets(ReceivedCloud& cloud);
+  [[nodiscard]] std::shared_ptr<ReceivedCloud> find_again();
 
   CloudInputOptions options_;
   const RobotInput& robot_;
@@ -126,7 +143,10 @@ class CloudInput {
   std::shared_ptr<CloudSetup> setup_;
   Basis basis_;  // of the setup, or of the last attempt to make one
   std::string setup_fault_;
-  std::deque<std::shared_ptr<ReceivedCloud>> lost_;  // of bags: that do not wait for poses
+  std::deque<std::shared_ptr<ReceivedCloud>> lost_;   // of bags: that do not wait for poses
+  std::vector<Target> targets_;                       // that wait for their clouds
+  std::deque<std::shared_ptr<ReceivedCloud>> given_;  // that wait for their targets
+  std::size_t late_targets_ = 0;
   ImageCounts counts_;
   Arrivals arrivals_;
 };

@@ -22,8 +22,10 @@ const CloudReport& CloudWorker::label(const ReceivedCloud& cloud) {
   };
   PoseHistory& history = setup_->posed->history;
   const auto pose_stamp = [this](std::int64_t stamp) { return setup_->queue.pose_stamp(stamp); };
-  Scan scan{
-      .stamp = cloud.header.stamp, .points = cloud.points.points, .times = cloud.points.times};
+  Scan scan{.stamp = cloud.header.stamp,
+            .points = cloud.points.points,
+            .times = cloud.points.times,
+            .targets = cloud.targets};
   std::string fault = cloud.source_message;
   if (!options_.has_rays) {
     scan.origin.reset();

@@ -33,6 +33,9 @@ inline std::string json_text(const Json& json) {
 /// Returns "calibration" of reports and summaries; null while nothing is known.
 [[nodiscard]] Json drift_json(const Drift& drift);
 
+/// Returns one of "targets" of report.json.
+[[nodiscard]] Json target_json(const TargetReport& target);
+
 /// Returns what a motion will do to a target, in seconds from its begin.
 [[nodiscard]] Json intervals_json(std::span<const VerdictInterval> intervals);
 

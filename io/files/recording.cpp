@@ -305,7 +305,7 @@ std::optional<CloudRecording> CloudRecording::open(const std::filesystem::path& 
   const YamlNode& frames = root.at("frames");
   const YamlNode* const clouds = frames.find("cloud");
   if (clouds == nullptr) return std::nullopt;
-  root.allow_only({"robot", "robots", "sensor", "frames", "attached"});
+  root.allow_only({"robot", "robots", "sensor", "frames", "targets", "attached"});
   frames.allow_only({"joints", "cloud"});
   const YamlNode& sensor = root.at("sensor");
   CloudRecording recording{.file = file,
@@ -315,6 +315,7 @@ std::optional<CloudRecording> CloudRecording::open(const std::filesystem::path& 
                            .rule = {},
                            .joints = file_of(frames.at("joints"), folder),
                            .clouds = pattern_of(*clouds, folder),
+                           .targets = {},
                            .attached = {}};
   if (const YamlNode* model = sensor.find("model"))
     recording.rule = model->with_context([&] { return CloudRule::for_sensor(model->text()); });
@@ -327,6 +328,7 @@ std::optional<CloudRecording> CloudRecording::open(const std::filesystem::path& 
   if (const YamlNode* merged = sensor.find("merged")) recording.has_rays = !merged->boolean();
   if (recording.has_rays && recording.parent.empty() && recording.pose.empty())
     sensor.fail("says neither by parent nor by pose where the sensor is");
+  if (const YamlNode* named = root.find("targets")) recording.targets = file_of(*named, folder);
   if (const YamlNode* bodies = root.find("attached"))
     recording.attached = bodies_of(*bodies, folder);
   return recording;

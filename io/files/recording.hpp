@@ -112,6 +112,7 @@ struct CloudRecording {
   bool has_rays = true;  ///< false: `merged: true`, see Scan::origin
   std::filesystem::path joints;
   FramePattern clouds;
+  std::optional<std::filesystem::path> targets;  ///< the targets.yaml
   std::vector<RecordedBody> attached;
 
   /// As Recording::open. Returns nothing for a recording without `frames.cloud`.

@@ -68,34 +68,6 @@ Json counts_json(const std::array<std::size_t, count>& counts) {
   return all == 0 ? Json(nullptr) : json;
 }
 
-Json target_json(const TargetReport& target) {
-  const Judgement none;
-  const Judgement& judged = target.judgement ? *target.judgement : none;
-  const auto of_judged = [&](auto value) { return target.judgement ? Json(value) : Json(nullptr); };
-  const auto share = [&](double value) { return judged.inside > 0 ? Json(value) : Json(nullptr); };
-  return {{"name", target.name},
-          {"covered", of_judged(judged.covered)},
-          {"inside", of_judged(judged.inside)},
-          {"occluded_fraction", share(judged.occluded)},
-          {"front_fraction", share(judged.front)},
-          {"clear_fraction", share(judged.clear)},
-          {"unknown_fraction", share(judged.unknown)},
-          {"hidden_by_other_fraction",
-           judged.hidden_by_other ? share(*judged.hidden_by_other) : Json(nullptr)},
-          {"measured_fraction", judged.measured ? share(*judged.measured) : Json(nullptr)},
-          {"seen_past_fraction", judged.seen_past ? share(*judged.seen_past) : Json(nullptr)},
-          {"verdict", to_string(target.verdict)},
-          {"blame", target.judgement ? blame_json(judged) : Json(nullptr)},
-          {"point", target.point ? vector_json(*target.point) : Json(nullptr)},
-          {"point_pixels", target.point ? Json(judged.point_pixels) : Json(nullptr)},
-          {"point_spread_m", target.point ? Json(judged.point_spread) : Json(nullptr)},
-          {"handled", handled_json(target.handled)},
-          {"forecast", target.forecast.empty() ? Json(nullptr) : intervals_json(target.forecast)},
-          {"estimate", target.estimate ? Json(to_string(*target.estimate)) : Json(nullptr)},
-          {"stamp_ns", or_null(target.stamp)},
-          {"reason", or_null(target.reason)}};
-}
-
 Json target_summary_json(const TargetStatistics& target) {
   return {{"name", target.name},
           {"verdicts", counts_json<Verdict>(target.verdicts)},
@@ -270,6 +242,34 @@ Json joint_json(const Robot& robot, const Joint& joint) {
 }
 
 }  // namespace
+
+Json target_json(const TargetReport& target) {
+  const Judgement none;
+  const Judgement& judged = target.judgement ? *target.judgement : none;
+  const auto of_judged = [&](auto value) { return target.judgement ? Json(value) : Json(nullptr); };
+  const auto share = [&](double value) { return judged.inside > 0 ? Json(value) : Json(nullptr); };
+  return {{"name", target.name},
+          {"covered", of_judged(judged.covered)},
+          {"inside", of_judged(judged.inside)},
+          {"occluded_fraction", share(judged.occluded)},
+          {"front_fraction", share(judged.front)},
+          {"clear_fraction", share(judged.clear)},
+          {"unknown_fraction", share(judged.unknown)},
+          {"hidden_by_other_fraction",
+           judged.hidden_by_other ? share(*judged.hidden_by_other) : Json(nullptr)},
+          {"measured_fraction", judged.measured ? share(*judged.measured) : Json(nullptr)},
+          {"seen_past_fraction", judged.seen_past ? share(*judged.seen_past) : Json(nullptr)},
+          {"verdict", to_string(target.verdict)},
+          {"blame", target.judgement ? blame_json(judged) : Json(nullptr)},
+          {"point", target.point ? vector_json(*target.point) : Json(nullptr)},
+          {"point_pixels", target.point ? Json(judged.point_pixels) : Json(nullptr)},
+          {"point_spread_m", target.point ? Json(judged.point_spread) : Json(nullptr)},
+          {"handled", handled_json(target.handled)},
+          {"forecast", target.forecast.empty() ? Json(nullptr) : intervals_json(target.forecast)},
+          {"estimate", target.estimate ? Json(to_string(*target.estimate)) : Json(nullptr)},
+          {"stamp_ns", or_null(target.stamp)},
+          {"reason", or_null(target.reason)}};
+}
 
 Json drift_json(const Drift& drift) {
   if (!drift.is_known) return nullptr;

@@ -310,6 +310,8 @@ DiagnosticStatusMessage LiveDiagnostics::cloud_status(const LiveInbox& inbox, st
   for (std::size_t i = 0; i < label_count; ++i)
     add_count(status, "points " + std::string(point_label_names[i]), tally.all.points[i]);
   add_count(status, "most poses of a scan", tally.all.parts);
+  if (cloud.late_targets() > 0)
+    add_count(status, "targets not judged: their cloud was past", cloud.late_targets());
   add_tally(status, tally);
   for_each_topic(inbox, TopicRole::cloud, number, [&](std::size_t i) {
     add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));

@@ -8,6 +8,7 @@
 #include <io/assembly/cloud_worker.hpp>
 #include <io/live/live_runner.hpp>
 #include <io/ros/message_encoder.hpp>
+#include <io/ros/target_messages.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -216,14 +217,15 @@ void LiveRunner::label(std::size_t number) {
         report = &worker.label(*cloud);
         outcome.status = report->status;
         outcome.message = report->message;
-        publish(*cloud, *report, options.output, self);
+        if (!cloud->is_again) publish(*cloud, *report, options.output, self);
+        publish_targets(*cloud, *report, self);
         outcome.is_published = true;
       } catch (const InputError& error) {
         outcome.fault = error.what();
       }
       const std::int64_t now = steady_now(), system = system_now();
       lock.lock();
-      inbox_.done_cloud(number, outcome, report, now, system);
+      if (!cloud->is_again) inbox_.done_cloud(number, outcome, report, now, system);
     }
   } catch (...) {
     fail(lock);
@@ -233,14 +235,23 @@ void LiveRunner::label(std::size_t number) {
 void LiveRunner::publish(const ReceivedCloud& cloud, const CloudReport& report, CloudOutput how,
                          CloudThread& self) {
   const auto write = [&]<typename M>(const M& message) {
-    for (const bool labelled : {false, true}) {
-      if (!self.sink->wants(message_type<M>(), labelled)) continue;
-      how.labelled = labelled;
+    for (const CloudResult result : {CloudResult::without_robot, CloudResult::labelled}) {
+      how.labelled = result == CloudResult::labelled;
+      if (how.labelled && !std::is_same_v<M, PointCloud2Message>) continue;
+      if (!self.sink->wants(result, message_type<M>())) continue;
       encode(cloud_output(message, report, how, self.data), self.payload);
-      self.sink->write(labelled, self.payload);
+      self.sink->write(result, self.payload);
     }
   };
   std::visit(write, cloud.message);
+}
+
+void LiveRunner::publish_targets(const ReceivedCloud& cloud, const CloudReport& report,
+                                 CloudThread& self) {
+  if (!self.sink->wants(CloudResult::targets, message_type<TargetsMessage>())) return;
+  if (cloud.targets.empty()) return;
+  encode(targets_message(report, cloud.header.frame_id, report.links.front()), self.payload);
+  self.sink->write(CloudResult::targets, self.payload);
 }
 
 }  // namespace penumbra::io

@@ -22,7 +22,14 @@
 
 namespace penumbra::io {
 
-/// Takes the clouds of a sensor without the robot. One thread at a time calls it.
+/// What is published of a sensor's clouds.
+enum class CloudResult {
+  without_robot,  ///< of the input's type
+  labelled,       ///< with CloudOutput::labelled; of PointCloud2
+  targets         ///< TargetsMessage
+};
+
+/// Takes the results of a sensor's clouds. One thread at a time calls it.
 class CloudSink {
  public:
   CloudSink() = default;
@@ -31,10 +38,9 @@ class CloudSink {
   virtual ~CloudSink() = default;
 
   /// Returns whether to make this result. `type`: of the message, as "sensor_msgs/msg/LaserScan".
-  /// `labelled`: with CloudOutput::labelled.
-  [[nodiscard]] virtual bool wants(const std::string& type, bool labelled) = 0;
+  [[nodiscard]] virtual bool wants(CloudResult result, const std::string& type) = 0;
   /// Writes a result that it wants. `payload`: the message in CDR, valid during the call.
-  virtual void write(bool labelled, std::span<const std::byte> payload) = 0;
+  virtual void write(CloudResult result, std::span<const std::byte> payload) = 0;
 };
 
 /// Judges the messages of the graph. One thread serves each camera and each sensor of clouds, one
@@ -123,6 +129,8 @@ class LiveRunner {
   void label(std::size_t cloud);
   static void publish(const ReceivedCloud& cloud, const CloudReport& report, CloudOutput how,
                       CloudThread& self);
+  static void publish_targets(const ReceivedCloud& cloud, const CloudReport& report,
+                              CloudThread& self);
   void work_in_background();
   void serve(const RobotLoadRequest& request, std::unique_lock<std::mutex>& lock);
   void find_warnings(std::unique_lock<std::mutex>& lock);

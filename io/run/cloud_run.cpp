@@ -17,10 +17,12 @@
 #include <io/files/json-inl.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/result_folder.hpp>
+#include <io/files/targets_file.hpp>
 #include <io/mcap/writer.hpp>
 #include <io/ros/message_decoder.hpp>
 #include <io/ros/message_definition.hpp>
 #include <io/ros/message_encoder.hpp>
+#include <io/ros/target_messages.hpp>
 #include <io/run/cloud_run.hpp>
 #include <io/run/output_bag.hpp>
 
@@ -62,6 +64,7 @@ class RecordedRun {
         robot_(make_robot()),
         rows_(read_joint_file(recording_.joints, robot_)),
         history_(robot_, {.joints = {.history = 1e9, .max_states = rows_.size() + 1}}),
+        targets_(open_targets()),
         pipeline_(robot_, {.rule = changed_rule(recording_.rule, options),
                            .threads = options.threads,
                            .sensor_parent = recording_.parent,
@@ -79,6 +82,14 @@ class RecordedRun {
       options_.input.apply_to(robot.options, robot.name);
     return load_robot(recording_.robots);
   }
+  [[nodiscard]] std::optional<TargetsFile> open_targets() const {
+    if (!recording_.targets) return std::nullopt;
+    return TargetsFile::open(*recording_.targets, {.robot = robot_,
+                                                   .image = ImageSpace::raw,
+                                                   .images = Intrinsics(1, 1, 1.0, 1.0, 0.0, 0.0),
+                                                   .has_distortion = false,
+                                                   .beyond_hides = true});
+  }
   void label(const JointRow& row, ResultFolder& folder, CloudSummary& summary);
   [[nodiscard]] RobotPose pose_at(std::int64_t stamp, const JointRow& row) const;
 
@@ -87,6 +98,7 @@ class RecordedRun {
   Robot robot_;
   std::vector<JointRow> rows_;
   PoseHistory history_;
+  std::optional<TargetsFile> targets_;
   CloudPipeline pipeline_;
   Json clouds_ = Json::array();
 };
@@ -121,17 +133,23 @@ void RecordedRun::label(const JointRow& row, ResultFolder& folder, CloudSummary&
   }
   Scan scan{.stamp = row.stamp, .points = points.points, .times = points.times};
   if (!recording_.has_rays) scan.origin.reset();
+  std::vector<Target> targets;
+  if (targets_) targets = targets_->of_frame(row.index);
+  scan.targets = targets;
   const CloudReport& report = timed(summary, fault, [&]() -> const CloudReport& {
     return pipeline_.process(
         scan, [&](std::int64_t stamp, RobotPose& pose) { pose = pose_at(stamp, row); });
   });
   if (summary.time_note.empty()) summary.time_note = points.time_note;
+  Json judged = Json::array();
+  for (const TargetReport& target : report.targets) judged.push_back(target_json(target));
   clouds_.push_back({{"index", row.index},
                      {"stamp", or_null(row.stamp)},
                      {"status", to_string(report.status)},
                      {"message", fault.empty() ? report.message : fault},
                      {"parts", report.parts},
-                     {"points", points_json(report)}});
+                     {"points", points_json(report)},
+                     {"targets", std::move(judged)}});
   if (!fault.empty()) return;
   std::vector<std::byte> data;
   const PointCloud2Message out = cloud_output(stored.cloud, report, options_.how, data);
@@ -185,7 +203,9 @@ class BagRun {
  private:
   [[nodiscard]] std::optional<std::size_t> input_of(const BagTopic& topic);
   void write_ready(std::int64_t now);
-  void write(std::size_t sensor, const ReceivedCloud& cloud);
+  const CloudReport& write(std::size_t sensor, const ReceivedCloud& cloud);
+  void write_targets(std::size_t sensor, const ReceivedCloud& cloud, const CloudReport& report,
+                     std::int64_t now);
 
   const CloudRunOptions& options_;
   const BagClouds& clouds_;
@@ -193,7 +213,8 @@ class BagRun {
   FrameAssembler assembler_;
   PendingFile pending_;
   mcap::Writer writer_;
-  std::vector<std::uint16_t> channels_;
+  std::vector<std::uint16_t> channels_, target_channels_;  // of each sensor
+  std::size_t target_messages_ = 0;
   std::vector<CloudWorker> workers_;
   CloudRunResult result_;
   std::vector<std::byte> data_, payload_;
@@ -213,6 +234,7 @@ std::vector<CloudInputOptions> cloud_inputs(const CloudRunOptions& options,
                       .poses = clouds.topics.poses,
                       .time_offset = options.input.bag.time_offset,
                       .max_frames = most_waiting,
+                      .has_targets = !clouds.topics.targets.empty(),
                       .known = clouds.mounts[i]});
   return inputs;
 }
@@ -233,6 +255,11 @@ BagRun::BagRun(const CloudRunOptions& options, const BagClouds& clouds)
         writer_.add_schema(use.type, "ros2msg", std::string(definition_of(use.type)));
     channels_.push_back(writer_.add_channel("/penumbra" + use.name, "cdr", schema));
     result_.sensors.emplace_back().name = use.name;
+    if (clouds.topics.targets.empty()) continue;
+    const std::string type = message_type<TargetsMessage>();
+    target_channels_.push_back(
+        writer_.add_channel("/penumbra" + use.name + "/targets", "cdr",
+                            writer_.add_schema(type, "ros2msg", std::string(definition_of(type)))));
   }
 }
 
@@ -249,13 +276,13 @@ std::optional<std::size_t> BagRun::input_of(const BagTopic& topic) {
                                .definition = topic.definition});
 }
 
-void BagRun::write(std::size_t sensor, const ReceivedCloud& cloud) {
+const CloudReport& BagRun::write(std::size_t sensor, const ReceivedCloud& cloud) {
   CloudSummary& summary = result_.sensors[sensor];
   const CloudReport& report = timed(summary, cloud.source_message, [&]() -> const CloudReport& {
     return workers_[sensor].label(cloud);
   });
   if (summary.time_note.empty()) summary.time_note = cloud.points.time_note;
-  if (report.labels.empty() && !cloud.source_message.empty()) return;  // unreadable
+  if (report.labels.empty() && !cloud.source_message.empty()) return report;  // unreadable
   std::visit(
       [&](const auto& message) {
         encode(cloud_output(message, report, options_.how, data_), payload_);
@@ -263,13 +290,23 @@ void BagRun::write(std::size_t sensor, const ReceivedCloud& cloud) {
       cloud.message);
   writer_.write(channels_[sensor], cloud.arrived, std::max<std::int64_t>(0, cloud.header.stamp),
                 static_cast<std::uint32_t>(summary.clouds), payload_);
+  return report;
+}
+
+void BagRun::write_targets(std::size_t sensor, const ReceivedCloud& cloud,
+                           const CloudReport& report, std::int64_t now) {
+  if (cloud.targets.empty()) return;
+  encode(targets_message(report, cloud.header.frame_id, report.links.front()), payload_);
+  writer_.write(target_channels_[sensor], now, std::max<std::int64_t>(0, cloud.header.stamp),
+                static_cast<std::uint32_t>(++target_messages_), payload_);
 }
 
 void BagRun::write_ready(std::int64_t now) {
   for (std::size_t i = 0; i < assembler_.cloud_count(); ++i)
     while (const auto cloud = assembler_.cloud(i).next(now)) {
-      write(i, *cloud);
-      assembler_.cloud(i).done(true);
+      const CloudReport& report = cloud->is_again ? workers_[i].label(*cloud) : write(i, *cloud);
+      write_targets(i, *cloud, report, now);
+      if (!cloud->is_again) assembler_.cloud(i).done(true);
     }
 }
 

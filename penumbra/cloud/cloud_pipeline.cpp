@@ -254,6 +254,9 @@ TargetReport CloudPipeline::State::judge(const Scan& scan, const Target& target)
   result.stamp = scan.stamp;
   try {
     if (!is_labelled) throw InputError(report.message);
+    if (!target.fault.empty()) throw InputError(target.fault);
+    if (target.stamp && target.stamp != scan.stamp)
+      throw InputError("its stamp is not the scan's");
     if (!target.has_identity) memories.erase(target.name);
     if (!scan.origin) throw InputError("clouds without rays do not show what is hidden");
     result.judgement = cloud::judge_on_rays(

@@ -28,8 +28,8 @@ struct Scan {
   std::span<const std::int32_t> times = {};
   /// Where the rays start, in the points' frame. Null: points without rays, as of merged clouds.
   std::optional<Eigen::Vector3d> origin = Eigen::Vector3d::Zero();
-  /// 3-D boxes and points to judge, by the poses at the scan's begin. ReferenceFrame::camera: the
-  /// points' frame.
+  /// 3-D boxes and points to judge, by the poses at the scan's begin; one with another stamp is
+  /// unknown. ReferenceFrame::camera: the points' frame.
   std::span<const Target> targets = {};
 };
 

@@ -78,6 +78,31 @@ TEST_F(CloudBag, KeepsAllPointsWithLabelsIfAsked) {
                                  [](const auto& scan) { EXPECT_TRUE(std::isinf(scan.ranges[1])); });
 }
 
+TEST_F(CloudBag, JudgesTargetsOnTheCloudsOfTheirStamp) {
+  for (int i = 0; i < 3; ++i) {
+    io::PoseStampedMessage knob{.header = {tiny_stamp(i) + one_ms, "optical"}};
+    knob.pose.translation() = Eigen::Vector3d(0, 0, 1.5);
+    bag_.add("/knob", tiny_stamp(i) + 50 * one_ms, knob);  // late, as detectors are
+  }
+  ASSERT_EQ(cloud({"--topic", "/points", "--target-topic", "/knob"}).status, 0);
+  std::size_t judged = 0;
+  const auto bag = io::open_bag(path("clean.mcap"));
+  for (io::BagMessage message; bag->next(message);) {
+    if (bag->topics()[message.topic].name != "/penumbra/points/targets") continue;
+    io::TargetsMessage targets;
+    ASSERT_FALSE(io::Decoder<io::TargetsMessage>().decode(message.data, targets));
+    EXPECT_EQ(targets.header.stamp, tiny_stamp(static_cast<int>(judged++)) + one_ms);
+    ASSERT_EQ(targets.targets.size(), 1U);
+    // Two rays are too few for a verdict.
+    EXPECT_EQ(targets.targets[0].verdict, io::TargetMessage::unknown);
+    EXPECT_NE(targets.targets[0].reason.find("rays"), std::string::npos)
+        << targets.targets[0].reason;
+  }
+  EXPECT_EQ(judged, 3U);
+  bag_.add("/boxes", tiny_stamp(0), io::KeypointsMessage{});
+  expect_refused(cloud({"--target-topic", "/boxes"}), {"Keypoints", "Detection3DArray"});
+}
+
 TEST_F(CloudBag, WithoutPosesTrustsNothing) {
   std::erase_if(bag_.messages, [](const TinyBag::Message& message) {
     return message.topic == "/joint_states" && message.log_time > tiny_stamp(1) - 300 * one_ms;
@@ -146,7 +171,10 @@ class CloudFolder : public TinyTest {
       io::write_cloud(path("scans/" + std::to_string(i) + ".pcd"), FourPoints(i).message);
     write_file(path("clouds.yaml"),
                "robot: {urdf: tiny.urdf}\nsensor: {parent: base, pose: camera_pose.csv, model: "
-               "lidar_2cm}\nframes: {joints: joint_states.csv, cloud: scans/%d.pcd}\n");
+               "lidar_2cm}\nframes: {joints: joint_states.csv, cloud: scans/%d.pcd}\n"
+               "targets: knob.yaml\n");
+    write_file(path("knob.yaml"),
+               "targets: [{name: knob, point: [0, 0, 1.5]}]\n");
   }
   Outcome cloud(Words options = {}) const {
     options.insert(options.begin(), {"cloud", path("clouds.yaml"), "-o", out()});
@@ -163,6 +191,8 @@ TEST_F(CloudFolder, LosesTheRobot) {
   }
   const Json json = report();
   EXPECT_EQ(json["clouds"].size(), 3U);
+  EXPECT_EQ(json["clouds"][0]["targets"][0]["name"], "knob");
+  EXPECT_EQ(json["clouds"][0]["targets"][0]["verdict"], "unknown") << "of one ray";
   EXPECT_EQ(json["clouds"][0]["points"]["occluded"], 1);
   EXPECT_EQ(json["clouds"][0]["status"], "ok");
   ASSERT_EQ(cloud({"--label", "--frames", "1:2"}).status, 0) << "replaces former results";

@@ -77,34 +77,38 @@ std::size_t wrong_labels(const io::PointCloud2Message& cloud) {
 /// Keeps what is published of a sensor.
 class KeptClouds final : public io::CloudSink {
  public:
-  [[nodiscard]] bool wants(const std::string& type, bool /*labelled*/) override {
-    EXPECT_EQ(type, "sensor_msgs/msg/PointCloud2");
+  [[nodiscard]] bool wants(io::CloudResult /*result*/, const std::string& /*type*/) override {
     return true;
   }
-  void write(bool labelled, std::span<const std::byte> payload) override {
+  void write(io::CloudResult result, std::span<const std::byte> payload) override {
     const std::lock_guard lock(mutex_);
-    clouds_[labelled ? 1 : 0].emplace_back(payload.begin(), payload.end());
+    kept_[result].emplace_back(payload.begin(), payload.end());
   }
-  [[nodiscard]] std::vector<std::vector<std::byte>> clouds(bool labelled) {
+  [[nodiscard]] std::vector<std::vector<std::byte>> kept(io::CloudResult result) {
     const std::lock_guard lock(mutex_);
-    return clouds_[labelled ? 1 : 0];
+    return kept_[result];
   }
 
  private:
   std::mutex mutex_;
-  std::array<std::vector<std::vector<std::byte>>, 2> clouds_;
+  std::map<io::CloudResult, std::vector<std::vector<std::byte>>> kept_;
 };
 
 class LiveClouds : public testing::Test {
  protected:
   void start(const std::string& text = "/points") {
     options_.clouds = {io::parse_cloud(text)};
+    options_.clouds[0].has_targets = !options_.target_topics.empty();
     runner_ = std::make_unique<io::LiveRunner>(
         options_, PipelineConfig{}, std::vector<io::ResultSink*>{}, io::make_robot,
         std::chrono::seconds(5), std::vector<io::CloudSink*>{&kept_});
     runner_->with_inbox([&](io::LiveInbox& inbox) {
       topics_.assign(inbox.topics().begin(), inbox.topics().end());
-      inbox.set_type(topics_.size() - 1, io::message_type<io::PointCloud2Message>());
+      for (std::size_t i = 0; i < topics_.size(); ++i)
+        if (topics_[i].role == io::TopicRole::cloud)
+          inbox.set_type(i, io::message_type<io::PointCloud2Message>());
+        else if (topics_[i].role == io::TopicRole::targets)
+          inbox.set_type(i, io::message_type<io::PoseStampedMessage>());
       return true;
     });
     runner_->start();
@@ -170,7 +174,8 @@ TEST_F(LiveClouds, FollowTheRobotThroughEachScan) {
   scan(5);
   runner_->stop();
   EXPECT_FALSE(runner_->fault());
-  const auto labelled = kept_.clouds(true), clean = kept_.clouds(false);
+  const auto labelled = kept_.kept(io::CloudResult::labelled),
+             clean = kept_.kept(io::CloudResult::without_robot);
   ASSERT_EQ(labelled.size(), 5U);
   ASSERT_EQ(clean.size(), 5U);
   for (std::size_t i = 0; i < labelled.size(); ++i) {
@@ -191,8 +196,35 @@ TEST_F(LiveClouds, OfOnePoseAreWrongWhereTheRobotMoved) {
   start("/points ignore_times");
   scan(2);
   runner_->stop();
-  ASSERT_EQ(kept_.clouds(true).size(), 2U);
-  EXPECT_GT(wrong_labels(decoded(kept_.clouds(true)[1])), 50U);
+  ASSERT_EQ(kept_.kept(io::CloudResult::labelled).size(), 2U);
+  EXPECT_GT(wrong_labels(decoded(kept_.kept(io::CloudResult::labelled)[1])), 50U);
+}
+
+TEST_F(LiveClouds, JudgeTheTargetsOfTheirStampThatComeLater) {
+  options_.target_topics = {"/knob"};
+  start();
+  scan(3);
+  const auto say_knob = [&](std::int64_t stamp) {
+    io::PoseStampedMessage knob{.header = {stamp, "optical"}};
+    knob.pose.translation() = Eigen::Vector3d(0, 0, 1.2);  // the board hides it at any angle
+    say("/knob", encoded(knob));
+  };
+  say_knob(test::start + scan_time);  // the second of three scans
+  ASSERT_TRUE(eventually(
+      [&](const io::LiveInbox&) { return !kept_.kept(io::CloudResult::targets).empty(); }));
+  say_knob(test::start + scan_time / 2);  // of no scan
+  runner_->stop();
+  const auto kept = kept_.kept(io::CloudResult::targets);
+  ASSERT_EQ(kept.size(), 1U);
+  io::TargetsMessage targets;
+  ASSERT_FALSE(io::Decoder<io::TargetsMessage>().decode(kept[0], targets));
+  EXPECT_EQ(targets.header.stamp, test::start + scan_time);
+  ASSERT_EQ(targets.targets.size(), 1U);
+  EXPECT_EQ(targets.targets[0].name, "/knob");
+  EXPECT_EQ(targets.targets[0].verdict, io::TargetMessage::hidden) << targets.targets[0].reason;
+  ASSERT_FALSE(targets.targets[0].blame.empty());
+  EXPECT_EQ(targets.targets[0].blame[0].link, "board");
+  EXPECT_EQ(kept_.kept(io::CloudResult::labelled).size(), 3U) << "each cloud comes once";
 }
 
 TEST_F(LiveClouds, WithoutJointStatesAreUnknownAndSaySo) {
@@ -200,7 +232,7 @@ TEST_F(LiveClouds, WithoutJointStatesAreUnknownAndSaySo) {
   say("/points", encoded(LidarScan(test::start).message));
   ASSERT_TRUE(
       eventually([](const io::LiveInbox& inbox) { return inbox.cloud(0).counts().judged == 1; }));
-  EXPECT_EQ(decoded(kept_.clouds(false).at(0)).width, 0U);
+  EXPECT_EQ(decoded(kept_.kept(io::CloudResult::without_robot).at(0)).width, 0U);
   EXPECT_NE(fault().why.find("missing_joints"), std::string::npos) << fault().why;
 }
 
@@ -212,7 +244,7 @@ TEST_F(LiveClouds, InAFrameAboveTheRobotAreRefused) {
   say("/points", encoded(scan.message));
   EXPECT_NE(fault().why.find("above the robot"), std::string::npos) << fault().why;
   EXPECT_EQ(done(), 1U);
-  EXPECT_TRUE(kept_.clouds(false).empty());
+  EXPECT_TRUE(kept_.kept(io::CloudResult::without_robot).empty());
 }
 
 TEST_F(LiveClouds, ThatCannotBeReadAreCountedWithTheReason) {

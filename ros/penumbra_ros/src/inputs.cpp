@@ -25,10 +25,17 @@ namespace {
 using penumbra::io::TopicRole;
 using sensor_msgs::msg::Image;
 
-constexpr std::size_t image_depth = 8;     // images that are not read yet: 0.25 s on a busy machine
+constexpr std::size_t image_depth = 8;     // images and clouds that are not read yet
 constexpr std::size_t state_depth = 1000;  // joint states and transforms: a second of them
 
-bool is_image(TopicRole role) { return role == TopicRole::depth || role == TopicRole::color; }
+bool is_image(TopicRole role) {
+  return role == TopicRole::depth || role == TopicRole::color || role == TopicRole::cloud;
+}
+
+/// Messages that are received as bytes: of packages that may not be installed, and clouds.
+bool is_generic(TopicRole role) {
+  return role == TopicRole::attached || role == TopicRole::plan || role == TopicRole::cloud;
+}
 
 std::span<const std::byte> bytes_of(const rclcpp::SerializedMessage& message) {
   const rcl_serialized_message_t& rcl = message.get_rcl_serialized_message();
@@ -75,7 +82,7 @@ void Inputs::find_publishers(std::size_t topic) {
     link.is_reliable = is_reliable;
     link.subscription.reset();
   }
-  const auto types = penumbra::io::LiveInbox::target_types();
+  const auto types = penumbra::io::LiveInbox::types_of(link.topic.role);
   if (link.topic.type.empty() && std::find(types.begin(), types.end(), published) != types.end()) {
     link.topic.type = published;
     runner_.with_inbox([&](penumbra::io::LiveInbox& inbox) {
@@ -87,16 +94,15 @@ void Inputs::find_publishers(std::size_t topic) {
   link.state.other_type = published == link.topic.type ? "" : published;
 }
 
-void Inputs::follow(bool with_color, bool with_depth) {
+void Inputs::follow(bool with_color, bool enabled) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     find_publishers(i);
     Link& link = links_[i];
     const TopicRole role = link.topic.role;
-    const bool is_generic = role == TopicRole::attached || role == TopicRole::plan;
-    const bool is_known = !is_generic || link.has_publisher;
+    const bool is_known = !is_generic(role) || link.has_publisher;
     const bool is_wanted = !link.topic.type.empty() && is_known &&
                            (role != TopicRole::color || with_color) &&
-                           (role != TopicRole::depth || with_depth);
+                           (enabled || (role != TopicRole::depth && role != TopicRole::cloud));
     if (is_wanted && !link.subscription) link.subscription = subscribe(i);
     if (!is_wanted) link.subscription.reset();
   }
@@ -164,7 +170,7 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_latched(std::size_t topic)
       options);
 }
 
-// Only where MoveIt is installed are its messages known.
+// Only where MoveIt or Livox's driver is installed are their messages known.
 rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_generic(std::size_t topic) {
   const penumbra::io::InputTopic& of = links_[topic].topic;
   try {
@@ -208,7 +214,7 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe(std::size_t topic) {
       {"geometry_msgs/msg/PoseStamped",
        &Inputs::subscribe_serialised<geometry_msgs::msg::PoseStamped>}};
   const penumbra::io::InputTopic& of = links_[topic].topic;
-  if (of.role == TopicRole::attached || of.role == TopicRole::plan) return subscribe_generic(topic);
+  if (is_generic(of.role)) return subscribe_generic(topic);
   if (of.latched && of.type == "tf2_msgs/msg/TFMessage")
     return subscribe_latched<tf2_msgs::msg::TFMessage>(topic);
   return (this->*by_type.at(of.type))(topic);

@@ -19,9 +19,9 @@ class Inputs {
   Inputs(rclcpp::Node& node, penumbra::io::LiveRunner& runner);
 
   /// Subscribes to what is needed now: target topics once their type is known, colour images if
-  /// `with_color`, depth images if `with_depth`. Reliable where all publishers offer that: of large
-  /// images most are lost otherwise.
-  void follow(bool with_color, bool with_depth);
+  /// `with_color`, depth images and clouds if `enabled`. Reliable where all publishers offer that:
+  /// of large images most are lost otherwise.
+  void follow(bool with_color, bool enabled);
 
   /// Returns the state of each of the runner's topics.
   [[nodiscard]] std::vector<penumbra::io::LiveLink> links() const;

@@ -64,10 +64,10 @@ penumbra_msgs::msg::TargetForecast to_message(const penumbra::TargetForecast& fo
 
 }  // namespace
 
-LookAheadService::LookAheadService(rclcpp::Node& node)
+LookAheadService::LookAheadService(rclcpp::Node& node, const std::string& name)
     : service_(node.create_service<Service>(
-          "~/look_ahead", [this](const std::shared_ptr<rmw_request_id_t> id,
-                                 const std::shared_ptr<Service::Request> request) {
+          name, [this](const std::shared_ptr<rmw_request_id_t> id,
+                       const std::shared_ptr<Service::Request> request) {
             answering_ =
                 std::async(std::launch::async,
                            [this, id, request,

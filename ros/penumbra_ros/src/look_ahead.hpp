@@ -5,6 +5,7 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include <penumbra_msgs/srv/look_ahead.hpp>
@@ -14,11 +15,12 @@
 
 namespace penumbra_ros {
 
-/// The service "~/look_ahead": what motions would hide of the newest targets. It is
+/// The service "look_ahead" of a camera: what motions would hide of the newest targets. It is
 /// answered on a thread of its own, one request after the other, so that no message waits.
 class LookAheadService {
  public:
-  explicit LookAheadService(rclcpp::Node& node);
+  /// `name`: "~/look_ahead".
+  LookAheadService(rclcpp::Node& node, const std::string& name);
 
   /// Takes the newest judged image.
   void take(const penumbra::io::AssembledFrame& job);

@@ -7,8 +7,6 @@
 #include <cstring>
 #include <utility>
 
-#include <rclcpp/serialization.hpp>
-
 #include <io/ros/message_encoder.hpp>
 
 namespace penumbra_ros {
@@ -16,18 +14,21 @@ namespace {
 
 using penumbra::io::Result;
 
-constexpr std::size_t result_depth = 10;
 constexpr std::size_t points_depth = 5;  // megabytes each
 
 template <typename M>
-std::unique_ptr<M> deserialised(std::span<const std::byte> payload) {
+auto advertise(rclcpp::Node& node, const std::string& name, std::size_t depth = result_depth) {
+  return node.create_publisher<M>(name, rclcpp::QoS(depth), with_qos_parameters());
+}
+
+}  // namespace
+
+rclcpp::SerializedMessage message_of(std::span<const std::byte> payload) {
   rclcpp::SerializedMessage bytes(payload.size());
   rcl_serialized_message_t& rcl = bytes.get_rcl_serialized_message();
   std::memcpy(rcl.buffer, payload.data(), payload.size());
   rcl.buffer_length = payload.size();
-  auto message = std::make_unique<M>();
-  rclcpp::Serialization<M>().deserialize_message(&bytes, message.get());
-  return message;
+  return bytes;
 }
 
 rclcpp::PublisherOptions with_qos_parameters() {
@@ -36,29 +37,22 @@ rclcpp::PublisherOptions with_qos_parameters() {
   return options;
 }
 
-template <typename M>
-auto advertise(rclcpp::Node& node, const std::string& name, std::size_t depth = result_depth) {
-  return node.create_publisher<M>("~/" + name, rclcpp::QoS(depth), with_qos_parameters());
-}
-
-}  // namespace
-
-Outputs::Outputs(rclcpp::Node& node, bool target_frames, std::string frame_prefix,
-                 LookAheadService& look_ahead)
+Outputs::Outputs(rclcpp::Node& node, const std::string& below, bool target_frames,
+                 std::string frame_prefix)
     : frame_prefix_(std::move(frame_prefix)),
-      look_ahead_(look_ahead),
-      points_(advertise<sensor_msgs::msg::PointCloud2>(node, "points", points_depth)),
-      targets_(advertise<penumbra_msgs::msg::Targets>(node, "targets")),
-      overlay_(advertise<sensor_msgs::msg::CompressedImage>(node, "overlay/compressed")),
-      camera_info_(advertise<sensor_msgs::msg::CameraInfo>(node, "camera_info")),
-      markers_(advertise<visualization_msgs::msg::MarkerArray>(node, "markers")),
-      detections_(advertise<vision_msgs::msg::Detection3DArray>(node, "detections")) {
+      look_ahead_(node, below + "look_ahead"),
+      points_(advertise<sensor_msgs::msg::PointCloud2>(node, below + "points", points_depth)),
+      targets_(advertise<penumbra_msgs::msg::Targets>(node, below + "targets")),
+      overlay_(advertise<sensor_msgs::msg::CompressedImage>(node, below + "overlay/compressed")),
+      camera_info_(advertise<sensor_msgs::msg::CameraInfo>(node, below + "camera_info")),
+      markers_(advertise<visualization_msgs::msg::MarkerArray>(node, below + "markers")),
+      detections_(advertise<vision_msgs::msg::Detection3DArray>(node, below + "detections")) {
   for (const Result result : {Result::virtual_depth, Result::labels, Result::mask,
                               Result::filtered_depth, Result::robot_mask})
     images_[result] = image_transport::create_publisher(
         &node,
         node.get_node_topics_interface()->resolve_topic_name(
-            std::string("~/") + output_names[static_cast<std::size_t>(result)]),
+            below + output_names[static_cast<std::size_t>(result)]),
         rclcpp::QoS(result_depth).get_rmw_qos_profile(), with_qos_parameters());
   if (target_frames) frames_ = std::make_unique<tf2_ros::TransformBroadcaster>(node);
 }
@@ -128,6 +122,18 @@ void Outputs::publish_detections(const penumbra::io::AssembledFrame& job,
   auto detections = handled_detections(report, job.targets, frame_prefix_);
   if (frames_) frames_->sendTransform(frames_of(*detections));
   if (has_listener) detections_->publish(std::move(detections));
+}
+
+bool CloudOutputs::wants(penumbra::io::CloudResult result, const std::string& type) {
+  const auto number = static_cast<std::size_t>(result);
+  if (!publishers_[number])
+    publishers_[number] =
+        node_.create_generic_publisher(topics_[number], type, rclcpp::QoS(points_depth));
+  return publishers_[number]->get_subscription_count() > 0;
+}
+
+void CloudOutputs::write(penumbra::io::CloudResult result, std::span<const std::byte> payload) {
+  publishers_[static_cast<std::size_t>(result)]->publish(message_of(payload));
 }
 
 }  // namespace penumbra_ros

@@ -8,11 +8,14 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
+#include <utility>
 
 #include <image_transport/image_transport.hpp>
 #include <penumbra_msgs/msg/targets.hpp>
 #include <rclcpp/rclcpp.hpp>
+#include <rclcpp/serialization.hpp>
 #include <sensor_msgs/msg/camera_info.hpp>
 #include <sensor_msgs/msg/compressed_image.hpp>
 #include <sensor_msgs/msg/point_cloud2.hpp>
@@ -22,25 +25,44 @@
 
 #include <io/assembly/result_encoder.hpp>
 #include <io/live/frame_watcher.hpp>
+#include <io/live/live_runner.hpp>
 
 namespace penumbra_ros {
 
-/// Names of the results below "~/": those of penumbra::io::Result in its order, then ours.
+/// Names of a camera's results: those of penumbra::io::Result in its order, then ours.
 inline constexpr std::array<const char*, 11> output_names = {
     "virtual_depth", "labels",     "mask",        "filtered_depth", "points",    "targets",
     "overlay",       "robot_mask", "camera_info", "markers",        "detections"};
 
-/// Publishes the results that have subscribers. The camera's thread calls wants(), write() and
-/// take(); the other functions are for any thread.
+inline constexpr std::size_t result_depth = 10;
+
+/// Options with which ROS's parameters override a publisher's QoS.
+[[nodiscard]] rclcpp::PublisherOptions with_qos_parameters();
+
+/// Returns a copy of a message in CDR.
+[[nodiscard]] rclcpp::SerializedMessage message_of(std::span<const std::byte> payload);
+
+template <typename M>
+[[nodiscard]] std::unique_ptr<M> deserialised(std::span<const std::byte> payload) {
+  const rclcpp::SerializedMessage bytes = message_of(payload);
+  auto message = std::make_unique<M>();
+  rclcpp::Serialization<M>().deserialize_message(&bytes, message.get());
+  return message;
+}
+
+/// Publishes the results of a camera that have subscribers. The camera's thread calls wants(),
+/// write() and take(); the other functions are for any thread.
 class Outputs final : public penumbra::io::ResultSink, public penumbra::io::FrameWatcher {
  public:
-  /// `target_frames`: publishes targets in TF. `frame_prefix`: of link names in TF. `look_ahead`
-  /// gets each judged image.
-  Outputs(rclcpp::Node& node, bool target_frames, std::string frame_prefix,
-          LookAheadService& look_ahead);
+  /// `below`: of the topics, "~/" or "~/CAMERA/". `target_frames`: publishes targets in TF.
+  /// `frame_prefix`: of link names in TF.
+  Outputs(rclcpp::Node& node, const std::string& below, bool target_frames,
+          std::string frame_prefix);
 
   /// Limits the results to these names.
   void select(const std::set<std::string>& names);
+  /// The rule of the images from now on.
+  void set_rule(const penumbra::LabelRule& rule) { look_ahead_.set_rule(rule); }
 
   [[nodiscard]] bool wants(penumbra::io::Result result) const override;
   void write(penumbra::io::Result result, std::int64_t stamp,
@@ -59,7 +81,7 @@ class Outputs final : public penumbra::io::ResultSink, public penumbra::io::Fram
                           const penumbra::FrameReport& report);
 
   std::string frame_prefix_;
-  LookAheadService& look_ahead_;
+  LookAheadService look_ahead_;
   std::array<std::atomic<bool>, output_names.size()> selected_ = {};
   std::map<penumbra::io::Result, image_transport::Publisher> images_;
   rclcpp::Publisher<sensor_msgs::msg::PointCloud2>::SharedPtr points_;
@@ -72,6 +94,24 @@ class Outputs final : public penumbra::io::ResultSink, public penumbra::io::Fram
   std::vector<std::byte> payload_;
   std::shared_ptr<const penumbra::io::CameraSetup> shown_;  // whose robot the markers show
   std::size_t viewers_ = 0;                                 // of the markers
+};
+
+/// Publishes the clouds of a sensor that have subscribers, with the type of its messages.
+class CloudOutputs final : public penumbra::io::CloudSink {
+ public:
+  /// `topic`: "~/points"; labelled clouds are on "~/points/labelled", targets on
+  /// "~/points/targets".
+  CloudOutputs(rclcpp::Node& node, const std::string& topic)
+      : node_(node), topics_{topic, topic + "/labelled", topic + "/targets"} {}
+
+  [[nodiscard]] bool wants(penumbra::io::CloudResult result, const std::string& type) override;
+  void write(penumbra::io::CloudResult result, std::span<const std::byte> payload) override;
+
+ private:
+  rclcpp::Node& node_;
+  // Of each CloudResult.
+  std::array<std::string, 3> topics_;
+  std::array<rclcpp::GenericPublisher::SharedPtr, 3> publishers_;
 };
 
 }  // namespace penumbra_ros

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "penumbra_node.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 #include <rclcpp_components/register_node_macro.hpp>
@@ -28,22 +29,34 @@ const DiagnosticStatusMessage* subject_of(const penumbra::io::DiagnosticArrayMes
 PenumbraNode::PenumbraNode(const rclcpp::NodeOptions& options)
     : Node("penumbra", options),
       settings_(declare_settings(*this)),
-      look_ahead_(*this),
-      outputs_(*this, settings_.target_frames, settings_.live.cameras[0].mount.frame_prefix,
-               look_ahead_),
-      runner_(settings_.live, settings_.pipeline, {&outputs_}),
-      inputs_(*this, runner_),
       diagnostics_(LiveRunner::steady_now(), {.name = get_name()}),
       updater_(this) {
-  outputs_.select(settings_.publish);
-  look_ahead_.set_rule(settings_.pipeline.rule);
-  runner_.watch(0, outputs_);
+  std::vector<penumbra::io::ResultSink*> sinks;
+  for (const penumbra::io::CameraInputOptions& camera : settings_.live.cameras) {
+    const std::string below = camera.name.empty() ? "~/" : "~/" + camera.name + "/";
+    outputs_.push_back(std::make_unique<Outputs>(*this, below, settings_.target_frames,
+                                                 camera.mount.frame_prefix));
+    outputs_.back()->select(settings_.publish);
+    outputs_.back()->set_rule(settings_.pipeline.rule);
+    sinks.push_back(outputs_.back().get());
+  }
+  std::vector<penumbra::io::CloudSink*> cloud_sinks;
+  for (const std::string& topic : settings_.cloud_topics) {
+    const std::string below = topic.front() == '/' ? "~" : "~/";
+    clouds_.push_back(std::make_unique<CloudOutputs>(*this, below + topic));
+    cloud_sinks.push_back(clouds_.back().get());
+  }
+  runner_ = std::make_unique<LiveRunner>(settings_.live, settings_.pipeline, sinks,
+                                         penumbra::io::make_robot, LiveRunner::default_robot_retry,
+                                         cloud_sinks);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) runner_->watch(i, *outputs_[i]);
+  if (outputs_.size() > 1) fuse();
+  inputs_ = std::make_unique<Inputs>(*this, *runner_);
   updater_.setHardwareID(get_fully_qualified_name());
-  updater_.add("robot", [this](auto& status) { report(status, 0); });
-  updater_.add("camera", [this](auto& status) { report(status, 1); });
+  add_diagnostics();
   reset_ = create_service<Trigger>(
       "~/reset", [this](const Trigger::Request::SharedPtr, Trigger::Response::SharedPtr response) {
-        runner_.forget();
+        runner_->forget();
         response->success = true;
       });
   enable_ = create_service<SetBool>("~/enable", [this](const SetBool::Request::SharedPtr request,
@@ -54,23 +67,54 @@ PenumbraNode::PenumbraNode(const rclcpp::NodeOptions& options)
   on_change_ = add_on_set_parameters_callback(
       [this](const std::vector<rclcpp::Parameter>& changes) { return change(changes); });
   warn_of_unknown_parameters();
-  inputs_.follow(false, enabled_);
+  inputs_->follow(false, enabled_);
   timer_ = create_wall_timer(check_period, [this] { check(); });
-  runner_.start();
+  runner_->start();
   // Nothing can be published once the context is shut down.
   before_shutdown_ = get_node_base_interface()->get_context()->add_pre_shutdown_callback(
-      [this] { runner_.stop(); });
+      [this] { runner_->stop(); });
 }
 
 PenumbraNode::~PenumbraNode() {
   get_node_base_interface()->get_context()->remove_pre_shutdown_callback(before_shutdown_);
-  runner_.stop();
+  runner_->stop();
+}
+
+void PenumbraNode::fuse() {
+  target_views_ = create_publisher<penumbra_msgs::msg::TargetViews>(
+      "~/target_views", rclcpp::QoS(result_depth), with_qos_parameters());
+  std::vector<std::string> cameras;
+  for (const penumbra::io::CameraInputOptions& camera : settings_.live.cameras)
+    cameras.push_back(camera.name);
+  fusion_.emplace(cameras, [this](std::span<const std::byte> payload) {
+    if (target_views_->get_subscription_count() > 0)
+      target_views_->publish(deserialised<penumbra_msgs::msg::TargetViews>(payload));
+  });
+  runner_->fuse(*fusion_);
+}
+
+/// Adds the robot, the cameras and the clouds, in the order of LiveDiagnostics.
+void PenumbraNode::add_diagnostics() {
+  std::vector<std::string> names{"robot"};
+  for (const penumbra::io::CameraInputOptions& camera : settings_.live.cameras)
+    names.push_back(camera.name.empty() ? "camera" : "camera " + camera.name);
+  for (const penumbra::io::CloudInputOptions& cloud : settings_.live.clouds)
+    names.push_back("cloud " + cloud.topic);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    updater_.add(names[i], [this, i](auto& status) { report(status, i); });
+}
+
+bool PenumbraNode::wants_overlay() const {
+  return std::any_of(outputs_.begin(), outputs_.end(), [](const auto& outputs) {
+    return outputs->wants(penumbra::io::Result::overlay);
+  });
 }
 
 void PenumbraNode::warn_of_unknown_parameters() {
-  // Parameters with a point are of QoS and of plugins, which declare them later.
+  // Others with a point are of QoS and of plugins, which declare them later.
   for (const auto& [name, value] : get_node_parameters_interface()->get_parameter_overrides())
-    if (!has_parameter(name) && name.find('.') == std::string::npos)
+    if (!has_parameter(name) &&
+        (name.find('.') == std::string::npos || name.rfind("cameras.", 0) == 0))
       RCLCPP_WARN(get_logger(), "there is no parameter '%s'", name.c_str());
 }
 
@@ -78,9 +122,12 @@ rcl_interfaces::msg::SetParametersResult PenumbraNode::change(const Changes& cha
   rcl_interfaces::msg::SetParametersResult result;
   try {
     settings_.pipeline.rule = read_rule(*this, changes);
-    outputs_.select(read_publish(*this, changes));
-    runner_.configure(settings_.pipeline);
-    look_ahead_.set_rule(settings_.pipeline.rule);
+    const std::set<std::string> publish = read_publish(*this, changes);
+    for (const auto& outputs : outputs_) {
+      outputs->select(publish);
+      outputs->set_rule(settings_.pipeline.rule);
+    }
+    runner_->configure(settings_.pipeline);
     result.successful = true;
   } catch (const std::exception& error) {
     result.successful = false;
@@ -91,28 +138,30 @@ rcl_interfaces::msg::SetParametersResult PenumbraNode::change(const Changes& cha
 
 void PenumbraNode::enable(bool enabled) {
   enabled_ = enabled;
-  inputs_.follow(false, enabled_);
+  inputs_->follow(false, enabled_);
 }
 
 void PenumbraNode::check() {
-  if (runner_.has_failed() &&
+  if (runner_->has_failed() &&
       failure_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-    failed_.set_exception(runner_.fault());
+    failed_.set_exception(runner_->fault());
     RCLCPP_FATAL(get_logger(), "nothing is judged any more; load the node again");
   }
-  inputs_.follow(outputs_.wants(penumbra::io::Result::overlay), enabled_);
-  const auto links = inputs_.links();
-  statuses_ = runner_.with_inbox([&](const penumbra::io::LiveInbox& inbox) {
+  inputs_->follow(wants_overlay(), enabled_);
+  const auto links = inputs_->links();
+  statuses_ = runner_->with_inbox([&](const penumbra::io::LiveInbox& inbox) {
     return diagnostics_.report(inbox, links, {LiveRunner::steady_now(), now().nanoseconds()});
   });
-  DiagnosticStatusMessage& camera = statuses_.status[1];
-  if (!enabled_) {
-    camera.level = DiagnosticStatusMessage::ok;
-    camera.message = "disabled by ~/enable";
-  }
-  if (runner_.has_failed()) {
-    camera.level = DiagnosticStatusMessage::error;
-    camera.message = "nothing is judged any more";
+  for (std::size_t i = 1; i < statuses_.status.size(); ++i) {  // the first is the robot's
+    DiagnosticStatusMessage& sensor = statuses_.status[i];
+    if (!enabled_) {
+      sensor.level = DiagnosticStatusMessage::ok;
+      sensor.message = "disabled by ~/enable";
+    }
+    if (runner_->has_failed()) {
+      sensor.level = DiagnosticStatusMessage::error;
+      sensor.message = "nothing is judged any more";
+    }
   }
   for (const std::string& line : changes_.update(statuses_)) {
     const DiagnosticStatusMessage* status = subject_of(statuses_, line);

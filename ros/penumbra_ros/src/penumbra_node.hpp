@@ -7,18 +7,22 @@
 
 #include <future>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include <diagnostic_updater/diagnostic_updater.hpp>
+#include <penumbra_msgs/msg/target_views.hpp>
 #include <rclcpp/rclcpp.hpp>
 #include <std_srvs/srv/set_bool.hpp>
 #include <std_srvs/srv/trigger.hpp>
 
 #include <io/live/diagnostic_changes.hpp>
+#include <io/live/live_fusion.hpp>
 #include <io/live/live_runner.hpp>
 
 namespace penumbra_ros {
 
-/// Labels the depth images of one camera.
+/// Labels the depth images of cameras, and the clouds of other sensors.
 class PenumbraNode : public rclcpp::Node {
  public:
   /// Throws an exception with one line for a parameter or file that is invalid.
@@ -35,16 +39,23 @@ class PenumbraNode : public rclcpp::Node {
   void warn_of_unknown_parameters();
   void report(diagnostic_updater::DiagnosticStatusWrapper& status, std::size_t number);
 
+  [[nodiscard]] bool wants_overlay() const;
+  void fuse();
+  void add_diagnostics();
+
   Settings settings_;
-  LookAheadService look_ahead_;
-  Outputs outputs_;
-  penumbra::io::LiveRunner runner_;
-  Inputs inputs_;
+  std::vector<std::unique_ptr<Outputs>> outputs_;      // of each camera
+  std::vector<std::unique_ptr<CloudOutputs>> clouds_;  // of each sensor of clouds
+  rclcpp::Publisher<penumbra_msgs::msg::TargetViews>::SharedPtr
+      target_views_;                                // of several cameras
+  std::optional<penumbra::io::LiveFusion> fusion_;  // likewise
+  std::unique_ptr<penumbra::io::LiveRunner> runner_;
+  std::unique_ptr<Inputs> inputs_;
   bool enabled_ = true;
   std::promise<void> failed_;
   std::shared_future<void> failure_ = failed_.get_future();
   penumbra::io::LiveDiagnostics diagnostics_;
-  penumbra::io::DiagnosticArrayMessage statuses_;  // of the last check: robot and camera
+  penumbra::io::DiagnosticArrayMessage statuses_;  // of the last check
   penumbra::io::DiagnosticChanges changes_;
   diagnostic_updater::Updater updater_;
   rclcpp::TimerBase::SharedPtr timer_;

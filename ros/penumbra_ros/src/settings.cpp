@@ -14,6 +14,7 @@
 
 #include <io/assembly/bag_topics.hpp>
 #include <io/files/settings.hpp>
+#include <io/live/cloud_text.hpp>
 
 namespace penumbra_ros {
 namespace {
@@ -29,12 +30,14 @@ constexpr bool changeable = true;
 /// Declares parameters. They are read-only if they are not declared as `changeable`.
 class Declaration {
  public:
-  explicit Declaration(rclcpp::Node& node) : node_(node) {}
+  /// `before`: of the names.
+  explicit Declaration(rclcpp::Node& node, std::string before = "")
+      : node_(node), before_(std::move(before)) {}
 
   template <typename T>
   T operator()(const std::string& name, const T& value, const std::string& description,
                bool can_change = false) {
-    return node_.declare_parameter(name, value, descriptor(description, can_change));
+    return node_.declare_parameter(before_ + name, value, descriptor(description, can_change));
   }
   template <typename T>
   T number(const std::string& name, T value, T least, T most, const std::string& description,
@@ -49,7 +52,7 @@ class Declaration {
       limit(described.integer_range);
     else
       limit(described.floating_point_range);
-    return node_.declare_parameter(name, value, described);
+    return node_.declare_parameter(before_ + name, value, described);
   }
   template <typename T>
   T choice(const std::string& name, const std::string& value, const std::map<std::string, T>& of,
@@ -58,10 +61,10 @@ class Declaration {
     for (const auto& [text, meaning] : of)
       described.additional_constraints +=
           (described.additional_constraints.empty() ? "one of " : ", ") + text;
-    const auto text = node_.declare_parameter(name, value, described);
+    const auto text = node_.declare_parameter(before_ + name, value, described);
     const auto found = of.find(text);
     if (found == of.end())
-      throw InputError("parameter '" + name + "' is '" + text + "'; it must be " +
+      throw InputError("parameter '" + before_ + name + "' is '" + text + "'; it must be " +
                        described.additional_constraints);
     return found->second;
   }
@@ -87,6 +90,7 @@ class Declaration {
   }
 
   rclcpp::Node& node_;
+  std::string before_;
 };
 
 template <typename T>
@@ -140,21 +144,35 @@ penumbra::RobotOptions declare_robot(Declaration& declare) {
   return robot;
 }
 
-void declare_poses(Declaration& declare, penumbra::io::LiveOptions& live,
-                   penumbra::io::CameraInputOptions& camera) {
+/// Declares what holds for all cameras and clouds. Returns their common options.
+penumbra::io::CameraInputOptions declare_poses(Declaration& declare,
+                                               penumbra::io::LiveOptions& live) {
   using penumbra::PoseSource;
-  live.poses = camera.poses = declare.choice<PoseSource>(
+  penumbra::io::CameraInputOptions common;
+  live.poses = common.poses = declare.choice<PoseSource>(
       "poses", "joints",
       {{"joints", PoseSource::joints}, {"tf", PoseSource::transforms}, {"both", PoseSource::both}},
       "where the poses of the links come from");
   live.robot.compare_sources = !declare(
       "first_publisher", false, "do not compare several publishers of one joint or transform");
+  common.mount.frame_prefix =
+      declare("frame_prefix", std::string(), "before link names in TF, as robot_state_publisher's");
+  using penumbra::io::HiddenTargets;
+  common.hidden_targets =
+      declare.choice<HiddenTargets>("handling", "none",
+                                    {{"none", HiddenTargets::not_handled},
+                                     {"predict", HiddenTargets::predict},
+                                     {"hold", HiddenTargets::hold}},
+                                    "what happens to targets while they are hidden");
+  return common;
+}
+
+void declare_mount(Declaration& declare, penumbra::io::CameraInputOptions& camera) {
   penumbra::io::BagOptions mount;
+  mount.frame_prefix = camera.mount.frame_prefix;
   const auto set = [&](auto& option, const char* name, const char* description) {
     if (const auto text = declare(name, std::string(), description); !text.empty()) option = text;
   };
-  mount.frame_prefix =
-      declare("frame_prefix", std::string(), "before link names in TF, as robot_state_publisher's");
   set(mount.camera_frame, "camera_frame", "frame of the images in TF, in place of their frame_id");
   set(mount.parent, "parent", "link that carries the camera; empty: the first above its frame");
   set(mount.pose, "pose",
@@ -166,8 +184,7 @@ void declare_poses(Declaration& declare, penumbra::io::LiveOptions& live,
       declare.number<std::int64_t>("queue", 8, 1, 1000, "images that may wait for their pose"));
 }
 
-void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::LiveOptions& live,
-                    penumbra::io::CameraInputOptions& camera) {
+void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::LiveOptions& live) {
   live.description_topics = {resolved(node, "robot_description")};
   live.transform_topic = resolved(node, "/tf");
   live.static_transform_topic = resolved(node, "/tf_static");
@@ -188,14 +205,31 @@ void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::Live
   live.target_topics = resolved(
       node, declare("target_topics", Texts{},
                     "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge"));
-  camera.depth_topic = resolved(
-      node, declare("depth_topic", std::string("depth/image"),
-                    "depth images; a name that ends in /compressed or /compressedDepth is a "
-                    "CompressedImage"));
+}
+
+/// Returns the NAME of all parameters cameras.NAME.PARAMETER.
+std::set<std::string> cameras_of(const rclcpp::Node& node) {
+  const std::string before = "cameras.";
+  std::set<std::string> names;
+  for (const auto& [name, value] : node.get_node_parameters_interface()->get_parameter_overrides())
+    if (name.rfind(before, 0) == 0)
+      names.insert(name.substr(before.size(), name.find('.', before.size()) - before.size()));
+  return names;
+}
+
+/// Declares a camera. `depth_topic`: its default. Returns false if there is none.
+bool declare_camera(rclcpp::Node& node, Declaration& declare, const std::string& depth_topic,
+                    penumbra::io::CameraInputOptions& camera) {
+  declare_mount(declare, camera);
+  const auto depth = declare("depth_topic", depth_topic,
+                             "depth images; a name that ends in /compressed or /compressedDepth is "
+                             "a CompressedImage");
+  if (!depth.empty()) camera.depth_topic = resolved(node, depth);
   const auto info = declare("camera_info_topic", std::string(), "empty: next to the depth images");
   camera.info_is_named = !info.empty();
-  camera.info_topic = info.empty() ? penumbra::io::camera_info_topic(camera.depth_topic) : info;
-  camera.info_topic = resolved(node, camera.info_topic);
+  if (!depth.empty() || !info.empty())
+    camera.info_topic = info.empty() ? penumbra::io::camera_info_topic(camera.depth_topic) : info;
+  if (!camera.info_topic.empty()) camera.info_topic = resolved(node, camera.info_topic);
   const auto color = declare("color_topic", std::string(),
                              "judge in this camera's image: depth is brought there by TF");
   if (!color.empty()) {
@@ -213,6 +247,41 @@ void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::Live
   }
   camera.is_rectified = declare(
       "rectified", false, "the images have no lens distortion, as those called image_rect...");
+  return !camera.depth_topic.empty();
+}
+
+void declare_cameras(rclcpp::Node& node, const penumbra::io::CameraInputOptions& common,
+                     std::vector<penumbra::io::CameraInputOptions>& cameras, bool has_clouds) {
+  const std::set<std::string> names = cameras_of(node);
+  for (const std::string& name : names) {
+    Declaration declare(node, "cameras." + name + ".");
+    cameras.push_back(common);
+    cameras.back().name = name;
+    if (!declare_camera(node, declare, "", cameras.back()))
+      throw InputError("parameter 'cameras." + name + ".depth_topic' is missing");
+  }
+  if (!names.empty()) return;
+  Declaration declare(node);
+  penumbra::io::CameraInputOptions camera = common;
+  if (declare_camera(node, declare, has_clouds ? "" : "depth/image", camera))
+    cameras.push_back(camera);
+}
+
+void declare_clouds(rclcpp::Node& node, Declaration& declare,
+                    const penumbra::io::CameraInputOptions& common, Settings& settings) {
+  for (const std::string& text :
+       declare("clouds", Texts{},
+               "PointCloud2, LaserScan or CustomMsg to publish without the robot: TOPIC, or TOPIC "
+               "and words as sensor=ouster_os1 tolerance=0.03,0,0 merged sensor_frame=FRAME "
+               "ignore_times removed_ranges=inf")) {
+    penumbra::io::CloudInputOptions cloud = penumbra::io::parse_cloud(text);
+    settings.cloud_topics.push_back(cloud.topic);
+    cloud.topic = resolved(node, cloud.topic);
+    cloud.mount = common.mount;
+    cloud.poses = common.poses;
+    cloud.has_targets = !settings.live.target_topics.empty();
+    settings.live.clouds.push_back(cloud);
+  }
 }
 
 /// The type of a parameter that is a number.
@@ -273,11 +342,11 @@ std::set<std::string> read_publish(const rclcpp::Node& node, const Changes& chan
 Settings declare_settings(rclcpp::Node& node) {
   Declaration declare(node);
   Settings settings;
-  penumbra::io::CameraInputOptions camera;
   settings.live.robot.robot = declare_robot(declare);
-  declare_topics(node, declare, settings.live, camera);
-  declare_poses(declare, settings.live, camera);
-  settings.live.cameras = {std::move(camera)};
+  declare_topics(node, declare, settings.live);
+  const penumbra::io::CameraInputOptions common = declare_poses(declare, settings.live);
+  declare_clouds(node, declare, common, settings);
+  declare_cameras(node, common, settings.live.cameras, !settings.live.clouds.empty());
   const auto urdf = declare("robot", std::string(), "URDF file, in place of robot_description");
   if (!urdf.empty())
     settings.live.robot.given = penumbra::Robot::load(urdf, settings.live.robot.robot);
@@ -304,14 +373,9 @@ Settings declare_settings(rclcpp::Node& node) {
   declare("publish", Texts(output_names.begin(), output_names.end()),
           "results to publish; those without a subscriber are not computed", changeable);
   settings.publish = read_publish(node);
-  using penumbra::io::HiddenTargets;
-  settings.live.cameras[0].hidden_targets =
-      declare.choice<HiddenTargets>("handling", "none",
-                                    {{"none", HiddenTargets::not_handled},
-                                     {"predict", HiddenTargets::predict},
-                                     {"hold", HiddenTargets::hold}},
-                                    "what happens to targets while they are hidden");
   settings.target_frames = declare("target_frames", false, "publish handled targets in TF");
+  if (settings.target_frames && settings.live.cameras.size() > 1)
+    throw InputError("parameter 'target_frames': TF can have the targets of one camera only");
   return settings;
 }
 

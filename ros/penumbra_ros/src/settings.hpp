@@ -15,7 +15,8 @@ namespace penumbra_ros {
 
 /// The node's parameters.
 struct Settings {
-  penumbra::io::LiveOptions live;  ///< one camera
+  penumbra::io::LiveOptions live;
+  std::vector<std::string> cloud_topics;  ///< of live.clouds, as given
   penumbra::PipelineConfig pipeline;
   std::set<std::string> publish;  ///< names of results
   bool target_frames = false;     ///< publishes targets in TF
