@@ -35,7 +35,8 @@ set(public_headers
   session/plan_forecast.hpp session/session.hpp session/warnings.hpp tuning/missing_parts.hpp
   scene/look_ahead.hpp scene/target_fusion.hpp robot/trajectory.hpp scene/view_planning.hpp
   cloud/cloud_labels.hpp
-  cloud/cloud_pipeline.hpp)
+  cloud/cloud_pipeline.hpp
+  cloud/cloud_tuning.hpp)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/penumbra/${header}

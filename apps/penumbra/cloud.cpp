@@ -23,8 +23,11 @@ void add_cloud(CLI::App& app, io::CloudRunOptions& cloud) {
            "", input.path)
       ->required();
   add_text(app, "-o,--output", "a folder for a recording's clouds; *.mcap for a bag's", "OUT",
-           cloud.output)
-      ->required();
+           cloud.output);
+  app.add_flag(
+      "--tune", cloud.tune,
+      "write nothing: measure the tolerance and beam that fit each sensor, in 40 clouds of "
+      "a robot that stands or moves free");
   add_option(app, "--sensor",
              "lidar_2cm (default), livox_mid360, ouster_os1 or hokuyo: their tolerance and beam; "
              "the options below override",
@@ -75,7 +78,30 @@ void add_cloud(CLI::App& app, io::CloudRunOptions& cloud) {
 
 void check_cloud(const CLI::App& app, io::CloudRunOptions& cloud) {
   note_bag_option(app, cloud.input);
+  if (cloud.tune != cloud.output.empty())
+    throw InputError(cloud.tune ? "--tune writes nothing: leave --output out"
+                                : "--output is required, or --tune");
   cloud.input.bag.in_other_frame = !cloud.has_rays || !cloud.sensor_frame.empty();
+}
+
+/// Prints the rule that fits each sensor. Returns the exit status.
+int print_tunings(const io::CloudRunResult& result) {
+  std::vector<std::vector<std::string>> rows{
+      {"", "clouds", "points on the robot", "bias", "deviation", "tolerance", "beam"}};
+  bool is_sound = !result.tunings.empty();
+  for (std::size_t i = 0; i < result.tunings.size(); ++i) {
+    const CloudTuning& tuning = result.tunings[i];
+    const std::string& name = result.sensors[i].name;
+    rows.push_back({name, std::to_string(tuning.scans), std::to_string(tuning.points),
+                    fixed(1e3 * tuning.bias, 1) + " mm", fixed(1e3 * tuning.deviation, 1) + " mm",
+                    fixed(tuning.rule.tolerance.a, 3) + ",0,0", fixed(tuning.rule.beam, 3)});
+    std::vector<std::string> notes;
+    for (const std::string& problem : tuning.problems) notes.push_back(name + ": " + problem);
+    print_notes(notes);
+    is_sound = is_sound && tuning.problems.empty();
+  }
+  print_table(std::move(rows));
+  return result.is_stopped ? interrupt_status() : is_sound ? 0 : nothing_judged;
 }
 
 int execute(const io::CloudRunOptions& options) {
@@ -88,6 +114,7 @@ int execute(const io::CloudRunOptions& options) {
     });
   }();
   print_notes(result.notes);
+  if (options.tune) return print_tunings(result);
   std::vector<std::vector<std::string>> rows{
       {"", "clouds", "labelled", "points", "robot", "front", "fringe", "unknown", "ms a cloud"}};
   std::size_t labelled = 0;

@@ -199,7 +199,7 @@ INPUT is a bag with PointCloud2, LaserScan or Livox's CustomMsg, or a recording 
 recording.yaml has `sensor` and `frames.cloud` (docs/point_clouds.md). Points that are neither clear nor front
 are removed: in organised clouds and scans they become NaN. OUT is a bag with topics
 /penumbra/TOPIC, or a folder with files of the same names and report.json. Points of clouds whose
-poses are not known are all removed. Exit status 2: no cloud was labelled.
+poses are not known are all removed. Exit status 2: no cloud was labelled, or --tune advises nothing.
 
 Examples:
   penumbra cloud walk.mcap -o walk_clean.mcap --sensor ouster_os1

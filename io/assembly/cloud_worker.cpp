@@ -16,6 +16,20 @@ void CloudWorker::follow(const std::shared_ptr<CloudSetup>& setup) {
 }
 
 const CloudReport& CloudWorker::label(const ReceivedCloud& cloud) {
+  const CloudReport* report = nullptr;
+  with_scan(cloud, [&](const Scan& scan, const PoseAt& pose_at) {
+    report = &pipeline_->process(scan, pose_at);
+  });
+  return *report;
+}
+
+void CloudWorker::measure(const ReceivedCloud& cloud, CloudTuner& tuner) {
+  with_scan(cloud,
+            [&](const Scan& scan, const PoseAt& pose_at) { tuner.add(*pipeline_, scan, pose_at); });
+}
+
+void CloudWorker::with_scan(const ReceivedCloud& cloud,
+                            const std::function<void(const Scan&, const PoseAt&)>& use) {
   follow(cloud.setup);
   const auto lock_poses = [this] {
     return mutex_ == nullptr ? std::unique_lock<std::mutex>() : std::unique_lock(*mutex_);
@@ -40,7 +54,7 @@ const CloudReport& CloudWorker::label(const ReceivedCloud& cloud) {
     else
       fault = sensor.message;
   }
-  return pipeline_->process(scan, [&](std::int64_t stamp, RobotPose& pose) {
+  use(scan, [&](std::int64_t stamp, RobotPose& pose) {
     const auto lock = lock_poses();
     if (fault.empty())
       lookup_->at(history, pose_stamp(stamp), pose);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 
 #include <penumbra/cloud/cloud_pipeline.hpp>
+#include <penumbra/cloud/cloud_tuning.hpp>
 
 #include <io/assembly/cloud_input.hpp>
 
@@ -23,7 +25,13 @@ class CloudWorker {
   /// InputError as that.
   [[nodiscard]] const CloudReport& label(const ReceivedCloud& cloud);
 
+  /// Adds a cloud to a measurement of the sensor's rule. Throws like label().
+  void measure(const ReceivedCloud& cloud, CloudTuner& tuner);
+
  private:
+  /// Calls `use` with the cloud's scan, and where the robot was.
+  void with_scan(const ReceivedCloud& cloud,
+                 const std::function<void(const Scan&, const PoseAt&)>& use);
   void follow(const std::shared_ptr<CloudSetup>& setup);
 
   CloudInputOptions options_;

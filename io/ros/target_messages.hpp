@@ -16,8 +16,7 @@ namespace penumbra::io {
 /// `root_frame`: the robot's root link. The stamp is 0 for a report without a stamp.
 /// `M`: FrameReport or CloudReport.
 template <typename M>
-[[nodiscard]] TargetsMessage targets_message(const M& report,
-                                             std::string_view camera_frame,
+[[nodiscard]] TargetsMessage targets_message(const M& report, std::string_view camera_frame,
                                              std::string_view root_frame);
 
 /// Returns the message of a target over several cameras.

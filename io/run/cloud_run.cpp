@@ -55,6 +55,20 @@ Json points_json(const CloudReport& report) {
   return points;
 }
 
+/// Measures the rule in some of a sensor's clouds: enough, and not all of one moment.
+struct SensorTuner {
+  static constexpr std::size_t step = 3, most = 40;  // clouds
+
+  CloudTuner tuner;
+  std::size_t clouds = 0, measured = 0;
+
+  [[nodiscard]] bool wants_next() {
+    const bool wanted = clouds++ % step == 0 && measured < most;
+    measured += wanted ? 1 : 0;
+    return wanted;
+  }
+};
+
 /// The clouds of a recording folder.
 class RecordedRun {
  public:
@@ -90,7 +104,8 @@ class RecordedRun {
                                                    .has_distortion = false,
                                                    .beyond_hides = true});
   }
-  void label(const JointRow& row, ResultFolder& folder, CloudSummary& summary);
+  void label(const JointRow& row, CloudSummary& summary);
+  void label_all(const std::function<bool()>& go_on, CloudRunResult& result);
   [[nodiscard]] RobotPose pose_at(std::int64_t stamp, const JointRow& row) const;
 
   const CloudRunOptions& options_;
@@ -100,6 +115,7 @@ class RecordedRun {
   PoseHistory history_;
   std::optional<TargetsFile> targets_;
   CloudPipeline pipeline_;
+  std::optional<SensorTuner> tuner_;  // if the rule is measured
   Json clouds_ = Json::array();
 };
 
@@ -114,7 +130,7 @@ RobotPose RecordedRun::pose_at(std::int64_t stamp, const JointRow& row) const {
   return between;
 }
 
-void RecordedRun::label(const JointRow& row, ResultFolder& folder, CloudSummary& summary) {
+void RecordedRun::label(const JointRow& row, CloudSummary& summary) {
   const std::filesystem::path file = recording_.clouds.file(row.index);
   StoredCloud stored;
   CloudPoints points;
@@ -136,10 +152,14 @@ void RecordedRun::label(const JointRow& row, ResultFolder& folder, CloudSummary&
   std::vector<Target> targets;
   if (targets_) targets = targets_->of_frame(row.index);
   scan.targets = targets;
-  const CloudReport& report = timed(summary, fault, [&]() -> const CloudReport& {
-    return pipeline_.process(
-        scan, [&](std::int64_t stamp, RobotPose& pose) { pose = pose_at(stamp, row); });
-  });
+  const auto pose = [&](std::int64_t stamp, RobotPose& at) { at = pose_at(stamp, row); };
+  if (tuner_) {
+    ++summary.clouds;
+    if (tuner_->wants_next()) tuner_->tuner.add(pipeline_, scan, pose);
+    return;
+  }
+  const CloudReport& report =
+      timed(summary, fault, [&]() -> const CloudReport& { return pipeline_.process(scan, pose); });
   if (summary.time_note.empty()) summary.time_note = points.time_note;
   Json judged = Json::array();
   for (const TargetReport& target : report.targets) judged.push_back(target_json(target));
@@ -153,7 +173,21 @@ void RecordedRun::label(const JointRow& row, ResultFolder& folder, CloudSummary&
   if (!fault.empty()) return;
   std::vector<std::byte> data;
   const PointCloud2Message out = cloud_output(stored.cloud, report, options_.how, data);
-  write_cloud(folder.path() / clouds_folder / file.filename(), out);
+  write_cloud(options_.output / clouds_folder / file.filename(), out);
+}
+
+void RecordedRun::label_all(const std::function<bool()>& go_on, CloudRunResult& result) {
+  CloudSummary& summary = result.sensors.emplace_back();
+  summary.name = recording_.clouds.file(0).parent_path().filename().string();
+  for (const JointRow& row : rows_) {
+    const std::int64_t first = options_.input.frames.first.value_or(0);
+    if (row.index < first || (options_.input.frames.end && row.index >= *options_.input.frames.end))
+      continue;
+    label(row, summary);
+    result.is_stopped = !go_on();
+    if (result.is_stopped) break;
+  }
+  if (summary.clouds == 0) throw InputError("--frames: the recording has none of these clouds");
 }
 
 CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
@@ -161,6 +195,13 @@ CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
   if (!is_cloud_file("x" + ending))
     throw InputError(recording_.file.string() + ": frames.cloud: '" + ending +
                      "' is no file of points; expected .pcd, .ply, .npy or .bin");
+  CloudRunResult result;
+  if (options_.tune) {
+    tuner_.emplace(SensorTuner{CloudTuner(changed_rule(recording_.rule, options_))});
+    label_all(go_on, result);
+    result.tunings.push_back(tuner_->tuner.result());
+    return result;
+  }
   const std::filesystem::path clouds = options_.output / clouds_folder;
   std::error_code error;
   if (std::filesystem::equivalent(clouds, recording_.clouds.file(0).parent_path(), error))
@@ -173,21 +214,10 @@ CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
   folder.remove_former();
   std::filesystem::create_directories(clouds, error);
   if (error) throw InputError(clouds.string() + ": cannot be made (" + error.message() + ")");
-  CloudRunResult result;
-  CloudSummary& summary = result.sensors.emplace_back();
-  summary.name = recording_.clouds.file(0).parent_path().filename().string();
-  for (const JointRow& row : rows_) {
-    const std::int64_t first = options_.input.frames.first.value_or(0);
-    if (row.index < first || (options_.input.frames.end && row.index >= *options_.input.frames.end))
-      continue;
-    label(row, folder, summary);
-    result.is_stopped = !go_on();
-    if (result.is_stopped) break;
-  }
-  if (summary.clouds == 0) throw InputError("--frames: the recording has none of these clouds");
+  label_all(go_on, result);
   Json report{{"penumbra", PENUMBRA_VERSION}, {"clouds", std::move(clouds_)}, {"links", Json()}};
   report["links"] = robot_.links();
-  report["notes"] = summary.notes();
+  report["notes"] = result.sensors[0].notes();
   folder.add_text("report.json", report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   folder.finish();
   return result;
@@ -204,6 +234,7 @@ class BagRun {
   [[nodiscard]] std::optional<std::size_t> input_of(const BagTopic& topic);
   void write_ready(std::int64_t now);
   const CloudReport& write(std::size_t sensor, const ReceivedCloud& cloud);
+  void measure(std::size_t sensor, const ReceivedCloud& cloud);
   void write_targets(std::size_t sensor, const ReceivedCloud& cloud, const CloudReport& report,
                      std::int64_t now);
 
@@ -211,8 +242,9 @@ class BagRun {
   const BagClouds& clouds_;
   std::unique_ptr<BagReader> bag_;
   FrameAssembler assembler_;
-  PendingFile pending_;
-  mcap::Writer writer_;
+  std::optional<PendingFile> pending_;                     // if it writes
+  std::optional<mcap::Writer> writer_;                     // likewise
+  std::vector<SensorTuner> tuners_;                        // of each sensor, else
   std::vector<std::uint16_t> channels_, target_channels_;  // of each sensor
   std::size_t target_messages_ = 0;
   std::vector<CloudWorker> workers_;
@@ -246,20 +278,26 @@ BagRun::BagRun(const CloudRunOptions& options, const BagClouds& clouds)
       assembler_({.given = clouds.robot,
                   .compare_sources = !options.input.bag.first_publisher,
                   .static_transforms = clouds.static_transforms},
-                 {}, cloud_inputs(options, clouds)),
-      pending_(options.output),
-      writer_(pending_.part(), {.profile = "ros2"}) {
-  for (const CloudInputOptions& input : cloud_inputs(options, clouds)) workers_.emplace_back(input);
+                 {}, cloud_inputs(options, clouds)) {
+  for (const CloudInputOptions& input : cloud_inputs(options, clouds)) {
+    workers_.emplace_back(input);
+    if (options.tune) tuners_.push_back({CloudTuner(input.rule)});
+  }
+  if (!options.tune) {
+    pending_.emplace(options.output);
+    writer_.emplace(pending_->part(), mcap::WriterOptions{.profile = "ros2"});
+  }
+  const auto channel = [&](const std::string& topic, const std::string& type) {
+    return writer_->add_channel(
+        topic, "cdr", writer_->add_schema(type, "ros2msg", std::string(definition_of(type))));
+  };
   for (const TopicUse& use : clouds.topics.clouds) {
-    const std::uint16_t schema =
-        writer_.add_schema(use.type, "ros2msg", std::string(definition_of(use.type)));
-    channels_.push_back(writer_.add_channel("/penumbra" + use.name, "cdr", schema));
     result_.sensors.emplace_back().name = use.name;
-    if (clouds.topics.targets.empty()) continue;
-    const std::string type = message_type<TargetsMessage>();
-    target_channels_.push_back(
-        writer_.add_channel("/penumbra" + use.name + "/targets", "cdr",
-                            writer_.add_schema(type, "ros2msg", std::string(definition_of(type)))));
+    if (!writer_) continue;
+    channels_.push_back(channel("/penumbra" + use.name, use.type));
+    if (!clouds.topics.targets.empty())
+      target_channels_.push_back(
+          channel("/penumbra" + use.name + "/targets", message_type<TargetsMessage>()));
   }
 }
 
@@ -288,8 +326,8 @@ const CloudReport& BagRun::write(std::size_t sensor, const ReceivedCloud& cloud)
         encode(cloud_output(message, report, options_.how, data_), payload_);
       },
       cloud.message);
-  writer_.write(channels_[sensor], cloud.arrived, std::max<std::int64_t>(0, cloud.header.stamp),
-                static_cast<std::uint32_t>(summary.clouds), payload_);
+  writer_->write(channels_[sensor], cloud.arrived, std::max<std::int64_t>(0, cloud.header.stamp),
+                 static_cast<std::uint32_t>(summary.clouds), payload_);
   return report;
 }
 
@@ -297,13 +335,22 @@ void BagRun::write_targets(std::size_t sensor, const ReceivedCloud& cloud,
                            const CloudReport& report, std::int64_t now) {
   if (cloud.targets.empty()) return;
   encode(targets_message(report, cloud.header.frame_id, report.links.front()), payload_);
-  writer_.write(target_channels_[sensor], now, std::max<std::int64_t>(0, cloud.header.stamp),
-                static_cast<std::uint32_t>(++target_messages_), payload_);
+  writer_->write(target_channels_[sensor], now, std::max<std::int64_t>(0, cloud.header.stamp),
+                 static_cast<std::uint32_t>(++target_messages_), payload_);
+}
+
+void BagRun::measure(std::size_t sensor, const ReceivedCloud& cloud) {
+  ++result_.sensors[sensor].clouds;
+  if (tuners_[sensor].wants_next()) workers_[sensor].measure(cloud, tuners_[sensor].tuner);
 }
 
 void BagRun::write_ready(std::int64_t now) {
   for (std::size_t i = 0; i < assembler_.cloud_count(); ++i)
     while (const auto cloud = assembler_.cloud(i).next(now)) {
+      if (!tuners_.empty()) {
+        measure(i, *cloud);
+        continue;
+      }
       const CloudReport& report = cloud->is_again ? workers_[i].label(*cloud) : write(i, *cloud);
       write_targets(i, *cloud, report, now);
       if (!cloud->is_again) assembler_.cloud(i).done(true);
@@ -331,8 +378,10 @@ CloudRunResult BagRun::run(const std::function<bool()>& go_on) {
   result_.notes = bag_notes(options_.input.path.string(), *bag_, assembler_.faults());
   for (const std::string& refusal : assembler_.robot().posed()->refusals())
     result_.notes.push_back(options_.input.path.string() + ": " + refusal);
-  writer_.close();
-  pending_.finish();
+  for (const SensorTuner& one : tuners_) result_.tunings.push_back(one.tuner.result());
+  if (!writer_) return std::move(result_);
+  writer_->close();
+  pending_->finish();
   return std::move(result_);
 }
 
@@ -340,11 +389,11 @@ CloudRunResult BagRun::run(const std::function<bool()>& go_on) {
 
 CloudRunResult run_clouds(const CloudRunOptions& options, const LineSink& print,
                           const std::function<bool()>& go_on) {
-  check_output_place(options.input.path, options.output);
+  if (!options.tune) check_output_place(options.input.path, options.output);
   if (is_bag(options.input.path)) {
     if (options.input.frames.first || options.input.frames.end)
       throw InputError("--frames: is for recording folders; leave it out");
-    if (!is_output_bag(options.output))
+    if (!options.tune && !is_output_bag(options.output))
       throw InputError("--output: " + options.output.string() +
                        " is no bag, and the clouds of a bag are written into one; name it *.mcap");
     const BagClouds clouds = open_bag_clouds(options.input, print);

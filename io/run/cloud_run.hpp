@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <penumbra/cloud/cloud_pipeline.hpp>
+#include <penumbra/cloud/cloud_tuning.hpp>
 
 #include <io/assembly/bag_topics.hpp>
 #include <io/assembly/camera_mount.hpp>
@@ -23,6 +24,7 @@ namespace penumbra::io {
 struct CloudRunOptions {
   InputOptions input;  ///< a recording folder with `frames.cloud`, or a bag
   std::filesystem::path output;
+  bool tune = false;  ///< measure the sensors' rules, and write nothing; `output` is not used
   /// What options change of the recording's rule, or of the default, in their order.
   std::vector<std::function<void(CloudRule&)>> rule_changes;
   CloudOutput how;
@@ -35,6 +37,7 @@ struct CloudRunOptions {
 
 struct CloudRunResult {
   std::vector<CloudSummary> sensors;
+  std::vector<CloudTuning> tunings;  ///< of each sensor, if asked for
   std::vector<std::string> notes;
   bool is_stopped = false;  ///< by `go_on`
 };

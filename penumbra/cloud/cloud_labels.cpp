@@ -259,6 +259,13 @@ CloudLabeller::~CloudLabeller() = default;
 CloudLabeller::CloudLabeller(CloudLabeller&&) noexcept = default;
 CloudLabeller& CloudLabeller::operator=(CloudLabeller&&) noexcept = default;
 
+void CloudLabeller::set_rule(const CloudRule& rule) {
+  rule.check();
+  state_->rule = cloud::RangeRule(rule);
+  state_->tolerance = rule.tolerance.a;
+  state_->face = CubeFace(rule.beam);
+}
+
 const CloudLabels& CloudLabeller::label(const PointsView& points, const Eigen::Vector3d& origin,
                                         std::span<const Eigen::Isometry3d> T_points_body,
                                         std::span<const std::uint16_t> parts) {

@@ -43,7 +43,7 @@ struct CloudRule {
   double beam = 0.003;                                 ///< radians
   double mixing = 0.5;                                 ///< metres
 
-  static constexpr double max_beam = 0.01;
+  static constexpr double max_beam = 0.01, max_mixing = 100.0;
 
   static constexpr auto settings() {
     return std::tuple(
@@ -55,7 +55,7 @@ struct CloudRule {
         Setting("beam", &CloudRule::beam, {0, max_beam}, "rad",
                 "how far from a point's ray its return may come: half of the beam, and "
                 "errors of the robot's pose"),
-        Setting("mixing", &CloudRule::mixing, {0, 100}, "m",
+        Setting("mixing", &CloudRule::mixing, {0, max_mixing}, "m",
                 "how far behind the robot a return may lie that mixes it with what is behind"));
   }
 
@@ -92,6 +92,9 @@ class CloudLabeller {
   ~CloudLabeller();
   CloudLabeller(CloudLabeller&&) noexcept;
   CloudLabeller& operator=(CloudLabeller&&) noexcept;
+
+  /// Labels by another rule from now on. Throws InputError for an invalid one.
+  void set_rule(const CloudRule& rule);
 
   /// Labels points that a sensor at `origin` measured, by the bodies' poses T_points_body, all in
   /// the frame of the points. The result is valid until the next call. Allocates nothing

@@ -255,8 +255,7 @@ TargetReport CloudPipeline::State::judge(const Scan& scan, const Target& target)
   try {
     if (!is_labelled) throw InputError(report.message);
     if (!target.fault.empty()) throw InputError(target.fault);
-    if (target.stamp && target.stamp != scan.stamp)
-      throw InputError("its stamp is not the scan's");
+    if (target.stamp && target.stamp != scan.stamp) throw InputError("its stamp is not the scan's");
     if (!target.has_identity) memories.erase(target.name);
     if (!scan.origin) throw InputError("clouds without rays do not show what is hidden");
     result.judgement = cloud::judge_on_rays(
@@ -282,6 +281,11 @@ CloudPipeline::CloudPipeline(Robot robot, const CloudConfig& config)
 CloudPipeline::~CloudPipeline() = default;
 CloudPipeline::CloudPipeline(CloudPipeline&&) noexcept = default;
 CloudPipeline& CloudPipeline::operator=(CloudPipeline&&) noexcept = default;
+
+void CloudPipeline::set_rule(const CloudRule& rule) {
+  state_->labeller->set_rule(rule);
+  state_->config.rule = rule;
+}
 
 const Robot& CloudPipeline::robot() const { return state_->robot; }
 

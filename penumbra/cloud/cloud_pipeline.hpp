@@ -82,6 +82,9 @@ class CloudPipeline {
   /// the first scan with others takes as long as the construction.
   const CloudReport& process(const Scan& scan, const PoseAt& pose_at);
 
+  /// Labels by another rule from now on. Throws InputError for an invalid one.
+  void set_rule(const CloudRule& rule);
+
   [[nodiscard]] const Robot& robot() const;
 
  private:

@@ -103,6 +103,20 @@ TEST_F(CloudBag, JudgesTargetsOnTheCloudsOfTheirStamp) {
   expect_refused(cloud({"--target-topic", "/boxes"}), {"Keypoints", "Detection3DArray"});
 }
 
+TEST_F(CloudBag, MeasuresTheSensorOrSaysWhyNot) {
+  const auto tune = [&](Words more = {}) {
+    bag_.write_mcap(path("tiny.mcap"));
+    more.insert(more.begin(), {"cloud", path("tiny.mcap"), "--tune", "--topic", "/points"});
+    return penumbra(more);
+  };
+  const Outcome few = tune();
+  EXPECT_EQ(few.status, 2) << few.err;
+  expect_has(few.err, {"/points: only 1 points are on the robot"});
+  EXPECT_FALSE(fs::exists(path("clean.mcap")));
+  expect_refused(tune({"-o", path("clean.mcap")}), {"--tune", "--output"});
+  expect_refused(penumbra({"cloud", path("tiny.mcap")}), {"--output", "--tune"});
+}
+
 TEST_F(CloudBag, WithoutPosesTrustsNothing) {
   std::erase_if(bag_.messages, [](const TinyBag::Message& message) {
     return message.topic == "/joint_states" && message.log_time > tiny_stamp(1) - 300 * one_ms;
@@ -173,8 +187,7 @@ class CloudFolder : public TinyTest {
                "robot: {urdf: tiny.urdf}\nsensor: {parent: base, pose: camera_pose.csv, model: "
                "lidar_2cm}\nframes: {joints: joint_states.csv, cloud: scans/%d.pcd}\n"
                "targets: knob.yaml\n");
-    write_file(path("knob.yaml"),
-               "targets: [{name: knob, point: [0, 0, 1.5]}]\n");
+    write_file(path("knob.yaml"), "targets: [{name: knob, point: [0, 0, 1.5]}]\n");
   }
   Outcome cloud(Words options = {}) const {
     options.insert(options.begin(), {"cloud", path("clouds.yaml"), "-o", out()});

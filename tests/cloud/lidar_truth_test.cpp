@@ -3,9 +3,12 @@
 // bench/lidar_study.cpp has more cases and more points.
 #include "lidar_scenes.hpp"
 
+#include <iostream>
 #include <numbers>
 
 #include <gtest/gtest.h>
+
+#include <penumbra/cloud/cloud_tuning.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -88,6 +91,58 @@ TEST(LidarTruth, LidarOnAnArmThatMovesNeedsThemToo) {
   EXPECT_LT(fraction(with_times.wrong_links, with_times.robot), wrong_by_parts);
   EXPECT_LT(fraction(with_times.removed, with_times.room), removed_by_parts);
   EXPECT_GT(fraction(without.left, without.robot), left_without_times);
+}
+
+/// Two arms that move, before a sensor.
+struct TunedWorld {
+  LidarMount mount = mount_at("cell", {1.5, 0.2, 1.0},
+                              Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  LidarWorld world{lidar_arms(2), mount, 7};
+  JointMotion motion = lidar_motion(lidar_arms(2), world.robot(), Wave::sine, 7);
+
+  /// `shift`: by how much the sensor's pose is wrong.
+  CloudPipeline pipeline(const CloudRule& rule,
+                         const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const {
+    const Eigen::Isometry3d T = Eigen::Translation3d(shift) * mount.T_parent_sensor;
+    return {world.robot(), {.rule = rule, .sensor_parent = mount.parent, .T_parent_sensor = T}};
+  }
+  CloudTuning tune(CloudPipeline pipeline, double noise) {
+    CloudTuner tuner{CloudRule()};
+    for (int i = 0; i < 12; ++i)
+      tuner.add(pipeline, scan_of(world.scan(spin(0), motion, 0.71 * i, noise)), poses_of(motion));
+    return tuner.result();
+  }
+};
+
+TEST(LidarTruth, NoiseAndBeamAreMeasured) {
+  constexpr double within = 0.1, bias = 0.002;  // of the deviation; metres
+  for (const double noise : {0.01, 0.03}) {
+    TunedWorld arms;
+    const CloudTuning tuning = arms.tune(arms.pipeline({}), noise);
+    std::cout << "noise " << noise << ": deviation " << tuning.deviation << ", bias " << tuning.bias
+              << ", beam " << tuning.rule.beam << " of " << LidarWorld::beam << '\n';
+    EXPECT_TRUE(tuning.problems.empty()) << tuning.problems.front();
+    EXPECT_NEAR(tuning.deviation, noise, within * noise);
+    EXPECT_NEAR(tuning.bias, 0.0, bias);
+    CloudPipeline pipeline = arms.pipeline(tuning.rule);
+    LidarScore score;
+    for (int i = 0; i < 8; ++i) {
+      const LidarScan scan = arms.world.scan(spin(0), arms.motion, 0.37 + 0.71 * i, noise);
+      score.add(scan, process(pipeline, scan, arms.motion, true));
+    }
+    ASSERT_GT(score.veil, 50U);
+    EXPECT_LT(fraction(score.left, score.robot), left_by_parts);
+    EXPECT_LT(fraction(score.veil_left, score.veil), veil_at_limits);
+    EXPECT_LT(fraction(score.removed, score.room), removed_by_parts);
+  }
+}
+
+TEST(LidarTruth, AWrongPoseIsNotTunedAway) {
+  TunedWorld arms;
+  const CloudTuning tuning = arms.tune(arms.pipeline({}, {0.05, 0.0, 0.0}), 0.01);
+  ASSERT_FALSE(tuning.problems.empty());
+  EXPECT_NE(tuning.problems[0].find("correct the sensor's pose"), std::string::npos)
+      << tuning.problems[0];
 }
 
 TEST(LidarTruth, QuadrupedThatStands) {

@@ -453,15 +453,26 @@ void LidarScore::add(const LidarScan& scan, const CloudReport& report) {
   }
 }
 
+Scan scan_of(const LidarScan& scan) {
+  return {.stamp = scan.stamp,
+          .points = {reinterpret_cast<const std::byte*>(scan.points.data()), scan.points.size()},
+          .times = scan.times};
+}
+
+PoseAt poses_of(const JointMotion& motion) {
+  return [motion](std::int64_t stamp, RobotPose& pose) {
+    pose.positions = motion(1e-9 * static_cast<double>(stamp));
+  };
+}
+
 const CloudReport& process(CloudPipeline& pipeline, const LidarScan& scan,
                            const JointMotion& motion, bool with_times) {
-  const Scan points{
-      .stamp = with_times ? scan.stamp : scan.middle,
-      .points = {reinterpret_cast<const std::byte*>(scan.points.data()), scan.points.size()},
-      .times = with_times ? std::span(scan.times) : std::span<const std::int32_t>()};
-  return pipeline.process(points, [&](std::int64_t stamp, RobotPose& pose) {
-    pose.positions = motion(1e-9 * static_cast<double>(stamp));
-  });
+  Scan points = scan_of(scan);
+  if (!with_times) {
+    points.stamp = scan.middle;
+    points.times = {};
+  }
+  return pipeline.process(points, poses_of(motion));
 }
 
 }  // namespace penumbra::test

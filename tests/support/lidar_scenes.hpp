@@ -152,6 +152,10 @@ struct LidarScore {
   void add(const LidarScan& scan, const CloudReport& report);
 };
 
+/// A scan with the times of its points; `scan` must outlive it.
+[[nodiscard]] Scan scan_of(const LidarScan& scan);
+[[nodiscard]] PoseAt poses_of(const JointMotion& motion);
+
 /// Labels a scan. `with_times`: otherwise all points are measured at the scan's middle.
 const CloudReport& process(CloudPipeline& pipeline, const LidarScan& scan,
                            const JointMotion& motion, bool with_times);
