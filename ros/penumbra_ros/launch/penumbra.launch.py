@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Starts a Penumbra node for one camera.
+"""Starts a Penumbra node for one camera, or for clouds and laser scans.
 
 ros2 launch penumbra_ros penumbra.launch.py camera:=/camera/camera targets:=/detections
+ros2 launch penumbra_ros penumbra.launch.py clouds:=/ouster/points,/scan
 
 With container:=NAME the node is loaded into that running container; otherwise it is a process of its
 own, which is started again 2 s after a failure, except for one of its parameters (status 2).
@@ -24,6 +25,8 @@ ARGUMENTS = {
     "camera": ("", "namespace of the camera's depth/image_rect_raw; without params_file: "
                    + CAMERA),
     "depth_topic": ("", "the depth images, in place of the camera's"),
+    "clouds": ("", "topics of PointCloud2 or LaserScan, separated by commas; then a camera must be "
+                   "named to be judged"),
     "robot_description_topic": ("robot_description", "the URDF"),
     "targets": ("", "topics of targets to judge, separated by commas"),
     "params_file": ("", "parameters as in config/penumbra.yaml; given arguments override them"),
@@ -36,12 +39,14 @@ ARGUMENTS = {
 
 def settings_of(value):
     parameters = [value["params_file"]] if value["params_file"] else []
-    camera = value["camera"] or ("" if parameters else CAMERA)
+    camera = value["camera"] or ("" if parameters or value["clouds"] else CAMERA)
     given = {}
     if value["depth_topic"] or camera:
         given["depth_topic"] = value["depth_topic"] or camera + "/depth/image_rect_raw"
     if value["use_sim_time"]:
         given["use_sim_time"] = value["use_sim_time"].lower() == "true"
+    if value["clouds"]:
+        given["clouds"] = value["clouds"].split(",")
     if value["targets"]:
         given["target_topics"] = value["targets"].split(",")
     return {"package": "penumbra_ros", "name": value["name"], "namespace": value["namespace"],

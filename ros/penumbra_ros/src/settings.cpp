@@ -208,7 +208,7 @@ void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::Live
 }
 
 /// Returns the NAME of all parameters cameras.NAME.PARAMETER.
-std::set<std::string> cameras_of(const rclcpp::Node& node) {
+std::set<std::string> cameras_of(rclcpp::Node& node) {
   const std::string before = "cameras.";
   std::set<std::string> names;
   for (const auto& [name, value] : node.get_node_parameters_interface()->get_parameter_overrides())

@@ -25,7 +25,9 @@ using namespace std::chrono_literals;
 
 const std::string example = PENUMBRA_EXAMPLE;
 
-rclcpp::NodeOptions options(const std::vector<rclcpp::Parameter>& more = {}) {
+using Parameters = std::vector<rclcpp::Parameter>;
+
+rclcpp::NodeOptions options(const Parameters& more = {}) {
   std::vector<rclcpp::Parameter> parameters{
       {"packages", std::vector<std::string>{"arm_description=" + example + "/arm_description"}}};
   parameters.insert(parameters.end(), more.begin(), more.end());
@@ -359,6 +361,62 @@ TEST_F(NodeTest, WithoutDepthTheModelAloneIsJudged) {
   EXPECT_GT(unknown, 10000U);
 }
 
+/// Two cameras and a cloud, all of the player's depth images.
+TEST_F(NodeTest, ServesSeveralCamerasAndClouds) {
+  const Parameters several{{"cameras.left.depth_topic", "depth/image"},
+                           {"cameras.right.depth_topic", "depth/image"},
+                           {"clouds", std::vector<std::string>{"points tolerance=0.03,0,0"}}};
+  player_ = std::make_unique<Player>(example, true);
+  node_ = std::make_shared<PenumbraNode>(options(several));
+  executor_->add_node(player_->node);
+  executor_->add_node(node_);
+  std::map<std::string, Image::ConstSharedPtr> labels;
+  std::vector<rclcpp::SubscriptionBase::SharedPtr> heard;
+  for (const std::string camera : {"left", "right"})
+    heard.push_back(player_->node->create_subscription<Image>(
+        "/penumbra/" + camera + "/labels", 10,
+        [&labels, camera](Image::ConstSharedPtr image) { labels[camera] = image; }));
+  sensor_msgs::msg::PointCloud2::ConstSharedPtr cloud;
+  heard.push_back(player_->node->create_subscription<sensor_msgs::msg::PointCloud2>(
+      "/penumbra/points/labelled", 10,
+      [&](sensor_msgs::msg::PointCloud2::ConstSharedPtr message) { cloud = message; }));
+  std::vector<std::string> names;
+  heard.push_back(player_->node->create_subscription<diagnostic_msgs::msg::DiagnosticArray>(
+      "/diagnostics", 10, [&](diagnostic_msgs::msg::DiagnosticArray::ConstSharedPtr array) {
+        names.clear();
+        for (const auto& status : array->status) names.push_back(status.name);
+      }));
+  ASSERT_TRUE(spin_until([&] {
+    later_ += 1'000'000'000;
+    player_->play(1, later_);
+    return spin_until(
+        [&] {
+          return labels.size() == 2 && cloud &&
+                 stamp_of(labels["left"]->header) == stamp_of(labels["right"]->header) &&
+                 stamp_of(labels["left"]->header) == stamp_of(cloud->header);
+        },
+        1s);
+  }));
+  EXPECT_EQ(labels["left"]->data, labels["right"]->data);
+  ASSERT_EQ(cloud->fields.back().name, "link");
+  const std::uint32_t label_at = cloud->fields[cloud->fields.size() - 2].offset;
+  std::size_t robot = 0, other = 0;
+  for (std::size_t i = 0; i < labels["left"]->data.size(); ++i) {
+    const auto is_robot = [](std::uint8_t label) { return label == 2 || label == 4; };
+    const bool in_image = is_robot(labels["left"]->data[i]);
+    const bool in_cloud = is_robot(cloud->data[i * cloud->point_step + label_at]);
+    robot += in_image || in_cloud;
+    other += in_image != in_cloud;
+  }
+  // Images clean up small regions and have a tolerance of their own.
+  std::printf("%zu of %zu robot pixels differ\n", other, robot);
+  EXPECT_GT(robot, 10000U);
+  EXPECT_LT(other, robot / 20);
+  EXPECT_TRUE(spin_until([&] { return names.size() == 4; }));
+  EXPECT_EQ(names, (std::vector<std::string>{"penumbra: robot", "penumbra: camera left",
+                                             "penumbra: camera right", "penumbra: cloud /points"}));
+}
+
 TEST_F(NodeTest, IsAComponent) {
   class_loader::ClassLoader loader("libpenumbra_component.so");
   const auto factory = loader.createInstance<rclcpp_components::NodeFactory>(
@@ -370,7 +428,8 @@ TEST(Node, RefusesWhatItDoesNotUnderstandInOneLine) {
   for (const std::string arguments :
        {"--fast", "--ros-args -p geometry:=both", "--ros-args -p robot:=/none.urdf",
         "--ros-args -p margins:=\"['gripper']\"", "--ros-args -p has_depth:=false",
-        "--ros-args -p front_min_width:=-5"}) {
+        "--ros-args -p front_min_width:=-5", "--ros-args -p clouds:=\"['/points sensor=eyes']\"",
+        "--ros-args -p cameras.left.color_topic:=/image"}) {
     const std::string command = PENUMBRA_NODE " " + arguments + " 2>&1";
     FILE* pipe = popen(command.c_str(), "r");
     ASSERT_NE(pipe, nullptr);

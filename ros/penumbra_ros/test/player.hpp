@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -11,6 +12,7 @@
 #include <sensor_msgs/msg/camera_info.hpp>
 #include <sensor_msgs/msg/image.hpp>
 #include <sensor_msgs/msg/joint_state.hpp>
+#include <sensor_msgs/msg/point_cloud2.hpp>
 #include <std_msgs/msg/string.hpp>
 #include <tf2_msgs/msg/tf_message.hpp>
 #include <vision_msgs/msg/detection2_d_array.hpp>
@@ -42,6 +44,7 @@ class Player {
     joints_ = node->create_publisher<sensor_msgs::msg::JointState>("joint_states", 10);
     info_ = node->create_publisher<sensor_msgs::msg::CameraInfo>("depth/camera_info", 10);
     depth_ = node->create_publisher<Image>("depth/image", 10);
+    points_ = node->create_publisher<sensor_msgs::msg::PointCloud2>("points", 10);
     detections_ = node->create_publisher<vision_msgs::msg::Detection2DArray>("boxes", 10);
     std::ifstream urdf(recording.robots.front().urdf);
     std_msgs::msg::String text;
@@ -109,8 +112,39 @@ class Player {
     box.bbox.size_x = 38;
     box.bbox.size_y = 98;
     detections_->publish(boxes);
+    if (points_->get_subscription_count() > 0) points_->publish(points_of(info.header, pixels));
     depth_->publish(std::move(image));
     return address;
+  }
+
+  /// Returns the depth image's points, in rows as it has them; NaN where it has no depth.
+  [[nodiscard]] sensor_msgs::msg::PointCloud2 points_of(
+      const std_msgs::msg::Header& header, penumbra::ImageView<const std::uint16_t> depth) const {
+    const penumbra::Intrinsics& lens = recording.camera.camera.intrinsics;
+    std::vector<float> xyz;
+    for (int v = 0; v < depth.height; ++v)
+      for (int u = 0; u < depth.width; ++u) {
+        const std::uint16_t millimetres = depth.row(v)[u];
+        const double z = millimetres > 0 ? 1e-3 * millimetres : std::nan("");
+        for (const double x : {z * (u - lens.cx()) / lens.fx(), z * (v - lens.cy()) / lens.fy(), z})
+          xyz.push_back(static_cast<float>(x));
+      }
+    sensor_msgs::msg::PointCloud2 cloud;
+    cloud.header = header;
+    cloud.width = static_cast<std::uint32_t>(depth.width);
+    cloud.height = static_cast<std::uint32_t>(depth.height);
+    for (const char* name : {"x", "y", "z"}) {
+      auto& field = cloud.fields.emplace_back();
+      field.name = name;
+      field.offset = static_cast<std::uint32_t>(4 * (cloud.fields.size() - 1));
+      field.datatype = sensor_msgs::msg::PointField::FLOAT32;
+      field.count = 1;
+    }
+    cloud.point_step = 12;
+    cloud.row_step = 12 * cloud.width;
+    const auto* first = reinterpret_cast<const std::uint8_t*>(xyz.data());
+    cloud.data.assign(first, first + 4 * xyz.size());
+    return cloud;
   }
 
   static constexpr const char* frame_id = "camera_depth_optical_frame";
@@ -125,6 +159,7 @@ class Player {
   rclcpp::Publisher<sensor_msgs::msg::JointState>::SharedPtr joints_;
   rclcpp::Publisher<sensor_msgs::msg::CameraInfo>::SharedPtr info_;
   rclcpp::Publisher<Image>::SharedPtr depth_;
+  rclcpp::Publisher<sensor_msgs::msg::PointCloud2>::SharedPtr points_;
   rclcpp::Publisher<vision_msgs::msg::Detection2DArray>::SharedPtr detections_;
 };
 
