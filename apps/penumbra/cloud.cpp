@@ -81,6 +81,8 @@ void check_cloud(const CLI::App& app, io::CloudRunOptions& cloud) {
   if (cloud.tune != cloud.output.empty())
     throw InputError(cloud.tune ? "--tune writes nothing: leave --output out"
                                 : "--output is required, or --tune");
+  if (cloud.tune && !cloud.has_rays)
+    throw InputError("--tune measures ranges, and --merged clouds have none");
   cloud.input.bag.in_other_frame = !cloud.has_rays || !cloud.sensor_frame.empty();
 }
 
@@ -94,7 +96,8 @@ int print_tunings(const io::CloudRunResult& result) {
     const std::string& name = result.sensors[i].name;
     rows.push_back({name, std::to_string(tuning.scans), std::to_string(tuning.points),
                     fixed(1e3 * tuning.bias, 1) + " mm", fixed(1e3 * tuning.deviation, 1) + " mm",
-                    fixed(tuning.rule.tolerance.a, 3) + ",0,0", fixed(tuning.rule.beam, 3)});
+                    tuning.problems.empty() ? fixed(tuning.rule.tolerance.a, 3) + ",0,0" : "-",
+                    tuning.problems.empty() ? fixed(tuning.rule.beam, 3) : "-"});
     std::vector<std::string> notes;
     for (const std::string& problem : tuning.problems) notes.push_back(name + ": " + problem);
     print_notes(notes);

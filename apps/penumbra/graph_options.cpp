@@ -181,6 +181,9 @@ void check_live(const CLI::App& /*app*/, const LiveArguments& live) {
   if (live.cameras.empty() && live.clouds.empty()) return;
   if (!live.cameras.empty() && topics.depth_topic)
     throw InputError("--depth-topic: --camera is given too; leave one of them out");
+  if (!live.clouds.empty() && topics.time_offset != 0.0)
+    throw InputError(
+        "--time-offset: is for cameras; give clouds theirs as \"TOPIC time_offset=S\"");
   if (live.cameras.size() + (topics.depth_topic ? 1 : 0) + live.clouds.size() == 1) return;
   const auto refuse = [](const char* option) {
     throw InputError(

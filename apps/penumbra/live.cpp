@@ -244,7 +244,7 @@ class Live {
                             {io::LiveRunner::steady_now(), io::LiveRunner::system_now()});
       });
       add_losses(message);
-      if (fusion_) add_contradictions(message);
+      if (fusion_) fusion_->add_contradictions(message);
       diagnostics.publish(message);
       next += report_period;
       auto until = next;
@@ -266,19 +266,6 @@ class Live {
       static_cast<void>(target_views_->write(payload));
     });
     runner_->fuse(*fusion_);
-  }
-
-  /// Adds the targets that cameras measure at different places to the robot's status, the first
-  /// one.
-  void add_contradictions(io::DiagnosticArrayMessage& message) {
-    io::DiagnosticStatusMessage& robot = message.status.front();
-    for (const std::string& line : fusion_->contradictions()) {
-      if (robot.level == io::DiagnosticStatusMessage::ok) {
-        robot.level = io::DiagnosticStatusMessage::warn;
-        robot.message = line;
-      }
-      robot.values.push_back({"contradiction", line});
-    }
   }
 
   /// Adds the results that subscribers lost to the statuses of cameras and clouds, which follow the

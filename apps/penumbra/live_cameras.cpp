@@ -83,7 +83,6 @@ std::vector<io::CloudInputOptions> named_clouds(const LiveArguments& arguments,
     cloud.topic = names.resolve(cloud.topic);
     cloud.mount = common.mount;
     cloud.poses = common.poses;
-    cloud.time_offset = common.time_offset;
     cloud.max_frames = common.max_frames;
     cloud.has_targets = !arguments.session.input.bag.target_topics.empty();
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <set>
 #include <string>
 
 #include <unistd.h>
@@ -44,12 +45,16 @@ void check_remaps(const io::NameResolver& names, const std::vector<io::CameraInp
   of_cameras.reserve(cameras.size() + 1);
   for (const io::CameraInputOptions& camera : cameras) of_cameras.push_back(camera.name);
   if (of_cameras.empty() && clouds.empty()) of_cameras.emplace_back();
+  std::set<std::string> taken;
   for (const std::string& camera : of_cameras)
     for (const io::ResultTopic& topic : io::result_topics)
-      static_cast<void>(names.resolve(result_name(camera, topic)));
+      taken.insert(names.resolve(result_name(camera, topic)));
   for (const io::CloudInputOptions& cloud : clouds)
     for (const std::string& name : cloud_result_names(cloud.topic))
-      static_cast<void>(names.resolve(name));
+      if (!taken.insert(names.resolve(name)).second)
+        throw InputError("--cloud " + io::printable(cloud.topic) + ": " + names.resolve(name) +
+                         " is another result's topic, too; name the camera (--camera NAME=TOPIC), "
+                         "or --remap it");
   if (const auto unused = names.unused(); !unused.empty())
     throw InputError("--remap '" + io::printable(unused.front()) +
                      "': no topic has this name; topics that are found by their type are named by "

@@ -31,7 +31,8 @@ inline constexpr const char* diagnostics_topic = "/diagnostics";
 /// Returns the topic of the verdicts over all cameras before it is resolved.
 [[nodiscard]] std::string target_views_name();
 
-/// Throws InputError for a remapped name that no topic has. Call it after all names are resolved.
+/// Throws InputError for a remapped name that no topic has, and for results with one name. Call it
+/// after all names are resolved.
 void check_remaps(const io::NameResolver& names, const std::vector<io::CameraInputOptions>& cameras,
                   const std::vector<io::CloudInputOptions>& clouds);
 

@@ -88,6 +88,7 @@ void CloudInput::refresh() {
   if (only_frames_are_new && mount && *mount == setup_->mount) return;
   if (setup_) counts_.drop(DropReason::changed, setup_->queue.waiting());
   given_.clear();
+  targets_.clear();  // of frames that may be others now
   setup_ = mount ? make_setup(std::move(*mount)) : nullptr;
 }
 
@@ -140,7 +141,9 @@ std::shared_ptr<ReceivedCloud> CloudInput::next(std::int64_t now) {
   receive_targets();
   give_targets(*found);
   given_.push_back(found);
-  while (given_.front()->header.stamp < found->header.stamp - longest_delay) given_.pop_front();
+  std::erase_if(given_, [&](const auto& former) {  // also of a clock that jumped back
+    return std::abs(former->header.stamp - found->header.stamp) > longest_delay;
+  });
   return found;
 }
 
@@ -148,7 +151,7 @@ std::shared_ptr<ReceivedCloud> CloudInput::next(std::int64_t now) {
 void CloudInput::receive_targets() {
   for (Target& target : setup_->targets.take()) targets_.push_back(std::move(target));
   late_targets_ += std::erase_if(targets_, [&](const Target& target) {
-    return !given_.empty() && target.stamp && *target.stamp < given_.front()->header.stamp;
+    return !given_.empty() && target.stamp > 0 && *target.stamp < given_.front()->header.stamp;
   });
   if (targets_.size() > TargetInbox::most_waiting) targets_.clear();  // of another clock
 }
@@ -156,7 +159,7 @@ void CloudInput::receive_targets() {
 /// Moves a cloud's targets to it. Those without a stamp, which have a fault, are any cloud's.
 void CloudInput::give_targets(ReceivedCloud& cloud) {
   const auto is_other = [&](const Target& target) {
-    return target.stamp && target.stamp != cloud.header.stamp;
+    return target.stamp > 0 && target.stamp != cloud.header.stamp;
   };
   const auto own = std::stable_partition(targets_.begin(), targets_.end(), is_other);
   cloud.targets.assign(std::move_iterator(own), std::move_iterator(targets_.end()));

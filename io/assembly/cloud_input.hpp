@@ -118,7 +118,7 @@ class CloudInput {
   [[nodiscard]] const CloudSetup* setup() const { return setup_.get(); }
   [[nodiscard]] const std::string& setup_fault() const { return setup_fault_; }
   [[nodiscard]] const Arrivals& arrivals() const { return arrivals_; }
-  /// Returns the number of targets that came more than 0.5 s after their cloud.
+  /// Returns the number of targets whose stamp no cloud has.
   [[nodiscard]] std::size_t late_targets() const { return late_targets_; }
 
  private:

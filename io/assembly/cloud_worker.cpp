@@ -23,9 +23,12 @@ const CloudReport& CloudWorker::label(const ReceivedCloud& cloud) {
   return *report;
 }
 
-void CloudWorker::measure(const ReceivedCloud& cloud, CloudTuner& tuner) {
-  with_scan(cloud,
-            [&](const Scan& scan, const PoseAt& pose_at) { tuner.add(*pipeline_, scan, pose_at); });
+bool CloudWorker::measure(const ReceivedCloud& cloud, CloudTuner& tuner) {
+  bool is_added = false;
+  with_scan(cloud, [&](const Scan& scan, const PoseAt& pose_at) {
+    is_added = tuner.add(*pipeline_, scan, pose_at);
+  });
+  return is_added;
 }
 
 void CloudWorker::with_scan(const ReceivedCloud& cloud,

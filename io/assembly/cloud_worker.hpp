@@ -25,8 +25,8 @@ class CloudWorker {
   /// InputError as that.
   [[nodiscard]] const CloudReport& label(const ReceivedCloud& cloud);
 
-  /// Adds a cloud to a measurement of the sensor's rule. Throws like label().
-  void measure(const ReceivedCloud& cloud, CloudTuner& tuner);
+  /// Adds a cloud to a measurement of the sensor's rule: CloudTuner::add. Throws like label().
+  bool measure(const ReceivedCloud& cloud, CloudTuner& tuner);
 
  private:
   /// Calls `use` with the cloud's scan, and where the robot was.

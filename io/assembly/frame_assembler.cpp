@@ -214,18 +214,16 @@ MessageHandler FrameAssembler::handler_of_targets(std::size_t topic) {
 template <typename M>
 MessageHandler FrameAssembler::handler_of_targets_as(std::size_t topic) {
   return handler<M>(topic, [this, topic](const M& found, const auto&, auto) {
-    // A message is for the sensors that know its frame. One that no sensor knows may be for one
-    // without setup; if all have one, all take the message and report the mismatch.
+    // A message is for the sensors that know its frame. One that no sensor knows may be for a
+    // camera without setup; if all have one, all sensors take the message and report the mismatch.
     const auto knows = [&](const auto& sensor) {
       return sensor->setup() != nullptr &&
              sensor->setup()->targets.knows(found.header.frame_id, is_of_pixels<M>);
     };
     const auto lacks_setup = [](const auto& sensor) { return sensor->setup() == nullptr; };
-    const auto any = [&](const auto& is_so) {
-      return std::any_of(cameras_.begin(), cameras_.end(), is_so) ||
-             (!is_of_pixels<M> && std::any_of(clouds_.begin(), clouds_.end(), is_so));
-    };
-    const bool is_known = any(knows), is_early = any(lacks_setup);
+    const bool is_known = std::any_of(cameras_.begin(), cameras_.end(), knows) ||
+                          (!is_of_pixels<M> && std::any_of(clouds_.begin(), clouds_.end(), knows));
+    const bool is_early = std::any_of(cameras_.begin(), cameras_.end(), lacks_setup);
     const auto give = [&](const auto& sensor) {
       if (is_known ? knows(sensor) : !is_early || lacks_setup(sensor))
         sensor->take_targets(topics_[topic].name, found);

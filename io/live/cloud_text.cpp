@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <vector>
 
@@ -28,9 +30,10 @@ void set(CloudRule& rule, const std::string& name, const std::string& value) {
       throw InputError(name + "=" + value + ": expected " + expected_of(setting));
   });
   if (!known)
-    throw InputError("there is no '" + name +
-                     "'; expected sensor=NAME, merged, sensor_frame=FRAME, ignore_times, "
-                     "removed_ranges=inf, or a setting of clouds as tolerance=A,B,C");
+    throw InputError(
+        "there is no '" + name +
+        "'; expected sensor=NAME, merged, sensor_frame=FRAME, time_offset=S, ignore_times, "
+        "removed_ranges=inf, or a setting of clouds as tolerance=A,B,C");
 }
 
 }  // namespace
@@ -51,6 +54,8 @@ CloudInputOptions parse_cloud(const std::string& text) {
         cloud.has_rays = false;
       else if (word == "ignore_times")
         cloud.use_times = false;
+      else if (name == "time_offset" && parse_number<double>(value))
+        cloud.time_offset = *parse_number<double>(value);
       else if (name == "sensor_frame" && !value.empty())
         cloud.sensor_frame = value;
       else if (word == "removed_ranges=inf")

@@ -36,7 +36,8 @@ std::string seconds_since(std::int64_t then, std::int64_t now) {
 std::string silence_of(const LiveLink& link, const InputTopic& topic) {
   const std::string name = printable(topic.name);
   if (!link.other_type.empty())
-    return name + " is of type " + printable(link.other_type) + "; expected " + topic.type;
+    return name + " is of type " + printable(link.other_type) + "; expected " +
+           (topic.type.empty() ? "PointCloud2, LaserScan or CustomMsg" : topic.type);
   if (!link.is_open) return name + " is not subscribed to: nobody publishes it yet";
   if (link.publishers > 0) return {};
   if (!link.refused_because.empty())
@@ -232,6 +233,9 @@ LiveFault cloud_fault(const LiveInbox& inbox, std::size_t number, std::span<cons
     return {Status::stale, "no clouds" + since(cloud.arrivals().last(), now) + ": " +
                                why_silent(inbox, TopicRole::cloud, number, links)};
   if (!cloud.setup_fault().empty()) return {Status::error, cloud.setup_fault()};
+  const auto unreadable = inbox.faults().all().find(cloud.options().topic);
+  if (!tally.last_published && unreadable != inbox.faults().all().end())
+    return {Status::error, unreadable->second.what};
   return result_fault(inbox, tally, tally.warnings, cloud.arrivals(), links, now);
 }
 
@@ -310,8 +314,9 @@ DiagnosticStatusMessage LiveDiagnostics::cloud_status(const LiveInbox& inbox, st
   for (std::size_t i = 0; i < label_count; ++i)
     add_count(status, "points " + std::string(point_label_names[i]), tally.all.points[i]);
   add_count(status, "most poses of a scan", tally.all.parts);
+  if (!tally.all.time_note.empty()) add(status, "times", tally.all.time_note);
   if (cloud.late_targets() > 0)
-    add_count(status, "targets not judged: their cloud was past", cloud.late_targets());
+    add_count(status, "targets not judged: no cloud has their stamp", cloud.late_targets());
   add_tally(status, tally);
   for_each_topic(inbox, TopicRole::cloud, number, [&](std::size_t i) {
     add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));

@@ -32,12 +32,18 @@ void LiveFusion::add(std::size_t camera, const CameraFrame& frame, const std::st
   publish_(payload_);
 }
 
-std::vector<std::string> LiveFusion::contradictions() {
+void LiveFusion::add_contradictions(DiagnosticArrayMessage& message) {
   const std::lock_guard lock(mutex_);
-  std::vector<std::string> lines;
-  for (const FusedTarget& target : fusion_.fused())
-    if (target.contradiction) lines.push_back("target '" + target.name + "': " + target.reason);
-  return lines;
+  DiagnosticStatusMessage& robot = message.status.front();
+  for (const FusedTarget& target : fusion_.fused()) {
+    if (!target.contradiction) continue;
+    const std::string line = "target '" + target.name + "': " + target.reason;
+    if (robot.level == DiagnosticStatusMessage::ok) {
+      robot.level = DiagnosticStatusMessage::warn;
+      robot.message = line;
+    }
+    robot.values.push_back({"contradiction", line});
+  }
 }
 
 }  // namespace penumbra::io

@@ -11,6 +11,8 @@
 
 #include <penumbra/scene/target_fusion.hpp>
 
+#include <io/ros/messages.hpp>
+
 namespace penumbra::io {
 
 /// The topic's name follows "/penumbra/".
@@ -27,8 +29,9 @@ class LiveFusion {
   /// `root`: the robot's root link.
   void add(std::size_t camera, const CameraFrame& frame, const std::string& root);
 
-  /// Returns, of the last frames, why targets are unknown that cameras measure at different places.
-  [[nodiscard]] std::vector<std::string> contradictions();
+  /// Adds to the robot's status, the first one, which targets are unknown because cameras measure
+  /// them at different places.
+  void add_contradictions(DiagnosticArrayMessage& message);
 
  private:
   std::mutex mutex_;

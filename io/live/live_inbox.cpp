@@ -99,10 +99,12 @@ void LiveInbox::done(std::size_t camera, const LiveOutcome& outcome, std::int64_
 }
 
 void LiveInbox::done_cloud(std::size_t number, const LiveOutcome& outcome,
-                           const CloudReport* report, std::int64_t now, std::int64_t system_now) {
+                           const CloudReport* report, const std::string& time_note,
+                           std::int64_t now, std::int64_t system_now) {
   cloud(number).done(report != nullptr);
   CloudTally& tally = cloud_tallies_[number];
   count(tally, outcome, now, system_now);
+  if (tally.all.time_note.empty()) tally.all.time_note = time_note;
   if (report == nullptr) return;
   for (CloudSummary* summary : {&tally.all, &tally.looking}) summary->add(*report, "", 0.0);
   if (tally.looking.clouds < CloudTally::looked_at) return;

@@ -93,9 +93,9 @@ class LiveInbox : public FrameAssembler {
   void done(std::size_t camera, const LiveOutcome& outcome, std::int64_t now,
             std::int64_t system_now);
 
-  /// The same for a cloud. `report`: null if it could not be labelled.
+  /// The same for a cloud. `report`: null if it could not be labelled. `time_note`: CloudPoints'.
   void done_cloud(std::size_t cloud, const LiveOutcome& outcome, const CloudReport* report,
-                  std::int64_t now, std::int64_t system_now);
+                  const std::string& time_note, std::int64_t now, std::int64_t system_now);
 
   /// Sets the warnings about a camera's setup.
   void warn(std::size_t camera, const std::shared_ptr<const CameraSetup>& setup,

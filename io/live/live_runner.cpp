@@ -225,7 +225,8 @@ void LiveRunner::label(std::size_t number) {
       }
       const std::int64_t now = steady_now(), system = system_now();
       lock.lock();
-      if (!cloud->is_again) inbox_.done_cloud(number, outcome, report, now, system);
+      if (!cloud->is_again)
+        inbox_.done_cloud(number, outcome, report, cloud->points.time_note, now, system);
     }
   } catch (...) {
     fail(lock);

@@ -62,7 +62,9 @@ Json cloud_json(const LiveInbox& inbox, std::size_t number) {
   result.update(counts_json(cloud.counts(), tally));
   result.update({{"points", points},
                  {"most_poses_of_a_scan", tally.all.parts},
-                 {"warnings", tally.warnings}});
+                 {"times", or_null(tally.all.time_note)},
+                 {"targets_without_cloud", cloud.late_targets()},
+                 {"warnings", tally.all.warnings()}});
   return result;
 }
 

@@ -62,10 +62,11 @@ struct SensorTuner {
   CloudTuner tuner;
   std::size_t clouds = 0, measured = 0;
 
-  [[nodiscard]] bool wants_next() {
-    const bool wanted = clouds++ % step == 0 && measured < most;
-    measured += wanted ? 1 : 0;
-    return wanted;
+  [[nodiscard]] bool is_done() const { return measured == most; }
+  /// Calls `add` with some of the clouds.
+  template <typename F>
+  void next(const F& add) {
+    if (clouds++ % step == 0 && !is_done()) measured += add() ? 1 : 0;
   }
 };
 
@@ -155,7 +156,7 @@ void RecordedRun::label(const JointRow& row, CloudSummary& summary) {
   const auto pose = [&](std::int64_t stamp, RobotPose& at) { at = pose_at(stamp, row); };
   if (tuner_) {
     ++summary.clouds;
-    if (tuner_->wants_next()) tuner_->tuner.add(pipeline_, scan, pose);
+    tuner_->next([&] { return tuner_->tuner.add(pipeline_, scan, pose); });
     return;
   }
   const CloudReport& report =
@@ -266,7 +267,7 @@ std::vector<CloudInputOptions> cloud_inputs(const CloudRunOptions& options,
                       .poses = clouds.topics.poses,
                       .time_offset = options.input.bag.time_offset,
                       .max_frames = most_waiting,
-                      .has_targets = !clouds.topics.targets.empty(),
+                      .has_targets = !options.tune && !clouds.topics.targets.empty(),
                       .known = clouds.mounts[i]});
   return inputs;
 }
@@ -279,7 +280,8 @@ BagRun::BagRun(const CloudRunOptions& options, const BagClouds& clouds)
                   .compare_sources = !options.input.bag.first_publisher,
                   .static_transforms = clouds.static_transforms},
                  {}, cloud_inputs(options, clouds)) {
-  for (const CloudInputOptions& input : cloud_inputs(options, clouds)) {
+  for (std::size_t i = 0; i < assembler_.cloud_count(); ++i) {
+    const CloudInputOptions& input = assembler_.cloud(i).options();
     workers_.emplace_back(input);
     if (options.tune) tuners_.push_back({CloudTuner(input.rule)});
   }
@@ -341,7 +343,8 @@ void BagRun::write_targets(std::size_t sensor, const ReceivedCloud& cloud,
 
 void BagRun::measure(std::size_t sensor, const ReceivedCloud& cloud) {
   ++result_.sensors[sensor].clouds;
-  if (tuners_[sensor].wants_next()) workers_[sensor].measure(cloud, tuners_[sensor].tuner);
+  SensorTuner& tuner = tuners_[sensor];
+  tuner.next([&] { return workers_[sensor].measure(cloud, tuner.tuner); });
 }
 
 void BagRun::write_ready(std::int64_t now) {
@@ -368,6 +371,9 @@ CloudRunResult BagRun::run(const std::function<bool()>& go_on) {
     if (!inputs[message.topic]) continue;
     assembler_.receive(*inputs[message.topic], {.data = message.data}, now);
     write_ready(now);
+    if (!tuners_.empty() && std::all_of(tuners_.begin(), tuners_.end(),
+                                        [](const SensorTuner& one) { return one.is_done(); }))
+      break;
     if (!go_on()) {
       result_.is_stopped = true;
       break;

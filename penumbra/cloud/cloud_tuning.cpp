@@ -12,6 +12,7 @@ constexpr double sigmas = 3.5;              // of tolerance: 0.05 % of normal no
 constexpr std::size_t least_points = 1000;  // on the robot
 constexpr std::size_t least_in_ring = 200;  // around its outline
 constexpr double largest_bias = 0.02;       // metres; more is a wrong pose
+constexpr double largest_deviation = 0.05;  // metres, likewise
 constexpr double usual_share = 0.02;        // by which rings differ
 constexpr double largest_share = 0.3;       // of them if the robot stands free
 constexpr double wide = 0.15;               // metres, several deviations of any sensor
@@ -34,7 +35,7 @@ double CloudTuner::tolerance_at(std::size_t step) {
   return millimetre * std::pow(1.3, static_cast<double>(step));
 }
 
-void CloudTuner::add(CloudPipeline& pipeline, const Scan& scan, const PoseAt& pose_at) {
+bool CloudTuner::add(CloudPipeline& pipeline, const Scan& scan, const PoseAt& pose_at) {
   const auto report_by = [&](const CloudRule& rule) -> const CloudReport& {
     pipeline.set_rule(rule);
     return pipeline.process(scan, pose_at);
@@ -47,7 +48,9 @@ void CloudTuner::add(CloudPipeline& pipeline, const Scan& scan, const PoseAt& po
     const CloudReport& report = report_by(rule);
     if (i == 0 && (report.status != FrameStatus::ok || !scan.origin)) {
       pipeline.set_rule(rule_);
-      return;
+      if (refused_because_.empty())
+        refused_because_ = scan.origin ? report.message : "clouds without rays show no ranges";
+      return false;
     }
     front_[i] += count(report, Label::front);
     beyond_[i] += count(report, Label::beyond);
@@ -66,6 +69,7 @@ void CloudTuner::add(CloudPipeline& pipeline, const Scan& scan, const PoseAt& po
   }
   ++scans_;
   pipeline.set_rule(rule_);
+  return true;
 }
 
 CloudTuning CloudTuner::result() const {
@@ -82,8 +86,10 @@ CloudTuning CloudTuner::result() const {
 void CloudTuner::measure_ranges(CloudTuning& out) const {
   out.points = on_robot_ - front_.back() - beyond_.back();
   if (out.points < least_points) {
-    out.problems.push_back("only " + std::to_string(out.points) +
-                           " points are on the robot: bring more of it into the sensor's view");
+    out.problems.push_back("only " + std::to_string(out.points) + " points are on the robot: " +
+                           (scans_ > 0 || refused_because_.empty()
+                                ? "bring more of it into the sensor's view"
+                                : "no cloud can be measured, the first: " + refused_because_));
     return;
   }
   std::vector<std::pair<double, double>> curve;  // r - s, and the share below
@@ -108,6 +114,13 @@ void CloudTuner::measure_ranges(CloudTuning& out) const {
                            " its model: correct the sensor's pose first");
     return;
   }
+  if (out.deviation > largest_deviation) {
+    out.problems.push_back("the ranges of the robot scatter by " +
+                           std::to_string(std::lround(out.deviation / millimetre)) +
+                           " mm around its model, more than any sensor's: correct the sensor's "
+                           "pose, the joint positions or their stamps first");
+    return;
+  }
   const double wanted = std::abs(out.bias) + sigmas * out.deviation;
   out.rule.tolerance = {.a = millimetre * std::ceil(wanted / millimetre), .b = 0.0, .c = 0.0};
 }
@@ -126,9 +139,8 @@ void CloudTuner::measure_beam(CloudTuning& out) const {
     out.problems.push_back("too few points are next to the robot: the beam is not measured");
     return;
   }
-  std::array sorted = shares;
-  std::sort(sorted.begin(), sorted.end());
-  const double usual = sorted[beams.size() / 2];
+  // Where mixed returns are least likely: the two outermost rings.
+  const double usual = 0.5 * (shares[beams.size() - 2] + shares.back());
   if (usual > largest_share) {
     out.problems.push_back(percent(usual) +
                            " of the points next to the robot are of its range: the beam is not "
@@ -137,7 +149,13 @@ void CloudTuner::measure_beam(CloudTuning& out) const {
   }
   const double chance = 2.0 * std::sqrt(usual / static_cast<double>(fewest));
   std::size_t ring = 0;
-  while (ring + 1 < beams.size() && shares[ring] > usual + usual_share + chance) ++ring;
+  while (ring < beams.size() - 2 && shares[ring] > usual + usual_share + chance) ++ring;
+  if (ring == beams.size() - 2) {
+    out.problems.push_back(
+        "points of the robot's range reach far beyond its outline: correct the sensor's pose, the "
+        "joint positions or their stamps first");
+    return;
+  }
   out.rule.beam = beams[ring];
 }
 

@@ -25,15 +25,15 @@ struct CloudTuning {
 };
 
 /// Measures tolerance and beam in scans of a robot that stands or moves free. It needs no truth:
-/// each scan is labelled by many rules, whose counts are the distributions of what they compare.
+/// each scan is labelled by many rules, and the counts of labels say how ranges are distributed.
 class CloudTuner {
  public:
   /// `rule`: what is not measured.
   explicit CloudTuner(const CloudRule& rule) : rule_(rule) {}
 
-  /// Adds a scan; takes as long as labelling it 35 times. Scans without rays, or whose poses are
-  /// not known, add nothing. Leaves the pipeline with `rule`.
-  void add(CloudPipeline& pipeline, const Scan& scan, const PoseAt& pose_at);
+  /// Adds a scan; takes as long as labelling it 35 times. Returns false for a scan without rays, or
+  /// whose poses are not all known. Leaves the pipeline with `rule`.
+  bool add(CloudPipeline& pipeline, const Scan& scan, const PoseAt& pose_at);
 
   [[nodiscard]] CloudTuning result() const;
 
@@ -46,7 +46,8 @@ class CloudTuner {
 
   CloudRule rule_;
   std::size_t scans_ = 0, on_robot_ = 0;
-  std::array<std::size_t, steps> front_{}, beyond_{};         // by tolerance
+  std::string refused_because_;                        // of the first scan that was not added
+  std::array<std::size_t, steps> front_{}, beyond_{};  // by tolerance
   std::array<std::size_t, beams.size()> mixed_{}, behind_{};  // in reach of a beam: within `mixing`
 };
 

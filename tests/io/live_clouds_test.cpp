@@ -227,6 +227,19 @@ TEST_F(LiveClouds, JudgeTheTargetsOfTheirStampThatComeLater) {
   EXPECT_EQ(kept_.kept(io::CloudResult::labelled).size(), 3U) << "each cloud comes once";
 }
 
+TEST_F(LiveClouds, GoOnWithTargetsAfterTheClockJumpedBack) {
+  options_.target_topics = {"/knob"};
+  start();
+  scan(2);
+  runner_->forget();
+  scan(2);  // of the same stamps again
+  io::PoseStampedMessage knob{.header = {test::start + scan_time, "optical"}};
+  knob.pose.translation() = Eigen::Vector3d(0, 0, 1.2);
+  say("/knob", encoded(knob));
+  EXPECT_TRUE(eventually(
+      [&](const io::LiveInbox&) { return !kept_.kept(io::CloudResult::targets).empty(); }));
+}
+
 TEST_F(LiveClouds, WithoutJointStatesAreUnknownAndSaySo) {
   start();
   say("/points", encoded(LidarScan(test::start).message));

@@ -233,7 +233,9 @@ TEST_F(LiveRunnerTest, CamerasGiveOneVerdict) {
   ASSERT_EQ(left.targets.size(), 1U);
   EXPECT_EQ(left.targets[0].verdict, io::TargetMessage::unknown) << "the right camera is silent";
   EXPECT_NE(left.targets[0].reason.find("'right'"), std::string::npos) << left.targets[0].reason;
-  EXPECT_TRUE(fusion.contradictions().empty());
+  io::DiagnosticArrayMessage diagnostics{.header = {}, .status = {{}}};
+  fusion.add_contradictions(diagnostics);
+  EXPECT_TRUE(diagnostics.status[0].values.empty());
   runner.stop();
   EXPECT_FALSE(runner.fault());
 }

@@ -99,8 +99,7 @@ class Outputs final : public penumbra::io::ResultSink, public penumbra::io::Fram
 /// Publishes the clouds of a sensor that have subscribers, with the type of its messages.
 class CloudOutputs final : public penumbra::io::CloudSink {
  public:
-  /// `topic`: "~/points"; labelled clouds are on "~/points/labelled", targets on
-  /// "~/points/targets".
+  /// `topic`: of the clouds; labelled ones are on "TOPIC/labelled", targets on "TOPIC/targets".
   CloudOutputs(rclcpp::Node& node, const std::string& topic)
       : node_(node), topics_{topic, topic + "/labelled", topic + "/targets"} {}
 

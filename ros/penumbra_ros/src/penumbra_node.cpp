@@ -20,7 +20,7 @@ constexpr std::chrono::seconds check_period{1};
 const DiagnosticStatusMessage* subject_of(const penumbra::io::DiagnosticArrayMessage& statuses,
                                           std::string_view line) {
   for (const DiagnosticStatusMessage& status : statuses.status)
-    if (line.substr(0, status.name.size()) == status.name) return &status;
+    if (line.substr(0, status.name.size() + 1) == status.name + ":") return &status;
   return nullptr;
 }
 
@@ -42,8 +42,7 @@ PenumbraNode::PenumbraNode(const rclcpp::NodeOptions& options)
   }
   std::vector<penumbra::io::CloudSink*> cloud_sinks;
   for (const std::string& topic : settings_.cloud_topics) {
-    const std::string below = topic.front() == '/' ? "~" : "~/";
-    clouds_.push_back(std::make_unique<CloudOutputs>(*this, below + topic));
+    clouds_.push_back(std::make_unique<CloudOutputs>(*this, topic));
     cloud_sinks.push_back(clouds_.back().get());
   }
   runner_ = std::make_unique<LiveRunner>(settings_.live, settings_.pipeline, sinks,
@@ -115,7 +114,8 @@ void PenumbraNode::warn_of_unknown_parameters() {
   for (const auto& [name, value] : get_node_parameters_interface()->get_parameter_overrides())
     if (!has_parameter(name) &&
         (name.find('.') == std::string::npos || name.rfind("cameras.", 0) == 0))
-      RCLCPP_WARN(get_logger(), "there is no parameter '%s'", name.c_str());
+      RCLCPP_WARN(get_logger(), "there is no parameter '%s'%s", name.c_str(),
+                  outputs_.size() > 1 ? "; those of cameras are cameras.NAME.PARAMETER" : "");
 }
 
 rcl_interfaces::msg::SetParametersResult PenumbraNode::change(const Changes& changes) {
@@ -152,6 +152,7 @@ void PenumbraNode::check() {
   statuses_ = runner_->with_inbox([&](const penumbra::io::LiveInbox& inbox) {
     return diagnostics_.report(inbox, links, {LiveRunner::steady_now(), now().nanoseconds()});
   });
+  if (fusion_) fusion_->add_contradictions(statuses_);
   for (std::size_t i = 1; i < statuses_.status.size(); ++i) {  // the first is the robot's
     DiagnosticStatusMessage& sensor = statuses_.status[i];
     if (!enabled_) {

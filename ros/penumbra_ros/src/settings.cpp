@@ -275,8 +275,11 @@ void declare_clouds(rclcpp::Node& node, Declaration& declare,
                "and words as sensor=ouster_os1 tolerance=0.03,0,0 merged sensor_frame=FRAME "
                "ignore_times removed_ranges=inf")) {
     penumbra::io::CloudInputOptions cloud = penumbra::io::parse_cloud(text);
-    settings.cloud_topics.push_back(cloud.topic);
-    cloud.topic = resolved(node, cloud.topic);
+    const std::string given = cloud.topic;
+    cloud.topic = resolved(node, given);
+    const std::string below = given.front() == '/' ? "~" : "~/";
+    settings.cloud_topics.push_back(
+        resolved(node, given.front() == '~' ? "~" + cloud.topic : below + given));
     cloud.mount = common.mount;
     cloud.poses = common.poses;
     cloud.has_targets = !settings.live.target_topics.empty();
@@ -305,6 +308,19 @@ void declare_rule(Declaration& declare) {
       });
   declare("labels", std::string("full"), "full or paper (constant 0.01 m, no clean-up)",
           changeable);
+}
+
+/// Throws InputError if a camera and a sensor of clouds, or two of these, publish on one topic.
+void check_names(rclcpp::Node& node, const Settings& settings) {
+  std::set<std::string> taken;
+  for (const penumbra::io::CameraInputOptions& camera : settings.live.cameras)
+    for (const char* name : output_names)
+      taken.insert(resolved(node, "~/" + (camera.name.empty() ? "" : camera.name + "/") + name));
+  for (const std::string& topic : settings.cloud_topics)
+    for (const char* end : {"", "/labelled", "/targets"})
+      if (!taken.insert(topic + end).second)
+        throw InputError("parameter 'clouds': " + topic + end +
+                         " is another result's topic, too; name the camera, by cameras.NAME...");
 }
 
 }  // namespace
@@ -347,6 +363,7 @@ Settings declare_settings(rclcpp::Node& node) {
   const penumbra::io::CameraInputOptions common = declare_poses(declare, settings.live);
   declare_clouds(node, declare, common, settings);
   declare_cameras(node, common, settings.live.cameras, !settings.live.clouds.empty());
+  check_names(node, settings);
   const auto urdf = declare("robot", std::string(), "URDF file, in place of robot_description");
   if (!urdf.empty())
     settings.live.robot.given = penumbra::Robot::load(urdf, settings.live.robot.robot);

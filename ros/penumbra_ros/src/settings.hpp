@@ -16,7 +16,7 @@ namespace penumbra_ros {
 /// The node's parameters.
 struct Settings {
   penumbra::io::LiveOptions live;
-  std::vector<std::string> cloud_topics;  ///< of live.clouds, as given
+  std::vector<std::string> cloud_topics;  ///< of the results of live.clouds
   penumbra::PipelineConfig pipeline;
   std::set<std::string> publish;  ///< names of results
   bool target_frames = false;     ///< publishes targets in TF
