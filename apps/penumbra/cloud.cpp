@@ -98,8 +98,8 @@ int print_tunings(const io::CloudRunResult& result) {
                     fixed(1e3 * tuning.bias, 1) + " mm", fixed(1e3 * tuning.deviation, 1) + " mm",
                     tuning.problems.empty() ? fixed(tuning.rule.tolerance.a, 3) + ",0,0" : "-",
                     tuning.problems.empty() ? fixed(tuning.rule.beam, 3) : "-"});
-    std::vector<std::string> notes;
-    for (const std::string& problem : tuning.problems) notes.push_back(name + ": " + problem);
+    std::vector<std::string> notes = tuning.problems;
+    for (std::string& note : notes) note.insert(0, name + ": ");
     print_notes(notes);
     is_sound = is_sound && tuning.problems.empty();
   }

@@ -33,8 +33,8 @@ struct LidarScan {
 
   explicit LidarScan(std::int64_t stamp) : data(side * side * point_size) {
     for (int i = 0; i < side * side; ++i) {
-      const double x = board_face * (i % side - 29.5) / 100,
-                   y = board_face * (i / side - 29.5) / 100;
+      const int row = i / side, column = i % side;
+      const double x = board_face * (column - 29.5) / 100, y = board_face * (row - 29.5) / 100;
       const std::int64_t after = scan_time * i / (side * side);
       const bool on_board = inside_board(x, y, stamp + after) > 0;
       const float range = (on_board ? board_face : wall) / board_face;
@@ -271,7 +271,7 @@ TEST_F(LiveClouds, ThatCannotBeReadAreCountedWithTheReason) {
                      faults.empty() ? std::string() : faults.begin()->second.what);
   });
   EXPECT_EQ(dropped, 1U);
-  EXPECT_NE(why.find("z"), std::string::npos) << why;
+  EXPECT_NE(why.find('z'), std::string::npos) << why;
 }
 
 TEST(CloudText, SaysWhatASensorIs) {
