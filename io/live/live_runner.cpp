@@ -209,6 +209,10 @@ void LiveRunner::label(std::size_t number) {
         continue;
       }
       lock.unlock();
+      if (cloud->is_again && !wants_targets(self)) {
+        lock.lock();
+        continue;
+      }
       LiveOutcome outcome;
       outcome.stamp = cloud->header.stamp;
       outcome.arrived = cloud->arrived;
@@ -247,10 +251,13 @@ void LiveRunner::publish(const ReceivedCloud& cloud, const CloudReport& report, 
   std::visit(write, cloud.message);
 }
 
+bool LiveRunner::wants_targets(const CloudThread& self) {
+  return self.sink->wants(CloudResult::targets, message_type<TargetsMessage>());
+}
+
 void LiveRunner::publish_targets(const ReceivedCloud& cloud, const CloudReport& report,
                                  CloudThread& self) {
-  if (!self.sink->wants(CloudResult::targets, message_type<TargetsMessage>())) return;
-  if (cloud.targets.empty()) return;
+  if (!wants_targets(self) || cloud.targets.empty()) return;  // known before the first one comes
   encode(targets_message(report, cloud.header.frame_id, report.links.front()), self.payload);
   self.sink->write(CloudResult::targets, self.payload);
 }

@@ -129,6 +129,7 @@ class LiveRunner {
   void label(std::size_t cloud);
   static void publish(const ReceivedCloud& cloud, const CloudReport& report, CloudOutput how,
                       CloudThread& self);
+  [[nodiscard]] static bool wants_targets(const CloudThread& self);
   static void publish_targets(const ReceivedCloud& cloud, const CloudReport& report,
                               CloudThread& self);
   void work_in_background();
