@@ -71,7 +71,7 @@ V paeth(V a, V b, V c) {
   const auto size_of = [](V v) { return v < 0 ? -v : v; };
   const V of_a = size_of(b - c), of_b = size_of(a - c), of_c = size_of(a + b - c - c);
   const V of_both = of_b <= of_c ? b : c;
-  return (of_a <= of_b) & (of_a <= of_c) ? a : of_both;
+  return ((of_a <= of_b) & (of_a <= of_c)) ? a : of_both;
 }
 
 constexpr std::ptrdiff_t pixel = 2;  // bytes
