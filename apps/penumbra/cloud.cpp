@@ -96,8 +96,8 @@ int print_tunings(const io::CloudRunResult& result) {
     const std::string& name = result.sensors[i].name;
     rows.push_back({name, std::to_string(tuning.scans), std::to_string(tuning.points),
                     fixed(1e3 * tuning.bias, 1) + " mm", fixed(1e3 * tuning.deviation, 1) + " mm",
-                    tuning.problems.empty() ? fixed(tuning.rule.tolerance.a, 3) + ",0,0" : "-",
-                    tuning.problems.empty() ? fixed(tuning.rule.beam, 3) : "-"});
+                    tuning.has_tolerance ? fixed(tuning.rule.tolerance.a, 3) + ",0,0" : "-",
+                    tuning.has_beam ? fixed(tuning.rule.beam, 3) : "-"});
     std::vector<std::string> notes = tuning.problems;
     for (std::string& note : notes) note.insert(0, name + ": ");
     print_notes(notes);

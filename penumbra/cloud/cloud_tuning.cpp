@@ -77,7 +77,7 @@ CloudTuning CloudTuner::result() const {
   out.scans = scans_;
   out.rule = rule_;
   measure_ranges(out);
-  measure_beam(out);
+  if (out.has_tolerance) measure_beam(out);
   return out;
 }
 
@@ -123,6 +123,7 @@ void CloudTuner::measure_ranges(CloudTuning& out) const {
   }
   const double wanted = std::abs(out.bias) + sigmas * out.deviation;
   out.rule.tolerance = {.a = millimetre * std::ceil(wanted / millimetre), .b = 0.0, .c = 0.0};
+  out.has_tolerance = true;
 }
 
 /// Finds the ring around the robot's outline from which on no more points are of its range than in
@@ -157,6 +158,7 @@ void CloudTuner::measure_beam(CloudTuning& out) const {
     return;
   }
   out.rule.beam = beams[ring];
+  out.has_beam = true;
 }
 
 }  // namespace penumbra

@@ -21,7 +21,8 @@ struct CloudTuning {
   /// outline whose points are more often of its range than those farther out, and one ring more.
   /// What could not be measured is as it was.
   CloudRule rule;
-  std::vector<std::string> problems;  ///< why the rule is not to be trusted, a line each
+  bool has_tolerance = false, has_beam = false;  ///< measured
+  std::vector<std::string> problems;             ///< why something is not measured, a line each
 };
 
 /// Measures tolerance and beam in scans of a robot that stands or moves free. It needs no truth:
