@@ -130,8 +130,7 @@ struct ServerArguments {
 struct LiveArguments {
   io::SessionOptions session;  ///< renderer, what is drawn, the rule of labels, topics
   io::ParticipantOptions graph;
-  std::vector<NamedCamera>
-      cameras;  ///< empty: one, found by type and name, unless there are clouds
+  std::vector<NamedCamera> cameras;  ///< empty and no clouds: one, found by type and name
   std::vector<io::CloudInputOptions> clouds;
   std::string name_space;
   std::vector<std::string> remaps;     ///< FROM:=TO

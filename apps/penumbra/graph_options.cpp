@@ -72,17 +72,14 @@ void add_clouds(CLI::App& app, std::vector<io::CloudInputOptions>& clouds) {
   add_list(
       app, "--cloud",
       "clouds or laser scans, which come without the robot on /penumbra/TOPIC; words after the "
-      "topic, as \"/points sensor=ouster_os1\", say what is measured and how (docs/"
-      "point_clouds.md); may be given several times. Cameras are then judged only if named",
+      "topic describe the sensor, as \"/points sensor=ouster_os1\" (docs/point_clouds.md); may be "
+      "given several times. Cameras are then judged only if named",
       "TOPIC", [&](const std::string& text) {
         try {
           clouds.push_back(io::parse_cloud(text));
         } catch (const InputError& error) {
           throw InputError(std::string("--cloud: ") + error.what());
         }
-        for (std::size_t i = 0; i + 1 < clouds.size(); ++i)
-          if (clouds[i].topic == clouds.back().topic)
-            throw InputError("--cloud: " + clouds[i].topic + " is given twice");
       });
 }
 

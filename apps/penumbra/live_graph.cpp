@@ -6,9 +6,8 @@
 namespace penumbra::app {
 namespace {
 
-constexpr int result_depth = 10;  // of results that a subscriber has not fetched
-constexpr int image_depth =
-    8;  // of images and clouds that are not read yet: 0.25 s on a busy machine
+constexpr int result_depth = 10;   // of results that a subscriber has not fetched
+constexpr int image_depth = 8;     // of images and clouds that are not read yet
 constexpr int state_depth = 1000;  // of joint states and transforms: a second of them
 
 bool is_image(io::TopicRole role) {

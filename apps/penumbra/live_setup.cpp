@@ -53,8 +53,8 @@ void check_remaps(const io::NameResolver& names, const std::vector<io::CameraInp
     for (const std::string& name : cloud_result_names(cloud.topic))
       if (!taken.insert(names.resolve(name)).second)
         throw InputError("--cloud " + io::printable(cloud.topic) + ": " + names.resolve(name) +
-                         " is another result's topic, too; name the camera (--camera NAME=TOPIC), "
-                         "or --remap it");
+                         " is already the topic of a camera's result or of another cloud's; name "
+                         "the camera (--camera NAME=TOPIC), or --remap one");
   if (const auto unused = names.unused(); !unused.empty())
     throw InputError("--remap '" + io::printable(unused.front()) +
                      "': no topic has this name; topics that are found by their type are named by "

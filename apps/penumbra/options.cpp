@@ -24,16 +24,6 @@ std::pair<std::string, std::string> to_pair(const std::string& option, const std
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-std::vector<double> to_numbers(const std::string& text) {
-  std::vector<double> numbers;
-  for (const std::string& part : split(text, ',')) {
-    const auto number = io::parse_number<double>(part);
-    if (!number) return {};
-    numbers.push_back(*number);
-  }
-  return numbers;
-}
-
 io::WebOptions web_options(const ServerArguments& server) {
   io::WebOptions options{.port = server.port.value_or(default_port)};
   if (server.address) options.address = *server.address;

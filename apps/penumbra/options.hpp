@@ -23,9 +23,6 @@ namespace penumbra::app {
 [[noreturn]] void refuse_option(const std::string& option, const std::string& value,
                                 const std::string& wanted);
 
-/// Returns the numbers between commas; none if one of them is no number.
-[[nodiscard]] std::vector<double> to_numbers(const std::string& text);
-
 /// Splits NAME=VALUE at the first '='.
 [[nodiscard]] std::pair<std::string, std::string> to_pair(const std::string& option,
                                                           const std::string& text,
@@ -145,7 +142,7 @@ void add_settings(CLI::App& app, const char* unit, Take take) {
     const char* const value = !NumberSetting<Value> ? "A,B,C" : *setting.unit != 0 ? unit : "N";
     add_option(app, option, setting.meaning, value,
                [take, setting, option](const std::string& text) {
-                 if (!take(setting, to_numbers(text)))
+                 if (!take(setting, io::parse_numbers(text)))
                    refuse_option(option, text, expected_of(setting));
                });
   });

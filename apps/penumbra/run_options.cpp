@@ -59,7 +59,7 @@ void add_sequence(CLI::App& app, io::SessionOptions& session) {
 }
 
 DriftLimits to_drift_limits(const std::string& text) {
-  const std::vector<double> limits = to_numbers(text);
+  const std::vector<double> limits = io::parse_numbers(text);
   if (limits.size() != 2) refuse_option("--drift-limits", text, "MM,DEGREES: two numbers");
   const DriftLimits drift{.position = 1e-3 * limits[0],
                           .rotation = limits[1] * std::numbers::pi / 180.0};

@@ -38,7 +38,7 @@ struct CloudInputOptions {
   double time_offset = 0.0;    ///< see FrameQueueOptions
   double max_wait = 0.5;       ///< likewise
   std::size_t max_frames = 8;  ///< likewise
-  CloudOutput output = {};     ///< for the one who writes them
+  CloudOutput output = {};     ///< what LiveRunner publishes
   bool has_targets = false;    ///< keeps clouds for targets that come later
   /// Set for bags: every cloud is given out; one that cannot be labelled says so
   /// (DropPolicy::every). Not set for live topics: the setup follows what is received, and the
@@ -104,7 +104,7 @@ class CloudInput {
   void finish();
 
   /// Returns the next cloud whose poses are known or no longer awaited, or an earlier one again
-  /// with targets that came since; null if there is none.
+  /// with targets that came since; null if no cloud is ready.
   [[nodiscard]] std::shared_ptr<ReceivedCloud> next(std::int64_t now);
   /// Counts the outcome of a cloud. Call this once for each that is not given out again.
   void done(bool is_labelled);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace penumbra::io {
 
@@ -20,6 +23,19 @@ template <typename T>
   if constexpr (std::is_floating_point_v<T>)
     if (!std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+/// Returns the numbers between commas; no number if one of them cannot be read.
+[[nodiscard]] inline std::vector<double> parse_numbers(std::string_view text) {
+  std::vector<double> numbers;
+  for (std::size_t start = 0; start <= text.size();) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    const auto number = parse_number<double>(text.substr(start, end - start));
+    if (!number) return {};
+    numbers.push_back(*number);
+    start = end + 1;
+  }
+  return numbers;
 }
 
 /// Returns `text` without spaces and tabs around it.

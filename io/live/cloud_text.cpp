@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <vector>
 
@@ -13,20 +12,12 @@
 namespace penumbra::io {
 namespace {
 
-std::vector<double> numbers_of(const std::string& text) {
-  std::vector<double> numbers;
-  std::istringstream parts(text);
-  for (std::string part; std::getline(parts, part, ',');)
-    numbers.push_back(parse_number<double>(part).value_or(std::nan("")));
-  return numbers;
-}
-
 void set(CloudRule& rule, const std::string& name, const std::string& value) {
   bool known = false;
   for_each_setting<CloudRule>([&](const auto& setting) {
     if (name != setting.name) return;
     known = true;
-    if (!set_numbers(setting.range, numbers_of(value), rule.*setting.member))
+    if (!set_numbers(setting.range, parse_numbers(value), rule.*setting.member))
       throw InputError(name + "=" + value + ": expected " + expected_of(setting));
   });
   if (!known)

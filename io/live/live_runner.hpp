@@ -48,17 +48,17 @@ class CloudSink {
 ///
 /// One mutex guards the inbox: robot, poses, waiting images and counts. It is held while a message
 /// is received and while a job is picked, and never while a job is processed or meshes are read. So
-/// no thread waits for rendering, files or the network. Only the camera's thread writes to its
-/// sink, without the mutex.
+/// no thread waits for rendering, files or the network. Only a
+/// sensor's own thread writes to its sink, without the mutex.
 class LiveRunner {
  public:
   using RobotMaker = std::function<MadeRobot(const RobotLoadRequest&)>;
 
   static constexpr std::chrono::seconds default_robot_retry{5};
 
-  /// `sinks`: one for each camera; `cloud_sinks`: one for each sensor of clouds; they must outlive
-  /// this. `robot_retry`: the time after which a
-  /// robot that could not be made is tried again. Throws like LiveInbox.
+  /// `sinks`: one for each camera; `cloud_sinks`: one for each sensor of clouds. All must outlive
+  /// this. `robot_retry`: the time after which a robot that could not be made is tried again.
+  /// Throws like LiveInbox.
   LiveRunner(const LiveOptions& options, const PipelineConfig& config,
              const std::vector<ResultSink*>& sinks, RobotMaker maker = make_robot,
              std::chrono::milliseconds robot_retry = default_robot_retry,

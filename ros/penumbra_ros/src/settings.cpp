@@ -217,7 +217,7 @@ std::set<std::string> cameras_of(rclcpp::Node& node) {
   return names;
 }
 
-/// Declares a camera. `depth_topic`: its default. Returns false if there is none.
+/// Declares a camera. `depth_topic`: its default. Returns false without a topic.
 bool declare_camera(rclcpp::Node& node, Declaration& declare, const std::string& depth_topic,
                     penumbra::io::CameraInputOptions& camera) {
   declare_mount(declare, camera);
@@ -320,7 +320,8 @@ void check_names(rclcpp::Node& node, const Settings& settings) {
     for (const char* end : {"", "/labelled", "/targets"})
       if (!taken.insert(topic + end).second)
         throw InputError("parameter 'clouds': " + topic + end +
-                         " is another result's topic, too; name the camera, by cameras.NAME...");
+                         " is already the topic of a camera's result or of another cloud's; name "
+                         "the camera, by cameras.NAME.depth_topic");
 }
 
 }  // namespace
