@@ -148,7 +148,7 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
   CalibrateArguments calibrate;
   ViewPlanningArguments planning;
   LookAheadArguments ahead;
-  io::CloudRunOptions cloud;
+  CloudArguments cloud;
   io::InitOptions init;
   CLI::App app{about, "penumbra"};
   app.footer(main_examples);

@@ -127,6 +127,11 @@ struct ServerArguments {
 
 [[nodiscard]] io::WebOptions web_options(const ServerArguments& server);
 
+struct CloudArguments {
+  io::CloudRunOptions run;
+  ServerArguments server;  ///< no page is served without a port
+};
+
 struct LiveArguments {
   io::SessionOptions session;  ///< renderer, what is drawn, the rule of labels, topics
   io::ParticipantOptions graph;
@@ -152,7 +157,7 @@ using Command =
     std::variant<RunArguments, RenderArguments, InspectArguments, DoctorArguments,
                  SimulateArguments, TopicsArguments, PlayArguments, LiveArguments, ViewArguments,
                  TuneArguments, CalibrateArguments, ViewPlanningArguments, LookAheadArguments,
-                 io::CloudRunOptions, io::InitOptions>;
+                 CloudArguments, io::InitOptions>;
 
 /// Reads the command line. Returns nothing after --help or --version, which it prints. Throws
 /// InputError that names the argument.

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include <penumbra/base/error.hpp>
@@ -11,11 +16,15 @@
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/run_cameras.hpp>
 #include <apps/penumbra/text.hpp>
+#include <io/web/frame_store.hpp>
+#include <io/web/stored_view.hpp>
+#include <io/web/web_server.hpp>
 
 namespace penumbra::app {
 
-void add_cloud(CLI::App& app, io::CloudRunOptions& cloud) {
+void add_cloud(CLI::App& app, CloudArguments& arguments) {
   app.footer(cloud_examples);
+  io::CloudRunOptions& cloud = arguments.run;
   io::InputOptions& input = cloud.input;
   auto& changes = cloud.rule_changes;
   input.bag.clouds = true;
@@ -61,6 +70,9 @@ void add_cloud(CLI::App& app, io::CloudRunOptions& cloud) {
   add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
   add_frames(app, input.frames);
   app.add_flag("--force", cloud.force, "write into a folder that holds other files");
+  add_server(app, arguments.server,
+             "show the labelled clouds in the browser there; of several topics, each further one "
+             "gets the next port; 0: any free port; default: no page");
   const std::size_t first = app.get_options().size();
   add_list(app, "--topic", "clouds; default: all; may be given several times", "TOPIC",
            [&input](const std::string& text) { input.bag.cloud_topics.push_back(text); });
@@ -76,11 +88,15 @@ void add_cloud(CLI::App& app, io::CloudRunOptions& cloud) {
   for (std::size_t i = first; i < options.size(); ++i) options[i]->group(BagHelp().group);
 }
 
-void check_cloud(const CLI::App& app, io::CloudRunOptions& cloud) {
+void check_cloud(const CLI::App& app, CloudArguments& arguments) {
+  io::CloudRunOptions& cloud = arguments.run;
   note_bag_option(app, cloud.input);
-  if (cloud.tune != cloud.output.empty())
-    throw InputError(cloud.tune ? "--tune writes nothing: leave --output out"
-                                : "--output is required, or --tune");
+  check_server(arguments.server);
+  const bool has_port = arguments.server.port.has_value();
+  if (cloud.tune && (has_port || !cloud.output.empty()))
+    throw InputError("--tune writes and shows nothing: leave --output and --port out");
+  if (!cloud.tune && !has_port && cloud.output.empty())
+    throw InputError("--output is required, or --port, or --tune");
   if (cloud.tune && !cloud.has_rays)
     throw InputError("--tune measures ranges, and --merged clouds have none");
   cloud.input.bag.in_other_frame = !cloud.has_rays || !cloud.sensor_frame.empty();
@@ -107,8 +123,56 @@ int print_tunings(const io::CloudRunResult& result) {
   return result.is_stopped ? interrupt_status() : is_sound ? 0 : nothing_judged;
 }
 
-int execute(const io::CloudRunOptions& options) {
+/// The viewer's pages of the clouds, one for each sensor.
+class CloudPages final : public io::CloudWatcher {
+ public:
+  explicit CloudPages(const CloudArguments& arguments)
+      : options_(web_options(arguments.server)), input_(arguments.run.input.path.string()) {}
+
+  void begin(const Robot& robot, std::span<const std::string> sensors) override {
+    for (const std::string& sensor : sensors) {
+      const auto& page =
+          pages_.emplace_back(std::make_unique<Page>(robot, input_ + ", " + sensor, options_));
+      std::cout << sensor << ": " << page->server->url() << std::endl;
+      if (options_.port > 0) ++options_.port;
+    }
+  }
+  void take(std::size_t sensor, std::uint64_t index, const PointsView& points,
+            const CloudReport& report, const std::string& fault) override {
+    pages_[sensor]->store.save_scan(points, report, index, fault);
+  }
+  void finish(std::span<const std::string> notes) {
+    for (const auto& page : pages_) page->store.finish({}, notes);
+  }
+
+ private:
+  struct Page {
+    Page(const Robot& robot, const std::string& input, const io::WebOptions& options)
+        : view({.input = input,
+                .links = {robot.links().begin(), robot.links().end()},
+                .parts = {io::Part::cloud}},
+               io::make_scene(robot), store, std::nullopt) {
+      io::ReportHead head;
+      head.input = input;
+      head.links = robot.links();
+      store.begin(head);
+      server.emplace(options, view);
+    }
+    io::FrameStore store{nullptr};
+    io::StoredView view;
+    std::optional<io::WebServer> server;
+  };
+
+  io::WebOptions options_;
+  std::string input_;
+  std::vector<std::unique_ptr<Page>> pages_;
+};
+
+int execute(const CloudArguments& arguments) {
   catch_interrupts();
+  io::CloudRunOptions options = arguments.run;
+  std::optional<CloudPages> pages;
+  if (arguments.server.port) options.watcher = &pages.emplace(arguments);
   const io::CloudRunResult result = [&] {
     Progress progress(0);
     return io::run_clouds(options, print_line, [&] {
@@ -143,7 +207,12 @@ int execute(const io::CloudRunOptions& options) {
     print_notes(sensor.notes());
   }
   print_table(std::move(rows));
-  std::cout << "results: " << options.output.string() << '\n';
+  if (!options.output.empty()) std::cout << "results: " << options.output.string() << '\n';
+  if (pages && !result.is_stopped) {
+    pages->finish(result.notes);
+    std::cout << "all clouds are labelled; Ctrl-C ends the viewer" << std::endl;
+    while (!was_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
   return result.is_stopped ? interrupt_status() : labelled > 0 ? 0 : nothing_judged;
 }
 

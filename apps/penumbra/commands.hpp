@@ -22,7 +22,7 @@ inline constexpr int device_failed = 1, nothing_judged = 2;
 [[nodiscard]] int execute(const TuneArguments& arguments);
 [[nodiscard]] int execute(const CalibrateArguments& arguments);
 [[nodiscard]] int execute(const ViewPlanningArguments& arguments);
-[[nodiscard]] int execute(const io::CloudRunOptions& options);
+[[nodiscard]] int execute(const CloudArguments& arguments);
 [[nodiscard]] int execute(const LookAheadArguments& arguments);
 
 }  // namespace penumbra::app

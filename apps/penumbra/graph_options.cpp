@@ -158,9 +158,10 @@ void add_live(CLI::App& app, LiveArguments& live) {
   add_number(app, "--duration", "end after so many seconds; default: never", "S", live.duration,
              0.0, longest_duration);
   add_text(app, "--summary", "write at the end what became of all images", "JSON", live.summary);
-  add_server(app, live.server,
-             "serve the viewer's page there; with several cameras, each further page gets the next "
-             "port; 0: any free port; default: no page");
+  add_server(
+      app, live.server,
+      "serve the viewer's page there; of several cameras and clouds, each further one gets the "
+      "next port; 0: any free port; default: no page");
   add_graph(app, live);
   add_session(app, live.session, "collision");
   add_bag(app, live.session.input.bag,
@@ -169,12 +170,8 @@ void add_live(CLI::App& app, LiveArguments& live) {
 
 void check_live(const CLI::App& /*app*/, const LiveArguments& live) {
   check_renderer(live.session.backend, live.session.renderer);
-  if (live.server.address && !live.server.port)
-    throw InputError("--address: belongs to the page that --port serves; give --port, too");
+  check_server(live.server);
   const io::BagOptions& topics = live.session.input.bag;
-  const bool has_camera = !live.cameras.empty() || topics.depth_topic;
-  if (live.server.port && !live.clouds.empty() && !has_camera)
-    throw InputError("--port: the page shows cameras, and with --cloud they must be named");
   if (live.cameras.empty() && live.clouds.empty()) return;
   if (!live.cameras.empty() && topics.depth_topic)
     throw InputError("--depth-topic: --camera is given too; leave one of them out");

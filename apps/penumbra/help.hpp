@@ -205,7 +205,8 @@ Examples:
   penumbra cloud walk.mcap -o walk_clean.mcap --sensor ouster_os1
   penumbra cloud bag.mcap -o clean.mcap --topic /scan --removed-ranges inf
   penumbra cloud scans -o clean
-  penumbra cloud scans -o labelled --label)";
+  penumbra cloud scans -o labelled --label
+  penumbra cloud walk.mcap --port 8470        # shows the labels, and writes nothing)";
 
 inline constexpr const char* topics_examples = R"(
 Lists what other programs publish and subscribe to, with QoS. Programs whose QoS or type differ do

@@ -21,11 +21,11 @@ const char* level_of(const Status& status) {
 
 }  // namespace
 
-/// One camera's page.
+/// The page of a camera, or of a sensor that measures points.
 class LivePages::Page final : public io::FrameWatcher {
  public:
-  Page(const std::string& input, const io::WebOptions& options)
-      : view_(input), server_(options, view_) {}
+  Page(const std::string& input, bool of_clouds, const io::WebOptions& options)
+      : view_(input, of_clouds), server_(options, view_) {}
 
   [[nodiscard]] std::string url() const { return server_.url(); }
   void set_note(std::string note) { note_ = std::move(note); }
@@ -36,7 +36,11 @@ class LivePages::Page final : public io::FrameWatcher {
     if (view_.show(job, depth, report, drift, io::LiveRunner::steady_now())) server_.wake();
   }
 
-  /// `statuses`: the robot's, if there is one, and the camera's.
+  void take_cloud(const io::ReceivedCloud& cloud, const CloudReport& report) override {
+    if (view_.show(cloud, report, io::LiveRunner::steady_now())) server_.wake();
+  }
+
+  /// `statuses`: the robot's and the sensor's, or that of a camera that is searched.
   void publish(const std::vector<const Status*>& statuses) {
     std::vector<io::LiveView::Diagnostic> diagnostics;
     diagnostics.reserve(statuses.size());
@@ -51,20 +55,21 @@ class LivePages::Page final : public io::FrameWatcher {
  private:
   io::LiveView view_;
   io::WebServer server_;
-  std::string note_;  // what this camera lacks from the start
+  std::string note_;  // what this sensor lacks from the start
 };
 
 LivePages::LivePages(const LiveArguments& arguments, int domain) {
   if (!arguments.server.port) return;
   io::WebOptions options = web_options(arguments.server);
-  std::vector<std::string> cameras;
-  for (const auto& camera : arguments.cameras) cameras.push_back(", " + camera.name);
-  if (cameras.empty()) cameras.emplace_back();
-  for (const std::string& camera : cameras) {
-    const std::string input = "live, domain " + std::to_string(domain) + camera;
-    pages_.push_back(std::make_unique<Page>(input, options));
+  const auto add = [&](const std::string& sensor, bool of_clouds) {
+    const std::string input = "live, domain " + std::to_string(domain) + sensor;
+    pages_.push_back(std::make_unique<Page>(input, of_clouds, options));
     if (options.port > 0) ++options.port;
-  }
+  };
+  for (const auto& camera : arguments.cameras) add(", " + camera.name, false);
+  const bool has_depth_topic = arguments.session.input.bag.depth_topic.has_value();
+  if (arguments.cameras.empty() && (has_depth_topic || arguments.clouds.empty())) add("", false);
+  for (const io::CloudInputOptions& cloud : arguments.clouds) add(", " + cloud.topic, true);
 }
 
 LivePages::~LivePages() = default;
@@ -76,6 +81,10 @@ void LivePages::print() const {
 
 void LivePages::watch(io::LiveRunner& runner, const std::vector<io::CameraInputOptions>& cameras) {
   for (std::size_t i = 0; i < pages_.size(); ++i) {
+    if (i >= cameras.size()) {
+      runner.watch_cloud(i - cameras.size(), *pages_[i]);
+      continue;
+    }
     runner.watch(i, *pages_[i]);
     if (cameras[i].color_topic.empty())
       pages_[i]->set_note("color: no color images were found; --color-topic names them");
@@ -83,16 +92,10 @@ void LivePages::watch(io::LiveRunner& runner, const std::vector<io::CameraInputO
 }
 
 void LivePages::publish(const io::DiagnosticArrayMessage& message) {
-  // The robot's, those of the cameras and of clouds, or the one of a camera that is searched.
-  const std::size_t first_camera = message.status.size() > 1 ? 1 : 0;
-  for (std::size_t i = 0; i < pages_.size(); ++i) {
-    std::vector<const Status*> statuses;
-    for (std::size_t s = 0; s < message.status.size(); ++s)
-      if (s < first_camera || s >= first_camera + pages_.size())
-        statuses.push_back(&message.status[s]);
-    statuses.push_back(&message.status[first_camera + i]);
-    pages_[i]->publish(statuses);
-  }
+  if (pages_.empty()) return;
+  if (message.status.size() == 1) return pages_.front()->publish({&message.status.front()});
+  for (std::size_t i = 0; i < pages_.size(); ++i)
+    pages_[i]->publish({&message.status.front(), &message.status[1 + i]});
 }
 
 bool LivePages::need_color() const {

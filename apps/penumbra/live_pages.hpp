@@ -10,7 +10,8 @@
 
 namespace penumbra::app {
 
-/// The viewer's pages of `penumbra live`: one for each camera with `--port`, none without.
+/// The viewer's pages of `penumbra live`: one for each camera, then one for each sensor of clouds,
+/// with `--port`; none without.
 class LivePages {
  public:
   /// Serves them. Throws InputError as io::WebServer.
@@ -25,7 +26,7 @@ class LivePages {
   /// Shows the frames that `runner` judges. Must outlive its threads.
   void watch(io::LiveRunner& runner, const std::vector<io::CameraInputOptions>& cameras);
 
-  /// Shows statuses as LiveDiagnostics reports them: the cameras' are the last ones.
+  /// Shows statuses as LiveDiagnostics reports them.
   void publish(const io::DiagnosticArrayMessage& message);
 
   /// Returns whether a page needs colour images.

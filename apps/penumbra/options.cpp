@@ -38,6 +38,11 @@ void add_server(CLI::App& app, ServerArguments& server, const std::string& port_
            "IP", server.address);
 }
 
+void check_server(const ServerArguments& server) {
+  if (server.address && !server.port)
+    throw InputError("--address: belongs to the page that --port serves; give --port, too");
+}
+
 void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& packages) {
   const auto take = [&packages](const std::string& text) {
     const auto [name, folder] = to_pair("--package", text, "NAME=DIR");

@@ -118,6 +118,8 @@ void add_geometry(CLI::App& app, To& geometry, const std::string& default_name) 
 
 /// --port and --address. `port_help`: the meaning of --port.
 void add_server(CLI::App& app, ServerArguments& server, const std::string& port_help);
+/// Throws InputError for an address without a port.
+void check_server(const ServerArguments& server);
 
 /// Texts in the help of a bag's options.
 struct BagHelp {
@@ -170,14 +172,14 @@ void add_calibrate(CLI::App& app, CalibrateArguments& calibrate);
 void add_view(CLI::App& app, ViewArguments& view);
 void add_view_planning(CLI::App& app, ViewPlanningArguments& planning);
 void add_look_ahead(CLI::App& app, LookAheadArguments& ahead);
-void add_cloud(CLI::App& app, io::CloudRunOptions& cloud);
+void add_cloud(CLI::App& app, CloudArguments& arguments);
 void add_topics(CLI::App& app, TopicsArguments& topics);
 void add_play(CLI::App& app, PlayArguments& play);
 void add_live(CLI::App& app, LiveArguments& live);
 
 // Each refuses options of its command that exclude each other, and derives the rest from them.
 void check_run(const CLI::App& app, RunArguments& run);
-void check_cloud(const CLI::App& app, io::CloudRunOptions& cloud);
+void check_cloud(const CLI::App& app, CloudArguments& arguments);
 void check_tune(const CLI::App& app, TuneArguments& tune);
 void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate);
 void check_view(const CLI::App& app, ViewArguments& view);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <io/cloud/cloud_json-inl.hpp>
 #include <io/cloud/cloud_summary.hpp>
 
 namespace penumbra::io {
@@ -50,6 +51,25 @@ std::vector<std::string> CloudSummary::notes() const {
                       ", the first: " + messages.at(status));
   for (const std::string& line : warnings()) lines.push_back(name + ": " + line);
   return lines;
+}
+
+Json counts_by_label(const std::array<std::size_t, label_count>& points) {
+  Json counts;
+  for (std::size_t i = 0; i < label_count; ++i)
+    counts[std::string(point_label_names[i])] = points[i];
+  return counts;
+}
+
+Json cloud_frame_json(const CloudReport& report, std::uint64_t index, const std::string& fault) {
+  Json targets = Json::array();
+  for (const TargetReport& target : report.targets) targets.push_back(target_json(target));
+  return {{"index", index},
+          {"stamp_ns", or_null(report.stamp)},
+          {"status", to_string(report.status)},
+          {"message", or_null(fault.empty() ? report.message : fault)},
+          {"parts", report.parts},
+          {"points", counts_by_label(report.points)},
+          {"targets", std::move(targets)}};
 }
 
 }  // namespace penumbra::io

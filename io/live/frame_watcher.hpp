@@ -6,10 +6,11 @@
 #include <penumbra/pipeline/frame.hpp>
 
 #include <io/assembly/assembled_frame.hpp>
+#include <io/assembly/cloud_input.hpp>
 
 namespace penumbra::io {
 
-/// Receives the judged frames of a camera.
+/// Receives the judged frames of a camera, or the labelled scans of a sensor.
 class FrameWatcher {
  public:
   FrameWatcher() = default;
@@ -26,6 +27,8 @@ class FrameWatcher {
   /// during the call only.
   virtual void take(const AssembledFrame& job, const DepthView& depth, const FrameReport& report,
                     const Drift& drift) = 0;
+  /// Receives a scan, likewise; does nothing for whoever watches cameras only.
+  virtual void take_cloud(const ReceivedCloud& /*cloud*/, const CloudReport& /*report*/) {}
 };
 
 }  // namespace penumbra::io

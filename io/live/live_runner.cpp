@@ -223,6 +223,7 @@ void LiveRunner::label(std::size_t number) {
         outcome.message = report->message;
         if (!cloud->is_again) publish(*cloud, *report, options.output, self);
         publish_targets(*cloud, *report, self);
+        if (self.watcher != nullptr && !cloud->is_again) self.watcher->take_cloud(*cloud, *report);
         outcome.is_published = true;
       } catch (const InputError& error) {
         outcome.fault = error.what();

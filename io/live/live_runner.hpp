@@ -71,6 +71,9 @@ class LiveRunner {
   /// start().
   void watch(std::size_t camera, FrameWatcher& watcher) { cameras_[camera].watcher = &watcher; }
 
+  /// Hands the sensor's scans to `watcher`, likewise.
+  void watch_cloud(std::size_t cloud, FrameWatcher& watcher) { clouds_[cloud].watcher = &watcher; }
+
   /// Hands the targets of all cameras to `fusion`, which must outlive the threads. Call it before
   /// start().
   void fuse(LiveFusion& fusion) { fusion_ = &fusion; }
@@ -116,6 +119,7 @@ class LiveRunner {
   };
   struct CloudThread {
     CloudSink* sink = nullptr;
+    FrameWatcher* watcher = nullptr;
     std::vector<std::byte> data, payload;
     std::thread thread;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <io/files/json-inl.hpp>
+#include <io/cloud/cloud_json-inl.hpp>
 #include <io/live/live_summary.hpp>
 
 namespace penumbra::io {
@@ -55,12 +55,9 @@ Json camera_json(const LiveInbox& inbox, std::size_t number, const WrittenResult
 Json cloud_json(const LiveInbox& inbox, std::size_t number) {
   const CloudInput& cloud = inbox.cloud(number);
   const CloudTally& tally = inbox.cloud_tally(number);
-  Json points = Json::object();
-  for (std::size_t i = 0; i < label_count; ++i)
-    points[std::string(point_label_names[i])] = tally.all.points[i];
   Json result{{"topic", cloud.options().topic}};
   result.update(counts_json(cloud.counts(), tally));
-  result.update({{"points", points},
+  result.update({{"points", counts_by_label(tally.all.points)},
                  {"most_poses_of_a_scan", tally.all.parts},
                  {"times", or_null(tally.all.time_note)},
                  {"targets_without_cloud", cloud.late_targets()},

@@ -13,8 +13,8 @@
 #include <io/assembly/cloud_worker.hpp>
 #include <io/assembly/frame_assembler.hpp>
 #include <io/cloud/cloud_file.hpp>
+#include <io/cloud/cloud_json-inl.hpp>
 #include <io/files/frame_reader.hpp>
-#include <io/files/json-inl.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/files/targets_file.hpp>
@@ -46,13 +46,6 @@ const CloudReport& timed(CloudSummary& summary, const std::string& fault, const 
   summary.add(report, fault,
               std::chrono::duration<double, std::milli>(Clock::now() - start).count());
   return report;
-}
-
-Json points_json(const CloudReport& report) {
-  Json points;
-  for (std::size_t i = 0; i < label_count; ++i)
-    points[std::string(point_label_names[i])] = report.points[i];
-  return points;
 }
 
 /// Measures the rule in some of a sensor's clouds: enough, and not all of one moment.
@@ -162,16 +155,10 @@ void RecordedRun::label(const JointRow& row, CloudSummary& summary) {
   const CloudReport& report =
       timed(summary, fault, [&]() -> const CloudReport& { return pipeline_.process(scan, pose); });
   if (summary.time_note.empty()) summary.time_note = points.time_note;
-  Json judged = Json::array();
-  for (const TargetReport& target : report.targets) judged.push_back(target_json(target));
-  clouds_.push_back({{"index", row.index},
-                     {"stamp", or_null(row.stamp)},
-                     {"status", to_string(report.status)},
-                     {"message", fault.empty() ? report.message : fault},
-                     {"parts", report.parts},
-                     {"points", points_json(report)},
-                     {"targets", std::move(judged)}});
-  if (!fault.empty()) return;
+  const auto index = static_cast<std::uint64_t>(row.index);
+  clouds_.push_back(cloud_frame_json(report, index, fault));
+  if (options_.watcher != nullptr) options_.watcher->take(0, index, points.points, report, fault);
+  if (!fault.empty() || options_.output.empty()) return;
   std::vector<std::byte> data;
   const PointCloud2Message out = cloud_output(stored.cloud, report, options_.how, data);
   write_cloud(options_.output / clouds_folder / file.filename(), out);
@@ -180,6 +167,7 @@ void RecordedRun::label(const JointRow& row, CloudSummary& summary) {
 void RecordedRun::label_all(const std::function<bool()>& go_on, CloudRunResult& result) {
   CloudSummary& summary = result.sensors.emplace_back();
   summary.name = recording_.clouds.file(0).parent_path().filename().string();
+  if (options_.watcher != nullptr) options_.watcher->begin(robot_, {&summary.name, 1});
   for (const JointRow& row : rows_) {
     const std::int64_t first = options_.input.frames.first.value_or(0);
     if (row.index < first || (options_.input.frames.end && row.index >= *options_.input.frames.end))
@@ -201,6 +189,10 @@ CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
     tuner_.emplace(SensorTuner{CloudTuner(changed_rule(recording_.rule, options_))});
     label_all(go_on, result);
     result.tunings.push_back(tuner_->tuner.result());
+    return result;
+  }
+  if (options_.output.empty()) {
+    label_all(go_on, result);
     return result;
   }
   const std::filesystem::path clouds = options_.output / clouds_folder;
@@ -285,7 +277,7 @@ BagRun::BagRun(const CloudRunOptions& options, const BagClouds& clouds)
     workers_.emplace_back(input);
     if (options.tune) tuners_.push_back({CloudTuner(input.rule)});
   }
-  if (!options.tune) {
+  if (!options.output.empty()) {
     pending_.emplace(options.output);
     writer_.emplace(pending_->part(), mcap::WriterOptions{.profile = "ros2"});
   }
@@ -293,9 +285,12 @@ BagRun::BagRun(const CloudRunOptions& options, const BagClouds& clouds)
     return writer_->add_channel(
         topic, "cdr", writer_->add_schema(type, "ros2msg", std::string(definition_of(type))));
   };
+  std::vector<std::string> names;
+  for (const TopicUse& use : clouds.topics.clouds)
+    names.push_back(result_.sensors.emplace_back().name = use.name);
+  if (options.watcher != nullptr) options.watcher->begin(clouds.robot, names);
+  if (!writer_) return;
   for (const TopicUse& use : clouds.topics.clouds) {
-    result_.sensors.emplace_back().name = use.name;
-    if (!writer_) continue;
     channels_.push_back(channel("/penumbra" + use.name, use.type));
     if (!clouds.topics.targets.empty())
       target_channels_.push_back(
@@ -322,7 +317,11 @@ const CloudReport& BagRun::write(std::size_t sensor, const ReceivedCloud& cloud)
     return workers_[sensor].label(cloud);
   });
   if (summary.time_note.empty()) summary.time_note = cloud.points.time_note;
-  if (report.labels.empty() && !cloud.source_message.empty()) return report;  // unreadable
+  if (options_.watcher != nullptr)
+    options_.watcher->take(sensor, summary.clouds - 1, cloud.points.points, report,
+                           cloud.source_message);
+  const bool is_unreadable = report.labels.empty() && !cloud.source_message.empty();
+  if (!writer_ || is_unreadable) return report;
   std::visit(
       [&](const auto& message) {
         encode(cloud_output(message, report, options_.how, data_), payload_);
@@ -335,7 +334,7 @@ const CloudReport& BagRun::write(std::size_t sensor, const ReceivedCloud& cloud)
 
 void BagRun::write_targets(std::size_t sensor, const ReceivedCloud& cloud,
                            const CloudReport& report, std::int64_t now) {
-  if (cloud.targets.empty()) return;
+  if (!writer_ || cloud.targets.empty()) return;
   encode(targets_message(report, cloud.header.frame_id, report.links.front()), payload_);
   writer_->write(target_channels_[sensor], now, std::max<std::int64_t>(0, cloud.header.stamp),
                  static_cast<std::uint32_t>(++target_messages_), payload_);
@@ -395,11 +394,11 @@ CloudRunResult BagRun::run(const std::function<bool()>& go_on) {
 
 CloudRunResult run_clouds(const CloudRunOptions& options, const LineSink& print,
                           const std::function<bool()>& go_on) {
-  if (!options.tune) check_output_place(options.input.path, options.output);
+  if (!options.output.empty()) check_output_place(options.input.path, options.output);
   if (is_bag(options.input.path)) {
     if (options.input.frames.first || options.input.frames.end)
       throw InputError("--frames: is for recording folders; leave it out");
-    if (!options.tune && !is_output_bag(options.output))
+    if (!options.output.empty() && !is_output_bag(options.output))
       throw InputError("--output: " + options.output.string() +
                        " is no bag, and the clouds of a bag are written into one; name it *.mcap");
     const BagClouds clouds = open_bag_clouds(options.input, print);

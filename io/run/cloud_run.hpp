@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,10 +23,27 @@
 
 namespace penumbra::io {
 
+/// Receives what run_clouds() labels, in its thread.
+class CloudWatcher {
+ public:
+  CloudWatcher() = default;
+  CloudWatcher(const CloudWatcher&) = delete;
+  CloudWatcher& operator=(const CloudWatcher&) = delete;
+  virtual ~CloudWatcher() = default;
+
+  /// Called once, before clouds. `sensors`: their names.
+  virtual void begin(const Robot& robot, std::span<const std::string> sensors) = 0;
+  /// `index`: of the sensor's clouds. `fault`: why this one is not labelled, if not empty.
+  /// Arguments are valid during the call only.
+  virtual void take(std::size_t sensor, std::uint64_t index, const PointsView& points,
+                    const CloudReport& report, const std::string& fault) = 0;
+};
+
 struct CloudRunOptions {
-  InputOptions input;  ///< a recording folder with `frames.cloud`, or a bag
-  std::filesystem::path output;
-  bool tune = false;  ///< measure the sensors' rules, and write nothing; `output` is not used
+  InputOptions input;               ///< a recording folder with `frames.cloud`, or a bag
+  std::filesystem::path output;     ///< empty: write nothing
+  CloudWatcher* watcher = nullptr;  ///< must outlive the run; null: nobody watches
+  bool tune = false;                ///< measure the sensors' rules, without output and watcher
   /// What options change of the recording's rule, or of the default, in their order.
   std::vector<std::function<void(CloudRule&)>> rule_changes;
   CloudOutput how;

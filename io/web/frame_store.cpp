@@ -3,6 +3,7 @@
 #include <cstring>
 #include <utility>
 
+#include <io/cloud/cloud_json-inl.hpp>
 #include <io/files/image_size.hpp>
 #include <io/files/jpeg.hpp>
 #include <io/files/json-inl.hpp>
@@ -55,15 +56,31 @@ void FrameStore::save(const FrameReport& report, const Frame& frame, const Shown
       marks_json(target_overlay_.marks(targets.targets, report, targets.robot, targets.camera));
   entry.poses = spool_.append(std::as_bytes(std::span(poses)), true);
   add_images(report, frame, entry);
+  add(entry, text);
+  if (frame.color_message.empty()) return;
+  const std::lock_guard lock(mutex_);
+  if (without_color_++ == 0) first_without_color_ = frame.color_message;
+}
 
+void FrameStore::save_scan(const PointsView& points, const CloudReport& report, std::uint64_t index,
+                           const std::string& fault) {
+  Entry entry;
+  const std::string poses = poses_json(report.T_sensor_link, report.T_sensor_link.size());
+  entry.poses = spool_.append(std::as_bytes(std::span(poses)), true);
+  const PartBytes cloud = cloud_part(points, report.labels);
+  entry.parts[static_cast<std::size_t>(Part::cloud)] = {
+      spool_.append(std::as_bytes(std::span(*cloud.bytes)), true), "xyzlrgb", cloud.width,
+      cloud.height};
+  add(entry, json_text(cloud_frame_json(report, index, fault)));
+}
+
+void FrameStore::add(Entry entry, const std::string& text) {
   const std::lock_guard lock(mutex_);
   text_ += entries_.empty() ? "\n" : ",\n";
   entry.report_offset = text_.size();
   entry.report_size = text.size();
   text_ += text;
   entries_.push_back(entry);
-  if (frame.color_message.empty()) return;
-  if (without_color_++ == 0) first_without_color_ = frame.color_message;
 }
 
 void FrameStore::add_images(const FrameReport& report, const Frame& frame, Entry& entry) {

@@ -15,8 +15,9 @@
 
 namespace penumbra::io {
 
-/// Keeps frames as they are judged: the report in memory, the images compressed in a temporary
-/// file, so that recordings may be longer than the memory, and bags can be shown in any order.
+/// Keeps frames as they are judged, or scans: the report in memory, the images compressed in a
+/// temporary file, so that recordings may be longer than the memory, and bags can be shown in any
+/// order.
 class FrameStore final : public FrameArchive, public RunOutput {
  public:
   /// `rectification` converts recorded images to the geometry of the report's; null if they have it
@@ -27,6 +28,9 @@ class FrameStore final : public FrameArchive, public RunOutput {
   void begin(const ReportHead& head) override;
   void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
+  /// Keeps a labelled scan in place of a frame. `fault`: see cloud_frame_json().
+  void save_scan(const PointsView& points, const CloudReport& report, std::uint64_t index,
+                 const std::string& fault);
 
   // Any thread may call these.
   [[nodiscard]] std::size_t size() const override;
@@ -53,6 +57,7 @@ class FrameStore final : public FrameArchive, public RunOutput {
   [[nodiscard]] Kept keep_depth(const DepthView& depth);
   [[nodiscard]] Kept keep_color(const Frame& frame);
   void add_images(const FrameReport& report, const Frame& frame, Entry& entry);
+  void add(Entry entry, const std::string& text);
 
   const Rectification* rectification_;
   TargetOverlay target_overlay_;

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include <io/cloud/cloud_json-inl.hpp>
 #include <io/files/image_size.hpp>
 #include <io/files/jpeg.hpp>
 #include <io/files/report_json.hpp>
@@ -41,9 +42,10 @@ const Scene& LiveScene::drawn() const {
   return *drawn_;
 }
 
-const PacketCloud& LiveScene::cloud() const {
-  std::call_once(cloud_once_, [this] { cloud_.emplace(camera); });
-  return *cloud_;
+const PacketCloud* LiveScene::cloud() const {
+  if (!camera) return nullptr;
+  std::call_once(cloud_once_, [this] { cloud_.emplace(*camera); });
+  return &*cloud_;
 }
 
 LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFrame& job,
@@ -53,8 +55,7 @@ LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFram
       index_(report.index),
       stamp_(job.stamp.value_or(0)),
       report_(report_frame(report)),
-      T_root_camera_(report.T_root_camera),
-      T_root_link_(report.T_root_link.begin(), report.T_root_link.end()) {
+      poses_(poses_json(report.T_root_link, report.T_root_camera, scene_->robot().links().size())) {
   const auto keeps = [&](Part part) { return kept[static_cast<std::size_t>(part)]; };
   if (keeps(Part::labels)) labels_ = part_of(report.labels, "u8");
   if (keeps(Part::links)) links_ = part_of(report.virtual_depth.links, "u16");
@@ -64,9 +65,20 @@ LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFram
   if (keeps(Part::color)) raw_color_ = job.color_image;
 }
 
+LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const ReceivedCloud& cloud,
+                     const CloudReport& report, std::uint64_t index, const PartSet& kept)
+    : scene_(std::move(scene)),
+      kept_(kept),
+      index_(index),
+      stamp_(cloud.header.stamp),
+      report_(json_text(cloud_frame_json(report, index, cloud.source_message))),
+      poses_(poses_json(report.T_sensor_link, scene_->robot().links().size())) {
+  if (kept[static_cast<std::size_t>(Part::cloud)])
+    scan_ = cloud_part(cloud.points.points, report.labels);
+}
+
 PacketFrame LiveFrame::packet_frame() const {
-  return {report_, poses_json(T_root_link_, T_root_camera_, scene_->robot().links().size()),
-          [this](Part kind) { return part(kind); }};
+  return {report_, poses_, [this](Part kind) { return part(kind); }};
 }
 
 std::optional<PartBytes> LiveFrame::part(Part part) const {
@@ -83,6 +95,8 @@ std::optional<PartBytes> LiveFrame::part(Part part) const {
     case Part::depth:
       std::call_once(depth_once_, [this] { convert_depth(); });
       return depth_;
+    case Part::cloud:
+      return scan_;
     default:
       return std::nullopt;
   }
@@ -90,7 +104,7 @@ std::optional<PartBytes> LiveFrame::part(Part part) const {
 
 void LiveFrame::decode_color() const {
   auto pixels = std::make_shared<Image<Rgb8>>();
-  if (!raw_color_ || !io::decode_color(*raw_color_, scene_->camera, *pixels).empty()) return;
+  if (!raw_color_ || !io::decode_color(*raw_color_, *scene_->camera, *pixels).empty()) return;
   color_ = {"image/jpeg", pixels->width(), pixels->height(), {}, pixels};
   if (raw_color_->compressed && is_jpeg(raw_color_->compressed->data)) {
     color_->bytes = shared_bytes(text_of(raw_color_->compressed->data));

@@ -8,11 +8,9 @@
 #include <optional>
 #include <string>
 #include <variant>
-#include <vector>
-
-#include <Eigen/Geometry>
 
 #include <io/assembly/assembled_frame.hpp>
+#include <io/assembly/cloud_input.hpp>
 #include <io/web/packet.hpp>
 #include <io/web/scene.hpp>
 
@@ -21,20 +19,21 @@ namespace penumbra::io {
 /// A set of parts, by Part.
 using PartSet = std::bitset<part_count>;
 
-/// The robot and the camera of a CameraSetup, in the form that pages show. Thread-safe.
+/// The robot and the camera of a setup, in the form that pages show. Thread-safe.
 class LiveScene {
  public:
   LiveScene(const CameraSetup& setup, std::uint64_t number)
       : version(number), camera(setup.cameras.judged), posed_(setup.posed) {}
+  LiveScene(const CloudSetup& setup, std::uint64_t number) : version(number), posed_(setup.posed) {}
 
   [[nodiscard]] const Robot& robot() const { return posed_->robot; }
   /// Returns the robot's triangles, collected at the first call.
   [[nodiscard]] const Scene& drawn() const;
-  /// Returns the camera's rays, computed at the first call.
-  [[nodiscard]] const PacketCloud& cloud() const;
+  /// Returns the camera's rays, computed at the first call; null without a camera.
+  [[nodiscard]] const PacketCloud* cloud() const;
 
   const std::uint64_t version;
-  const Camera camera;
+  const std::optional<Camera> camera;  ///< nothing: of a sensor that measures points
 
  private:
   std::shared_ptr<const PosedRobot> posed_;
@@ -43,13 +42,16 @@ class LiveScene {
   mutable std::optional<PacketCloud> cloud_;
 };
 
-/// The parts of a judged frame that pages need. Colour is decoded and depth converted to metres on
-/// demand.
+/// The parts of a judged frame, or of a labelled scan, that pages need. Colour is decoded and depth
+/// converted to metres on demand.
 class LiveFrame {
  public:
   /// Copies the parts in `kept`.
   LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFrame& job,
             const DepthView& depth, const FrameReport& report, const PartSet& kept);
+  /// `index`: of the scan.
+  LiveFrame(std::shared_ptr<const LiveScene> scene, const ReceivedCloud& cloud,
+            const CloudReport& report, std::uint64_t index, const PartSet& kept);
 
   /// Returns the frame for packets. This must outlive it.
   [[nodiscard]] PacketFrame packet_frame() const;
@@ -69,10 +71,8 @@ class LiveFrame {
   const PartSet kept_;
   const std::uint64_t index_;
   const std::int64_t stamp_;
-  const std::string report_;
-  const std::optional<Eigen::Isometry3d> T_root_camera_;
-  const std::vector<Eigen::Isometry3d> T_root_link_;
-  std::optional<PartBytes> labels_, links_, virtual_depth_;
+  const std::string report_, poses_;
+  std::optional<PartBytes> labels_, links_, virtual_depth_, scan_;
   std::variant<Image<std::uint16_t>, Image<float>> raw_depth_;
   std::optional<KeptImage> raw_color_;
 

@@ -16,23 +16,26 @@
 
 namespace penumbra::io {
 
-/// Serves the page and the frames of a camera that is judged live. Each client gets the newest
-/// frame when it is ready for one. Any thread may call all members. The mutex is held only while
-/// pointers and texts are copied, so the judging thread never waits for a client.
+/// Serves the page and the frames of a camera, or the scans of a sensor, that are judged live. Each
+/// client gets the newest one when it is ready for it. Any thread may call all members. The mutex
+/// is held only while pointers and texts are copied, so the judging thread never waits for a
+/// client.
 class LiveView final : public WebHandler {
  public:
   struct Diagnostic {
     std::string level, message;
   };
 
-  /// `input`: the name of the input, which the page shows.
-  explicit LiveView(std::string input);
+  /// `input`: its name, which the page shows. `of_clouds`: a sensor's that measures points.
+  explicit LiveView(std::string input, bool of_clouds = false);
 
   /// Takes the newest frame, like FrameWatcher::take. Copies only the parts that clients want, and
   /// nothing without a client. Returns whether clients have to be woken. `now`: nanoseconds of a
   /// steady clock.
   bool show(const AssembledFrame& job, const DepthView& depth, const FrameReport& report,
             const Drift& drift, std::int64_t now);
+  /// Takes the newest scan, likewise.
+  bool show(const ReceivedCloud& cloud, const CloudReport& report, std::int64_t now);
   /// Sets the diagnostics of `penumbra live` and the list of missing data.
   void set_diagnostics(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing);
 
@@ -53,16 +56,21 @@ class LiveView final : public WebHandler {
     std::vector<Diagnostic> diagnostics;
     std::vector<std::string> missing;
   };
+  template <typename Setup, typename MakeFrame>
+  bool show(const std::shared_ptr<Setup>& setup, const Drift& drift, std::int64_t now,
+            const MakeFrame& make_frame);
   [[nodiscard]] Moment now() const;
   [[nodiscard]] std::string session() const;
   [[nodiscard]] Scene scene() const;
 
   const std::string input_;
+  const bool of_clouds_;
+  std::uint64_t scans_ = 0;  // their number so far; used by show() only
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveFrame> frame_;  // null without a client
   std::deque<std::int64_t> judged_at_;      // in the last two seconds, at least two
   Drift drift_;                             // of the newest frame
-  std::weak_ptr<const CameraSetup> setup_;  // the setup of scene_
+  std::weak_ptr<const void> setup_;         // the setup of scene_
   std::shared_ptr<const LiveScene> scene_;
   std::vector<Diagnostic> diagnostics_;
   std::vector<std::string> missing_;

@@ -65,6 +65,21 @@ std::optional<Wanted> parse_wanted(std::string_view parts, std::string_view step
   return wanted;
 }
 
+PartBytes cloud_part(const PointsView& points, std::span<const std::uint8_t> labels) {
+  constexpr std::size_t most = 100'000;
+  const std::size_t step = points.count / most + 1;
+  std::string bytes;
+  bytes.reserve(sizeof(Point) * (points.count / step + 1));
+  for (std::size_t i = 0; i < points.count; i += step) {
+    const Eigen::Vector3f& p = points[i];
+    if (!p.allFinite()) continue;
+    const Point point{{p.x(), p.y(), p.z()}, labels[i], no_color};
+    bytes.append(reinterpret_cast<const char*>(&point), sizeof point);
+  }
+  const int count = static_cast<int>(bytes.size() / sizeof(Point));
+  return {"xyzlrgb", count, 1, shared_bytes(std::move(bytes))};
+}
+
 PacketCloud::PacketCloud(const Camera& camera)
     : width_(camera.intrinsics.width()), height_(camera.intrinsics.height()) {
   rays_.reserve(2 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
@@ -111,11 +126,8 @@ std::vector<SharedBytes> make_packet(const PacketFrame& frame, const Wanted& wan
   std::vector<SharedBytes> packet(1);
   std::string parts;
   for (const Part kind : wanted.parts) {
-    std::optional<PartBytes> part;
-    if (kind != Part::cloud)
-      part = frame.part(kind);
-    else if (cloud != nullptr)
-      part = cloud->make(frame, wanted.step);
+    std::optional<PartBytes> part = frame.part(kind);
+    if (kind == Part::cloud && cloud != nullptr) part = cloud->make(frame, wanted.step);
     if (!part) continue;
     parts += (parts.empty() ? "" : ", ") + std::string("{\"name\": \"") +
              std::string(to_string(kind)) + "\", \"type\": \"" + part->type +

@@ -4,12 +4,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
+#include <penumbra/cloud/cloud_labels.hpp>
 
 #include <io/files/png.hpp>
 #include <io/web/web_types.hpp>
@@ -43,11 +45,12 @@ struct PartBytes {
   std::shared_ptr<const Image<Rgb8>> pixels = {};  ///< of Part::color, if it is decoded already
 };
 
-/// A judged frame.
+/// A judged frame, or a labelled scan.
 struct PacketFrame {
-  std::string report;  ///< the frame's object in report.json
+  std::string report;  ///< its object in report.json
   std::string poses;   ///< of poses_json(), and "marks": [...] where targets can be outlined
-  /// Returns a part other than Part::cloud, or nothing if the frame does not have it.
+  /// Returns a part, or nothing if the frame does not have it. Only scans have Part::cloud; that of
+  /// a depth image is made of its other parts.
   std::function<std::optional<PartBytes>(Part)> part;
 };
 
@@ -70,6 +73,10 @@ class FrameArchive {
   /// Returns what cannot be shown and the command that provides it, one sentence each.
   [[nodiscard]] virtual std::vector<std::string> missing() const = 0;
 };
+
+/// Returns the measured points of a scan as Part::cloud, without colour; of more than 100,000 a
+/// part, evenly.
+[[nodiscard]] PartBytes cloud_part(const PointsView& points, std::span<const std::uint8_t> labels);
 
 /// Makes point clouds of depth images. Thread-safe.
 class PacketCloud {
@@ -95,7 +102,8 @@ void fill_metres(ImageView<const T> from, Image<float>& to) {
     for (int u = 0; u < from.width; ++u) to(u, v) = metres_of(from(u, v));
 }
 
-/// Returns a frame's packet: the length of the JSON, the JSON, the parts. `cloud` may be null.
+/// Returns a frame's packet: the length of the JSON, the JSON, the parts. `cloud`: of a frame with
+/// depth images, or null.
 /// `more` is added to the JSON: empty, or ", " and members.
 [[nodiscard]] std::vector<SharedBytes> make_packet(const PacketFrame& frame, const Wanted& wanted,
                                                    const PacketCloud* cloud,

@@ -32,4 +32,9 @@ struct Scene {
                                      const std::optional<Eigen::Isometry3d>& T_root_camera,
                                      std::size_t links);
 
+/// Returns the same of a scan. `T_sensor_link`: as in CloudReport; "camera_pose" is that of the
+/// points' frame.
+[[nodiscard]] std::string poses_json(std::span<const Eigen::Isometry3d> T_sensor_link,
+                                     std::size_t links);
+
 }  // namespace penumbra::io

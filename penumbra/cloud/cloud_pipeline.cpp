@@ -304,6 +304,8 @@ const CloudReport& CloudPipeline::process(const Scan& scan, const PoseAt& pose_a
   s.report.labels = s.labels;
   s.report.point_links = s.links;
   s.report.links = s.poses.links();
+  if (s.T_sensor_body.size() >= s.robot.links().size())
+    s.report.T_sensor_link = std::span(s.T_sensor_body).first(s.robot.links().size());
   s.judge(scan);
   return s.report;
 }

@@ -62,6 +62,15 @@ TEST_F(CloudBag, LosesTheRobot) {
   });
 }
 
+TEST_F(CloudBag, AsksWhatToDoWithTheLabels) {
+  bag_.write_mcap(path("tiny.mcap"));
+  const std::string bag = path("tiny.mcap");
+  expect_refused(penumbra({"cloud", bag}), {"--output", "--port", "--tune"});
+  expect_refused(penumbra({"cloud", bag, "--tune", "--port", "0"}), {"--tune", "--port"});
+  expect_refused(penumbra({"cloud", bag, "-o", path("c.mcap"), "--address", "0.0.0.0"}),
+                 {"--port, too"});
+}
+
 TEST_F(CloudBag, KeepsAllPointsWithLabelsIfAsked) {
   ASSERT_EQ(cloud({"--label", "--topic", "/points"}).status, 0);
   for_each<io::PointCloud2Message>("/penumbra/points", [](const auto& message) {

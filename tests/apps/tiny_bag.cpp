@@ -118,10 +118,10 @@ void TinyBag::write_sqlite(const std::filesystem::path& file) const {
 
 TinyBag tiny_bag(const std::filesystem::path& folder) {
   TinyBag bag;
-  const std::int64_t start = tiny_stamp(0) - 200 * millisecond;
-  bag.add("/robot_description", start, io::StringMessage{read_file(folder / "tiny.urdf")});
-  bag.add("/tf_static", start, io::TfMessage{{{{0, "base"}, "mount", shift(0.25)}}});
-  bag.add("/tf_static", start + 1, io::TfMessage{{{{0, "mount"}, "optical", shift(-0.25)}}});
+  const std::int64_t before = tiny_stamp(0) - 200 * millisecond;
+  bag.add("/robot_description", before, io::StringMessage{read_file(folder / "tiny.urdf")});
+  bag.add("/tf_static", before, io::TfMessage{{{{0, "base"}, "mount", shift(0.25)}}});
+  bag.add("/tf_static", before + 1, io::TfMessage{{{{0, "mount"}, "optical", shift(-0.25)}}});
   add_joints(bag);
   for (int frame = 0; frame < 3; ++frame) add_frame(bag, frame, folder);
   std::stable_sort(bag.messages.begin(), bag.messages.end(),

@@ -94,6 +94,22 @@ class KeptClouds final : public io::CloudSink {
   std::map<io::CloudResult, std::vector<std::vector<std::byte>>> kept_;
 };
 
+/// Counts the scans that a page would show.
+class ScanWatcher final : public io::FrameWatcher {
+ public:
+  [[nodiscard]] bool wants_color() const override { return false; }
+  void take(const io::AssembledFrame& /*job*/, const DepthView& /*depth*/,
+            const FrameReport& /*report*/, const Drift& /*drift*/) override {
+    ADD_FAILURE() << "there is no camera";
+  }
+  void take_cloud(const io::ReceivedCloud& cloud, const CloudReport& report) override {
+    EXPECT_EQ(report.labels.size(), cloud.points.points.count);
+    EXPECT_TRUE(report.status != FrameStatus::ok || report.T_sensor_link.size() == 2);
+    ++scans;
+  }
+  std::size_t scans = 0;
+};
+
 class LiveClouds : public testing::Test {
  protected:
   void start(const std::string& text = "/points") {
@@ -111,6 +127,7 @@ class LiveClouds : public testing::Test {
           inbox.set_type(i, io::message_type<io::PoseStampedMessage>());
       return true;
     });
+    runner_->watch_cloud(0, watcher_);
     runner_->start();
     say("/robot_description", encoded(io::StringMessage{live_urdf}));
     say("/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
@@ -165,6 +182,7 @@ class LiveClouds : public testing::Test {
 
   io::LiveOptions options_;
   KeptClouds kept_;
+  ScanWatcher watcher_;
   std::vector<io::InputTopic> topics_;
   std::unique_ptr<io::LiveRunner> runner_;
 };
@@ -225,6 +243,7 @@ TEST_F(LiveClouds, JudgeTheTargetsOfTheirStampThatComeLater) {
   ASSERT_FALSE(targets.targets[0].blame.empty());
   EXPECT_EQ(targets.targets[0].blame[0].link, "board");
   EXPECT_EQ(kept_.kept(io::CloudResult::labelled).size(), 3U) << "each cloud comes once";
+  EXPECT_EQ(watcher_.scans, 3U);
 }
 
 TEST_F(LiveClouds, GoOnWithTargetsAfterTheClockJumpedBack) {

@@ -3,11 +3,15 @@
 #include "../io/live_scene.hpp"
 #include "packet.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <memory>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include <io/assembly/cloud_worker.hpp>
 #include <io/files/report_json.hpp>
 #include <io/web/live_view.hpp>
 
@@ -136,6 +140,58 @@ TEST_F(LivePage, AFrameOfBeforeAWishIsNotSent) {
   ASSERT_TRUE(packet);
   EXPECT_TRUE(packet->parts.contains("links"));
   EXPECT_FALSE(packet->parts.contains("vdi"));
+}
+
+io::LiveOptions with_cloud() {
+  io::LiveOptions options;
+  options.clouds = {{.topic = "/points"}};
+  return options;
+}
+
+TEST(LiveScans, ShowTheirPointsWhereTheSensorWas) {
+  LiveBench bench(with_cloud());
+  bench.inbox.set_type(static_cast<std::size_t>(
+                           std::find_if(bench.inbox.topics().begin(), bench.inbox.topics().end(),
+                                        [](const auto& topic) { return topic.name == "/points"; }) -
+                           bench.inbox.topics().begin()),
+                       io::message_type<io::PointCloud2Message>());
+  io::LiveView view("live", true);
+  const auto browser = view.open_channel("/api/live");
+  EXPECT_TRUE(browser->take(R"({"type": "want", "with": ["cloud"]})"));
+  bench.tell_robot();
+  bench.tell_mount();
+  bench.tell_joints(start - 10 * milliseconds);
+  bench.tell_joints(start + 10 * milliseconds);
+  const float nan = std::nanf("");
+  const float points[3][3] = {{0, 0, 0.95F}, {nan, nan, nan}, {1, 0, 3}};  // board, none, wall
+  std::vector<std::byte> data(sizeof points);
+  std::memcpy(data.data(), points, sizeof points);
+  bench.publish("/points", encoded(io::PointCloud2Message{.header = {start, "optical"},
+                                                          .height = 1,
+                                                          .width = 3,
+                                                          .fields = {{"x", 0}, {"y", 4}, {"z", 8}},
+                                                          .point_step = 12,
+                                                          .row_step = sizeof points,
+                                                          .data = data}));
+  const auto cloud = bench.inbox.cloud(0).next(bench.now);
+  ASSERT_TRUE(cloud);
+  io::CloudWorker worker(with_cloud().clouds[0]);
+  EXPECT_TRUE(view.show(*cloud, worker.label(*cloud), start));
+  EXPECT_TRUE(browser->take(R"({"type": "ready"})"));
+  const auto message = browser->next();
+  ASSERT_TRUE(message);
+  std::string bytes;
+  for (const io::SharedBytes& part : *message) bytes += *part;
+  const Packet packet(bytes);
+  EXPECT_EQ(packet.json["frame"]["status"], "ok");
+  EXPECT_EQ(packet.json["frame"]["points"]["occluded"], 1);
+  EXPECT_EQ(packet.json["link_poses"][1][2], 1.0) << "the board";
+  EXPECT_EQ(packet.json["camera_pose"][2], 0.0) << "the sensor is in the base";
+  const std::string& shown = packet.parts.at("cloud");
+  ASSERT_EQ(shown.size(), 2 * 16U);
+  EXPECT_EQ(shown[12], static_cast<char>(Label::occluded));
+  EXPECT_EQ(shown[16 + 12], static_cast<char>(Label::clear));
+  EXPECT_EQ(json::parse(*view.answer({"/api/session", {}}).body.front())["parts"], json({"cloud"}));
 }
 
 io::LiveOptions lenient() {

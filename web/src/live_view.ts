@@ -86,9 +86,9 @@ export class LiveView implements FrameSource {
   private async receive(packet: Packet): Promise<void> {
     const arrived = performance.now();
     this.state.arrived();
-    const { server, camera } = this.viewer.session;
+    const { server } = this.viewer.session;
     const isOther = packet.server !== server;
-    if (isOther || packet.scene_version !== this.sceneVersion || !camera)
+    if (isOther || packet.scene_version !== this.sceneVersion)
       await this.refresh(packet.scene_version, isOther);
     this.frames.push(packet.frame);
     if (this.frames.length > keptFrames) this.frames.shift();

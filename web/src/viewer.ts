@@ -81,6 +81,10 @@ export class Viewer {
   setSession(session: Session): void {
     this.session = session;
     this.scene?.setCamera(session.camera);
+    const isOfScans = session.parts.every((part) => part === 'cloud') && session.parts.length > 0;
+    document.documentElement.classList.toggle('scans', isOfScans);
+    setText(byId('place-button'), isOfScans ? 'Sensor' : 'Camera');
+    if (this.scene) this.scene.isOfScans = isOfScans;
   }
 
   /** The cloud has every step-th pixel of each row and column. */
@@ -233,7 +237,7 @@ export class Viewer {
     setText(byId('frame-number'), String(frame.index));
     byId('frame-details').replaceChildren(
       frameDetails(frame),
-      calibrationDetails(this.calibration),
+      ...(frame.points ? [] : [calibrationDetails(this.calibration)]),
     );
     byId('frame-status').hidden = frame.status === 'ok';
     setText(byId('frame-status'), frame.status);

@@ -55,11 +55,14 @@ export interface FrameReport {
   readonly index: number;
   /** Nanoseconds, as text: more digits than a double holds. */
   readonly stamp_ns: string | null;
-  readonly joint_age_ms: number | null;
+  readonly joint_age_ms?: number | null;
   readonly status: string;
   readonly message?: string | null;
-  readonly pixels: Readonly<Record<string, number | null>>;
-  readonly timing_ms: Readonly<Record<string, number | null>> | null;
+  /** Of a camera's frame. */
+  readonly pixels?: Readonly<Record<string, number | null>>;
+  /** Of a scan: numbers by label. */
+  readonly points?: Readonly<Record<string, number>>;
+  readonly timing_ms?: Readonly<Record<string, number | null>> | null;
   /** Names of attached bodies, and their numbers in link images. */
   readonly attached?: Readonly<Record<string, number>>;
   readonly targets: readonly TargetReport[];

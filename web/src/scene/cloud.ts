@@ -31,7 +31,7 @@ const vertexShader = /* glsl */ `
     // Because of noise half of the points on the robot are inside it: these are moved to the front.
     float nearer = label == 2 ? 1.0 - min(robotSkin / length(seen.xyz), 0.5) : 1.0;
     gl_Position = projectionMatrix * vec4(seen.xyz * nearer, 1.0);
-    float size = position.z * metresPerDepth * projectionMatrix[1][1] * pixelsHigh * 0.5;
+    float size = length(position) * metresPerDepth * projectionMatrix[1][1] * pixelsHigh * 0.5;
     gl_PointSize = clamp(1.15 * size / -seen.z, 1.5, 24.0);
     vec3 color = style.yzw;
     if (byLabel) {
@@ -52,7 +52,7 @@ export class CloudModel {
   readonly uniforms = {
     palette: { value: palette() },
     byLabel: { value: true },
-    metresPerDepth: { value: 0.005 },
+    metresPerDepth: { value: 0.002 }, // of scans; small, so that they cover no robot
     pixelsHigh: { value: 1 },
   };
   /** The next update leaves out points of the robot and its fringe. */

@@ -3,6 +3,7 @@
 // change.
 import {
   AmbientLight,
+  AxesHelper,
   Box3,
   Color,
   DirectionalLight,
@@ -54,6 +55,7 @@ export class SceneView {
   private readonly controls: OrbitControls;
   private readonly frustum = new Frustum();
   private readonly cameras = new Map<string, PlacedCamera>(); // if there are several
+  private readonly axes = new AxesHelper(0.25); // of a sensor without images
   private readonly grid = new GridHelper(4, 20, '#fff', '#fff');
   private robot: RobotModel | null = null;
   private camera: CameraInfo | null = null;
@@ -61,6 +63,7 @@ export class SceneView {
   private hasOverview = false;
   private pending = 0;
   points = 0; // of the displayed cloud
+  isOfScans = false; // the sensor measures points, without images
 
   /**
    * @param isSlow disables antialiasing and high pixel densities
@@ -92,6 +95,7 @@ export class SceneView {
       this.grid,
       this.cloud.points,
       this.frustum.lines,
+      this.axes,
       this.targets.root,
     );
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement ?? canvas);
@@ -154,7 +158,9 @@ export class SceneView {
     const { camera_pose: cameraPose, link_poses: linkPoses, frame } = packet;
     const isShown = (part: ScenePart): boolean => !this.hidden.has(part);
     this.cameraPose = cameraPose;
-    applyPose(this.frustum.lines, isShown('camera') && this.camera ? cameraPose : null);
+    const shownPose = isShown('camera') ? cameraPose : null;
+    applyPose(this.frustum.lines, this.camera ? shownPose : null);
+    applyPose(this.axes, this.isOfScans ? shownPose : null);
     if (this.camera) this.cloud.uniforms.metresPerDepth.value = step / this.camera.fx;
     this.points = this.cloud.update(isShown('cloud') ? packet.cloud : undefined, cameraPose);
     this.canvas.dataset['points'] = String(this.points);

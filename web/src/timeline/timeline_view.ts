@@ -180,7 +180,7 @@ export class TimelineView {
   }
 
   private ages(): (number | null)[] {
-    return this.frames.map(({ joint_age_ms: ms }) => ms && Math.abs(ms));
+    return this.frames.map(({ joint_age_ms: ms }) => (ms == null ? null : Math.abs(ms)));
   }
 
   private titleOf(frame: number): string {

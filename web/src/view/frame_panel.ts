@@ -6,23 +6,31 @@ import { element, swatch } from './dom';
 import { fact, factList } from './target_panel';
 
 const robotLabels = ['front', 'occluded', 'unknown', 'beyond'];
+const pointLabels = ['front', 'occluded', 'beyond']; // of points towards the robot
 
-/** Returns the frame's status, pixel counts and times. */
+/** Returns the frame's status, counts of pixels or points, and times. */
 export function frameDetails(frame: FrameReport): HTMLElement {
-  const { status, message, pixels, timing_ms, stamp_ns, joint_age_ms } = frame;
-  const robot = pixels['robot'] ?? null;
+  const { status, message, points, timing_ms, stamp_ns, joint_age_ms } = frame;
+  const numbers = points ?? frame.pixels ?? {};
+  const ofRobot = points ? pointLabels : robotLabels;
+  const others = points ? ['fringe', 'unknown', 'clear'] : ['fringe', 'uncovered'];
+  const robot = points
+    ? ofRobot.reduce((sum, name) => sum + (points[name] ?? 0), 0)
+    : (numbers['robot'] ?? null);
   const bar = element('div', 'fraction-bar');
-  for (const name of robotLabels) {
+  for (const name of ofRobot) {
     const part = swatch(`--l-${name}`);
-    part.style.flexGrow = String(robot ? (pixels[name] ?? 0) : 0);
+    part.style.flexGrow = String(robot ? (numbers[name] ?? 0) : 0);
     bar.append(part);
   }
-  const counts = [...robotLabels, 'fringe', 'uncovered'].map((name) => {
-    const value = pixels[name] ?? null;
-    const isFraction = robot && value !== null && robotLabels.includes(name);
+  const counts = [...ofRobot, ...others].map((name) => {
+    const value = numbers[name] ?? null;
+    const isFraction = robot && value !== null && ofRobot.includes(name);
     const text = `${count(value)}${isFraction ? `  ${percent(value / robot)}` : ''}`;
-    return fact(name, name, value, text, name === 'uncovered' ? '' : `--l-${name}`);
+    const hasColor = name !== 'uncovered' && name !== 'clear';
+    return fact(name, name, value, text, hasColor ? `--l-${name}` : '');
   });
+  const robotName = points ? 'points towards the robot' : 'robot pixels';
   const times = stages.map((name, index) => {
     const value = timing_ms?.[name] ?? null;
     return fact(name, name, value, milliseconds(value), `--series-${index}`);
@@ -36,12 +44,13 @@ export function frameDetails(frame: FrameReport): HTMLElement {
     body.append(element('p', 'fault', message ? `${status}: ${message}` : status));
   body.append(
     bar,
-    factList([fact('robot', 'robot pixels', robot, count(robot)), ...counts, ...carried]),
-    element('h4', '', 'Times'),
+    factList([fact('robot', robotName, robot, count(robot)), ...counts, ...carried]),
+    element('h4', '', points ? 'Time' : 'Times'),
     factList([
       fact('stamp_ns', 'stamp', stamp_ns, stamp(stamp_ns)),
-      fact('joint_age_ms', 'joint age', joint_age_ms, milliseconds(joint_age_ms)),
-      ...times,
+      ...(points
+        ? []
+        : [fact('joint_age_ms', 'joint age', joint_age_ms, milliseconds(joint_age_ms)), ...times]),
     ]),
   );
   return body;

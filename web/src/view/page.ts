@@ -5,7 +5,9 @@ import { plainText, setupText } from '../model/notes';
 import { byId, element, setText } from './dom';
 
 export function showInput({ input }: Session): void {
-  const name = input.replace(/\/+$/, '').split('/').at(-1) ?? input;
+  const [path = '', ...sensor] = input.split(', '); // a sensor's topic has slashes
+  const file = path.replace(/\/+$/, '').split('/').at(-1) ?? path;
+  const name = [file, ...sensor].join(', ');
   document.title = `${name} · Penumbra`;
   setText(byId('input-name'), name);
   byId('input-name').title = input;

@@ -23,14 +23,15 @@ export function launch() {
   return chromium.launch({ executablePath: browserPath, args });
 }
 
-/** Starts `penumbra view` and waits until all frames are judged. */
-export async function serve(input, port = '0') {
-  const child = spawn(program, ['view', input, '--port', port], {
+/** Starts `penumbra view`, or another command, and waits until all frames are judged. */
+export async function serve(input, port = '0', command = 'view') {
+  const child = spawn(program, [command, input, '--port', port], {
     stdio: ['ignore', 'pipe', 'pipe'],
   });
   const lines = createInterface({ input: child.stdout });
   child.stderr.resume();
-  const [url] = await once(lines, 'line');
+  let url;
+  while (!url) [, url] = /(http\S*)/.exec((await once(lines, 'line'))[0]) ?? [];
   const stop = async () => {
     if (child.exitCode !== null) return;
     child.kill('SIGINT');
@@ -102,11 +103,14 @@ export const drawn = (page) =>
   );
 
 /** Waits until the page shows a frame (by its number in the report) with all its values. */
-export async function showsFrame(page, number) {
-  await page.waitForFunction((expected) => {
-    const [shown, ...parts] = (document.getElementById('main').dataset.shown ?? '').split(' ');
-    return shown === String(expected) && parts.includes('labels');
-  }, number);
+export async function showsFrame(page, number, part = 'labels') {
+  await page.waitForFunction(
+    (expected) => {
+      const [shown, ...parts] = (document.getElementById('main').dataset.shown ?? '').split(' ');
+      return shown === expected.number && parts.includes(expected.part);
+    },
+    { number: String(number), part },
+  );
   await drawn(page);
 }
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page of `penumbra cloud --port`: a sensor that measures points, without images.
+import assert from 'node:assert/strict';
+import { copyFile, cp, mkdir, mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import { after, before, test } from 'node:test';
+import { desktop, example, launch, open, phone, serve, showsFrame } from './browser.mjs';
+
+// Before the arm's base, behind it, and far from it, as seen from (1.5, 0, 0.1) in the base.
+const points = [
+  [-0.5, 0, 0],
+  [-2.5, 0, 0],
+  [0, 2, 0],
+];
+
+async function makeRecording(folder) {
+  await cp(path.join(example, 'arm_description'), path.join(folder, 'arm_description'), {
+    recursive: true,
+  });
+  await copyFile(path.join(example, 'joint_states.csv'), path.join(folder, 'joint_states.csv'));
+  const pose = '1,0,0,1.5\n0,1,0,0\n0,0,1,0.1\n0,0,0,1\n';
+  await writeFile(path.join(folder, 'pose.csv'), pose);
+  await mkdir(path.join(folder, 'clouds'));
+  const pcd = [
+    'FIELDS x y z',
+    'SIZE 4 4 4',
+    'TYPE F F F',
+    'COUNT 1 1 1',
+    `WIDTH ${points.length}`,
+    'HEIGHT 1',
+    `POINTS ${points.length}`,
+    'DATA ascii',
+    ...points.map((point) => point.join(' ')),
+  ].join('\n');
+  for (let frame = 0; frame < 12; ++frame)
+    await writeFile(path.join(folder, `clouds/${String(frame).padStart(6, '0')}.pcd`), `${pcd}\n`);
+  await writeFile(
+    path.join(folder, 'recording.yaml'),
+    [
+      'robot: {urdf: arm_description/arm.urdf, packages: {arm_description: arm_description}}',
+      'sensor: {pose: pose.csv}',
+      'frames: {joints: joint_states.csv, cloud: clouds/%06d.pcd}',
+    ].join('\n'),
+  );
+}
+
+const shared = {};
+before(async () => {
+  shared.folder = await mkdtemp(path.join(tmpdir(), 'penumbra-clouds-'));
+  await makeRecording(shared.folder);
+  [shared.browser, shared.server] = await Promise.all([
+    launch(),
+    serve(shared.folder, '0', 'cloud'),
+  ]);
+});
+after(async () => {
+  await shared.browser?.close();
+  await shared.server?.stop();
+  await rm(shared.folder, { recursive: true });
+});
+
+for (const [name, device] of Object.entries({ desktop, phone }))
+  test(`on a ${name} there are points and their labels, and no image`, async () => {
+    const shown = await open(shared.browser, shared.server.url, device);
+    const { page } = shown;
+    await showsFrame(page, 0, 'cloud');
+    const canvas = page.locator('#scene-canvas');
+    assert.equal(await canvas.getAttribute('data-points'), '3');
+    const box = await canvas.boundingBox();
+    assert.ok(box.width > 300 && box.height > 200, JSON.stringify(box));
+    for (const hidden of ['#image', '#view-tabs', '.row-head.stages', '[data-key=c]'])
+      assert.equal(await page.locator(hidden).first().isVisible(), false, hidden);
+    const numbers = page.locator('#frame-details');
+    assert.equal(await numbers.locator('[data-key=front]').getAttribute('data-value'), '1');
+    assert.equal(await numbers.locator('[data-key=beyond]').getAttribute('data-value'), '1');
+    assert.equal(await numbers.locator('[data-key=clear]').getAttribute('data-value'), '1');
+    await page.keyboard.press('w');
+    await page.locator('#scene-canvas[data-points="2"]').waitFor();
+    await page.keyboard.press('ArrowRight');
+    await showsFrame(page, 1, 'cloud');
+    assert.deepEqual(shown.faults, []);
+    await shown.close();
+  });
