@@ -84,7 +84,7 @@ export class Viewer {
     const isOfScans = session.parts.every((part) => part === 'cloud') && session.parts.length > 0;
     document.documentElement.classList.toggle('scans', isOfScans);
     setText(byId('place-button'), isOfScans ? 'Sensor' : 'Camera');
-    if (this.scene) this.scene.isOfScans = isOfScans;
+    if (this.scene) this.scene.cloud.uniforms.isScan.value = isOfScans;
   }
 
   /** The cloud has every step-th pixel of each row and column. */

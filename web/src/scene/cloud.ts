@@ -22,6 +22,7 @@ const vertexShader = /* glsl */ `
   attribute vec4 style; // label, r, g, b
   uniform vec3 palette[${paletteSize}]; // the last colour is for invalid labels
   uniform bool byLabel;
+  uniform bool isScan; // in a sensor's frame, not in a camera's
   uniform float metresPerDepth; // distance of neighbouring points at 1 m
   uniform float pixelsHigh;
   varying vec3 shade;
@@ -31,7 +32,7 @@ const vertexShader = /* glsl */ `
     // Because of noise half of the points on the robot are inside it: these are moved to the front.
     float nearer = label == 2 ? 1.0 - min(robotSkin / length(seen.xyz), 0.5) : 1.0;
     gl_Position = projectionMatrix * vec4(seen.xyz * nearer, 1.0);
-    float size = length(position) * metresPerDepth * projectionMatrix[1][1] * pixelsHigh * 0.5;
+    float size = (isScan ? length(position) : position.z) * metresPerDepth * projectionMatrix[1][1] * pixelsHigh * 0.5;
     gl_PointSize = clamp(1.15 * size / -seen.z, 1.5, 24.0);
     vec3 color = style.yzw;
     if (byLabel) {
@@ -52,6 +53,7 @@ export class CloudModel {
   readonly uniforms = {
     palette: { value: palette() },
     byLabel: { value: true },
+    isScan: { value: false },
     metresPerDepth: { value: 0.002 }, // of scans; small, so that they cover no robot
     pixelsHigh: { value: 1 },
   };

@@ -63,7 +63,6 @@ export class SceneView {
   private hasOverview = false;
   private pending = 0;
   points = 0; // of the displayed cloud
-  isOfScans = false; // the sensor measures points, without images
 
   /**
    * @param isSlow disables antialiasing and high pixel densities
@@ -160,7 +159,7 @@ export class SceneView {
     this.cameraPose = cameraPose;
     const shownPose = isShown('camera') ? cameraPose : null;
     applyPose(this.frustum.lines, this.camera ? shownPose : null);
-    applyPose(this.axes, this.isOfScans ? shownPose : null);
+    applyPose(this.axes, this.cloud.uniforms.isScan.value ? shownPose : null);
     if (this.camera) this.cloud.uniforms.metresPerDepth.value = step / this.camera.fx;
     this.points = this.cloud.update(isShown('cloud') ? packet.cloud : undefined, cameraPose);
     this.canvas.dataset['points'] = String(this.points);
