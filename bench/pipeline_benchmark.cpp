@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Google Benchmark of whole frames, kinematics to report, one thread: a moving robot seen by a
 // sensor with noise and holes, without targets, with ten, also where other programs have used the
-// caches, with frames kept for late targets, and with an attached body.
+// caches, with frames kept for late targets, and with an attached body; and of the points of
+// images.
 #include "scenes.hpp"
 #include "timing.hpp"
 
@@ -9,12 +10,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include <penumbra/mesh/primitives.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/without_robot.hpp>
 
 namespace penumbra::bench {
 namespace {
@@ -143,6 +146,28 @@ void process(benchmark::State& state, const BenchScene& scene,
   state.counters["targets_us"] = 1e3 * times.targets.typical();
 }
 
+void make_points(benchmark::State& state, const BenchScene& scene,
+                 const std::vector<Image<std::uint16_t>>& depth, const PointsRule& rule) {
+  CloudMaker maker({scene.intrinsics, {}, {}, {}}, rule);
+  const DepthImage image = depth.front();
+  PointCloud cloud;
+  for (auto _ : state) maker.make(image, cloud);
+  state.counters["points"] = static_cast<double>(cloud.points.size());
+}
+
+void add_points(const std::shared_ptr<const BenchScene>& scene,
+                const std::shared_ptr<const std::vector<Image<std::uint16_t>>>& depth) {
+  for (const auto& [name, rule] :
+       {std::pair{"all points", PointsRule()},
+        {"points of a stride of 2", {.stride = 2}},
+        {"points of voxels of 1 cm", {.voxel = 0.01}},
+        {"points of voxels of 1 cm, of a stride of 2", {.stride = 2, .voxel = 0.01}}})
+    benchmark::RegisterBenchmark((scene->name + ", " + name).c_str(), [scene, depth, rule](
+                                                                          benchmark::State& state) {
+      make_points(state, *scene, *depth, rule);
+    })->Unit(benchmark::kMicrosecond);
+}
+
 void add_all(BenchScene made) {
   const auto scene = std::make_shared<const BenchScene>(std::move(made));
   const auto renderer = make_depth_renderer(Backend::cpu, scene->intrinsics, scene->bodies(), {});
@@ -155,6 +180,7 @@ void add_all(BenchScene made) {
         ->UseManualTime()
         ->Iterations(passes * frames)
         ->Unit(benchmark::kMicrosecond);
+  add_points(scene, depth);
 }
 
 }  // namespace

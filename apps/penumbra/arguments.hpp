@@ -142,7 +142,9 @@ struct LiveArguments {
   bool reliable = false;               ///< asked of images, joint states and tf
   int queue = 8;                       ///< images that wait at a time, of each camera
   std::optional<std::string> publish;  ///< names of results; nothing: all
-  std::optional<double> duration;      ///< seconds
+  PointsRule points;
+  double points_rate = 0;          ///< see io::LiveOptions
+  std::optional<double> duration;  ///< seconds
   std::optional<std::filesystem::path> summary;
   ServerArguments server;  ///< no page is served without a port
 };

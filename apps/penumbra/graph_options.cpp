@@ -155,6 +155,11 @@ void add_live(CLI::App& app, LiveArguments& live) {
         check_results(text);
         live.publish = text;
       });
+  add_settings<PointsRule>(app, "M", [&live](const auto& setting, const auto& numbers) {
+    return io::set_numbers(setting.range, numbers, live.points.*setting.member);
+  });
+  add_number(app, "--points-rate", "clouds of an image a second, at most; default 0: each", "HZ",
+             live.points_rate, 0.0, 1000.0);
   add_number(app, "--duration", "end after so many seconds; default: never", "S", live.duration,
              0.0, longest_duration);
   add_text(app, "--summary", "write at the end what became of all images", "JSON", live.summary);

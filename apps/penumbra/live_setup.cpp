@@ -65,6 +65,8 @@ io::LiveOptions live_options(const LiveArguments& arguments, const io::NameResol
   const io::BagOptions& topics = arguments.session.input.bag;
   io::LiveOptions options;
   options.drift = arguments.session.drift;
+  options.points = arguments.points;
+  options.points_rate = arguments.points_rate;
   options.robot.robot.packages = topics.packages;
   arguments.session.input.apply_to(options.robot.robot);
   options.robot.compare_sources = !topics.first_publisher;

@@ -62,8 +62,8 @@ class ResultSink {
 class ResultEncoder {
  public:
   /// `camera`: of the judged images as received; `root`: the robot's root link.
-  ResultEncoder(const Camera& camera, std::string root)
-      : results_(camera), root_(std::move(root)) {}
+  ResultEncoder(const Camera& camera, std::string root, const PointsRule& points = {})
+      : results_(camera, points), root_(std::move(root)) {}
 
   /// Encodes and writes the results of a frame. The report must have a stamp. `images.depth`: the
   /// judged image.

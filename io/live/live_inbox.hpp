@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <penumbra/calibration/watch.hpp>
+#include <penumbra/pipeline/without_robot.hpp>
 #include <penumbra/poses/pose_lookup.hpp>
 #include <penumbra/scene/target_fusion.hpp>
 
@@ -40,6 +41,8 @@ struct LiveOptions {
   std::vector<CameraInputOptions> cameras = {};
   std::vector<CloudInputOptions> clouds = {};
   DriftLimits drift = {};  ///< beyond which a camera's motion is a warning
+  PointsRule points = {};  ///< of images that are published
+  double points_rate = 0;  ///< at most so many clouds of a camera a second; 0: of each image
 };
 
 /// Sets names and topics of several robots. `resolve`: from NS/TOPIC to the name on the graph.

@@ -17,12 +17,15 @@ namespace {
 /// steps, and people look at them, so not every frame needs one.
 constexpr std::int64_t overlay_period = 200'000'000;
 
-/// Forwards all results except overlays.
-class WithoutOverlay final : public ResultSink {
+/// Forwards results, overlays and points only when it is their time.
+class TimedResults final : public ResultSink {
  public:
-  explicit WithoutOverlay(ResultSink& to) : to_(to) {}
+  TimedResults(ResultSink& to, bool with_overlay, bool with_points)
+      : to_(to), with_overlay_(with_overlay), with_points_(with_points) {}
   [[nodiscard]] bool wants(Result result) const override {
-    return result != Result::overlay && to_.wants(result);
+    if (result == Result::overlay && !with_overlay_) return false;
+    if (result == Result::points && !with_points_) return false;
+    return to_.wants(result);
   }
   void write(Result result, std::int64_t stamp, std::span<const std::byte> payload) override {
     to_.write(result, stamp, payload);
@@ -30,6 +33,7 @@ class WithoutOverlay final : public ResultSink {
 
  private:
   ResultSink& to_;
+  bool with_overlay_, with_points_;
 };
 
 template <typename Clock>
@@ -174,10 +178,18 @@ void LiveRunner::work(std::size_t camera) {
       }
       if (with_overlay) self.next_overlay = steady_now() + overlay_period;
       if (!std::exchange(self.has_config, true))
-        self.worker = std::make_unique<LiveWorker>(config_, inbox_.options().drift);
+        self.worker =
+            std::make_unique<LiveWorker>(config_, inbox_.options().drift, inbox_.options().points);
+      const double points_rate = inbox_.options().points_rate;
       lock.unlock();
-      WithoutOverlay without_overlay(*self.sink);
-      ResultSink& sink = with_overlay ? *self.sink : without_overlay;
+      const std::int64_t begin = steady_now();
+      const bool with_points = begin >= self.next_points;
+      if (with_points && points_rate > 0) {
+        const auto period = static_cast<std::int64_t>(1e9 / points_rate);
+        const bool is_late = begin > self.next_points + period;
+        self.next_points = (is_late ? begin : self.next_points) + period;
+      }
+      TimedResults sink(*self.sink, with_overlay, with_points);
       LiveOutcome outcome = self.worker->judge(job, sink, self.watcher);
       if (fusion_ != nullptr && outcome.is_published)
         fusion_->add(camera, outcome.views, job.setup->posed->robot.links().front());

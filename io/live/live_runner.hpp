@@ -113,8 +113,9 @@ class LiveRunner {
     ResultSink* sink = nullptr;
     FrameWatcher* watcher = nullptr;
     std::unique_ptr<LiveWorker> worker;
-    bool has_config = false;        // whether the worker has config_; guarded by mutex_
-    std::int64_t next_overlay = 0;  // earliest time; used by this thread only
+    bool has_config = false;  // whether the worker has config_; guarded by mutex_
+    // Earliest times; used by this thread only.
+    std::int64_t next_overlay = 0, next_points = 0;
     std::thread thread;
   };
   struct CloudThread {

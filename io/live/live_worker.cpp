@@ -22,9 +22,9 @@ PipelineConfig config_of(const CameraSetup& setup, PipelineConfig config) {
 }  // namespace
 
 LiveWorker::Tools::Tools(const CameraSetup& setup, const PipelineConfig& config,
-                         const DriftLimits& limits)
+                         const DriftLimits& limits, const PointsRule& points)
     : session(setup.posed->robot, setup.cameras.judged, config_of(setup, config), limits),
-      encoder(setup.cameras.judged, setup.posed->robot.links().front()),
+      encoder(setup.cameras.judged, setup.posed->robot.links().front(), points),
       depth(setup.cameras) {}
 
 bool LiveWorker::follow(const std::shared_ptr<CameraSetup>& setup) {
@@ -35,7 +35,7 @@ bool LiveWorker::follow(const std::shared_ptr<CameraSetup>& setup) {
   next_warnings_.reset();
   has_warned_ = false;
   try {
-    tools_ = std::make_unique<Tools>(*setup, config_, limits_);
+    tools_ = std::make_unique<Tools>(*setup, config_, limits_, points_);
   } catch (const InputError& error) {
     fault_ = error.what();
   }

@@ -18,8 +18,9 @@ namespace penumbra::io {
 class LiveWorker {
  public:
   /// `config`: the camera's pose and parent are replaced by those of each setup.
-  explicit LiveWorker(PipelineConfig config, const DriftLimits& limits = {})
-      : config_(std::move(config)), limits_(limits) {}
+  explicit LiveWorker(PipelineConfig config, const DriftLimits& limits = {},
+                      const PointsRule& points = {})
+      : config_(std::move(config)), limits_(limits), points_(points) {}
 
   /// Writes an image's results to the sink, then hands the frame to `watcher`, which may be null.
   /// Unknown results are written as unknown. A new setup makes a new renderer. Throws DeviceError
@@ -29,7 +30,8 @@ class LiveWorker {
  private:
   /// The objects made for a setup.
   struct Tools {
-    Tools(const CameraSetup& setup, const PipelineConfig& config, const DriftLimits& limits);
+    Tools(const CameraSetup& setup, const PipelineConfig& config, const DriftLimits& limits,
+          const PointsRule& points);
     Session session;
     ResultEncoder encoder;
     DepthInput depth;
@@ -41,6 +43,7 @@ class LiveWorker {
 
   PipelineConfig config_;
   DriftLimits limits_;
+  PointsRule points_;
   std::shared_ptr<CameraSetup> setup_;
   std::unique_ptr<Tools> tools_;
   std::optional<std::int64_t> next_warnings_;  // on the inbox's clock

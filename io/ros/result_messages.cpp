@@ -20,8 +20,8 @@ void copy(ImageView<const T> from, Image<T>& to) {
 
 }  // namespace
 
-ResultMessages::ResultMessages(const Camera& camera)
-    : cloud_maker_(camera),
+ResultMessages::ResultMessages(const Camera& camera, const PointsRule& points)
+    : cloud_maker_(camera, points),
       header_{0, camera.frame_id},
       virtual_depth_(camera.intrinsics.width(), camera.intrinsics.height()),
       labels_(virtual_depth_.width(), virtual_depth_.height()),

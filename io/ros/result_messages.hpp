@@ -19,8 +19,8 @@ namespace penumbra::io {
 /// because the link may be anywhere.
 class ResultMessages {
  public:
-  /// `camera`: the camera of the judged raw images.
-  explicit ResultMessages(const Camera& camera);
+  /// `camera`: the camera of the judged raw images. Throws InputError as CloudMaker.
+  explicit ResultMessages(const Camera& camera, const PointsRule& points = {});
 
   /// Takes a frame. The messages refer to this and are valid until the next call.
   void set(const FrameReport& report);
@@ -36,7 +36,7 @@ class ResultMessages {
   [[nodiscard]] std::optional<ImageMessage> robot_mask();
   /// Returns the depth image without untrusted pixels: 0 in 16UC1, NaN in 32FC1.
   [[nodiscard]] ImageMessage filtered_depth() const;
-  /// Returns the points of filtered_depth(), x y z in metres, where the lens model is valid.
+  /// Returns the points of filtered_depth(), x y z in metres, as CloudMaker.
   [[nodiscard]] PointCloud2Message points();
 
   [[nodiscard]] const MessageHeader& header() const { return header_; }

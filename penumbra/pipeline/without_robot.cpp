@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
@@ -45,10 +47,13 @@ void without_robot(const FrameReport& report, DepthImage& out) {
       out);
 }
 
-CloudMaker::CloudMaker(const Camera& camera)
-    : rays_x_(camera.intrinsics.width(), camera.intrinsics.height(),
+CloudMaker::CloudMaker(const Camera& camera, const PointsRule& rule)
+    : rule_(rule),
+      rays_x_(camera.intrinsics.width(), camera.intrinsics.height(),
               std::numeric_limits<float>::quiet_NaN()),
       rays_y_(rays_x_) {
+  check_settings(rule);
+  if (rule.voxel > 0) cubes_.resize(std::bit_ceil(2 * rays_x_.size()));
   for (int v = 0; v < rays_x_.height(); ++v)
     for (int u = 0; u < rays_x_.width(); ++u) {
       const auto ray = camera.distortion.undistort(camera.intrinsics.ray(u, v).head<2>());
@@ -58,22 +63,54 @@ CloudMaker::CloudMaker(const Camera& camera)
     }
 }
 
+bool CloudMaker::is_first_in_cube(const Eigen::Vector3f& point) {
+  constexpr std::uint64_t mask = (1ULL << 21U) - 1;  // cubes per axis
+  const Eigen::Array3d at = point.cast<double>().array() / rule_.voxel;
+  std::uint64_t cube = 1ULL << 63U;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto towards_zero = static_cast<std::int64_t>(at[axis]);
+    const std::int64_t floor =
+        towards_zero - (static_cast<double>(towards_zero) > at[axis] ? 1 : 0);
+    cube |= (static_cast<std::uint64_t>(floor) & mask) << 21 * axis;
+  }
+  if (cube == std::exchange(last_cube_, cube)) return false;  // mostly that of the next pixel, too
+  // Multiplicative hashing of y and z, whose highest bits depend on all. Neighbours in x are
+  // neighbours in memory, as pixels are.
+  const auto unused_bits = static_cast<unsigned>(std::countl_zero(cubes_.size() - 1));
+  std::uint64_t place = ((cube >> 21U) * 0x9E3779B97F4A7C15ULL >> unused_bits) + (cube & mask);
+  for (;; ++place) {
+    std::uint64_t& entry = cubes_[place & (cubes_.size() - 1)];
+    if (entry == cube) return false;
+    if (entry != 0) continue;
+    entry = cube;
+    return true;
+  }
+}
+
 void CloudMaker::make(const DepthImage& depth, PointCloud& cloud,
-                      const Eigen::Isometry3d& T_frame_camera) const {
+                      const Eigen::Isometry3d& T_frame_camera) {
   cloud.points.clear();
   cloud.pixels.clear();
+  std::fill(cubes_.begin(), cubes_.end(), 0);
+  last_cube_ = 0;
+  const auto farthest =
+      static_cast<float>(rule_.range > 0 ? rule_.range : std::numeric_limits<double>::infinity());
   const bool is_moved = !T_frame_camera.matrix().isIdentity(0.0);
   const Eigen::Isometry3f T = T_frame_camera.cast<float>();
   std::visit(
       [&](const auto& image) {
         assert(image.width() == rays_x_.width() && image.height() == rays_x_.height());
-        for (std::size_t i = 0; i < image.size(); ++i) {
-          const float z = metres_of(image.data()[i]);
-          if (z == 0.0F || std::isnan(rays_x_.data()[i])) continue;
-          const Eigen::Vector3f point(rays_x_.data()[i] * z, rays_y_.data()[i] * z, z);
-          cloud.points.push_back(is_moved ? T * point : point);
-          cloud.pixels.push_back(static_cast<std::uint32_t>(i));
-        }
+        for (int v = 0; v < image.height(); v += rule_.stride)
+          for (int u = 0; u < image.width(); u += rule_.stride) {
+            const float z = metres_of(image(u, v));
+            if (z == 0.0F || std::isnan(rays_x_(u, v))) continue;
+            Eigen::Vector3f point(rays_x_(u, v) * z, rays_y_(u, v) * z, z);
+            if (point.norm() > farthest) continue;
+            if (is_moved) point = T * point;
+            if (!cubes_.empty() && !is_first_in_cube(point)) continue;
+            cloud.points.push_back(point);
+            cloud.pixels.push_back(static_cast<std::uint32_t>(v * image.width() + u));
+          }
       },
       depth);
 }

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <variant>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/base/setting.hpp>
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
@@ -30,18 +32,41 @@ struct PointCloud {
   std::vector<std::uint32_t> pixels;  ///< of each point: v * width + u
 };
 
+/// Which points are made of an image; by default all, which are 3.7 MB of 640x480 pixels.
+struct PointsRule {
+  int stride = 1;
+  double range = 0.0;
+  double voxel = 0.0;
+
+  static constexpr auto settings() {
+    return std::tuple(Setting("points_stride", &PointsRule::stride, {1, 64}, "",
+                              "of points: each N-th pixel of each N-th row"),
+                      Setting("points_range", &PointsRule::range, {0, 1000}, "m",
+                              "of points: how far from the camera they may be; 0: any"),
+                      Setting("points_voxel", &PointsRule::voxel, {0, 10}, "m",
+                              "of points: one, the first, in each cube of this size; 0: all"));
+  }
+};
+
 /// Converts one camera's depth images to points. Allocates nothing once a cloud is large enough.
 class CloudMaker {
  public:
-  /// `camera`: of the images; for images of reports, with Pipeline::intrinsics().
-  explicit CloudMaker(const Camera& camera);
+  /// `camera`: of the images; for images of reports, with Pipeline::intrinsics(). Throws InputError
+  /// for settings out of range.
+  explicit CloudMaker(const Camera& camera, const PointsRule& rule = {});
 
-  /// Writes a point for each measurement inside the lens model, in the frame of `T_frame_camera`;
-  /// by default the camera's optical frame. The image must have the camera's size.
+  /// Writes a point for each measurement inside the lens model that the rule leaves, in the frame
+  /// of `T_frame_camera`, in which cubes lie; by default the camera's optical frame. The image must
+  /// have the camera's size.
   void make(const DepthImage& depth, PointCloud& cloud,
-            const Eigen::Isometry3d& T_frame_camera = Eigen::Isometry3d::Identity()) const;
+            const Eigen::Isometry3d& T_frame_camera = Eigen::Isometry3d::Identity());
 
  private:
+  [[nodiscard]] bool is_first_in_cube(const Eigen::Vector3f& point);
+
+  PointsRule rule_;
+  std::vector<std::uint64_t> cubes_;  // a hash table of those with a point; 0: a free place
+  std::uint64_t last_cube_ = 0;
   Image<float> rays_x_, rays_y_;  // x / z and y / z of a pixel's ray; NaN outside the lens model
 };
 

@@ -2,6 +2,7 @@
 // The threads of live: two cameras and one robot, with all messages at once.
 #include "live_scene.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <future>
@@ -20,16 +21,23 @@ namespace {
 class SharedResults final : public io::ResultSink {
  public:
   [[nodiscard]] bool wants(io::Result result) const override {
-    return result == io::Result::labels;
+    return result == io::Result::labels || (with_points && result == io::Result::points);
   }
   void write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) override {
     const std::lock_guard lock(mutex_);
     results_.write(result, stamp, payload);
   }
+  [[nodiscard]] std::size_t count(io::Result of) {
+    const auto all = published();
+    return static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [&](const auto& one) { return one.result == of; }));
+  }
   [[nodiscard]] std::vector<KeptResults::Published> published() {
     const std::lock_guard lock(mutex_);
     return results_.published;
   }
+
+  bool with_points = false;
 
  private:
   std::mutex mutex_;
@@ -98,6 +106,42 @@ TEST_F(LiveRunnerTest, JudgesTwoCamerasAtOnce) {
     const auto published = results->published();
     EXPECT_GT(expect_true_labels(published, truth), 0U);
     EXPECT_EQ(published.back().stamp, 1000 * seconds + (frames - 1) * 33 * milliseconds);
+  }
+}
+
+TEST_F(LiveRunnerTest, PointsAreAsFewAndAsSeldomAsAsked) {
+  options_.cameras.resize(1);
+  options_.points = {.stride = 4, .range = 2.0};  // the wall is farther
+  options_.points_rate = 0.01;
+  left_.with_points = true;
+  io::LiveRunner runner(options_, {}, {&left_});
+  const auto topics = topics_of(runner);
+  runner.start();
+  tell(runner, topics, "/robot_description", encoded(io::StringMessage{live_urdf}));
+  tell(runner, topics, "/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
+  tell(runner, topics, "/left/camera_info", encoded(live_info(0)));
+  for (int wait = 0; wait < 1000; ++wait) {
+    if (runner.with_inbox([](const io::LiveInbox& inbox) { return bool(inbox.robot().posed()); }))
+      break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  constexpr std::size_t frames = 5;
+  for (std::size_t i = 0; i < frames; ++i) {
+    const std::int64_t stamp = 1000 * seconds + static_cast<std::int64_t>(i) * 33 * milliseconds;
+    for (const int after : {-10, 10})
+      tell(runner, topics, "/joint_states", live_joints(stamp + after * milliseconds));
+    tell(runner, topics, "/left/depth", live_depth(stamp));
+    for (int wait = 0; wait < 1000 && left_.count(io::Result::labels) <= i; ++wait)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  runner.stop();
+  EXPECT_EQ(left_.count(io::Result::labels), frames);
+  EXPECT_EQ(left_.count(io::Result::points), 1U);
+  for (const auto& one : left_.published()) {
+    if (one.result != io::Result::points) continue;
+    io::PointCloud2Message cloud;
+    ASSERT_FALSE(io::Decoder<io::PointCloud2Message>().decode(one.payload, cloud));
+    EXPECT_EQ(cloud.width, 0U) << "robot and wall are left out";
   }
 }
 

@@ -22,6 +22,7 @@
 namespace penumbra_ros {
 namespace {
 
+using moveit_msgs::srv::GetPlanningScene;
 using penumbra::io::TopicRole;
 using sensor_msgs::msg::Image;
 
@@ -65,9 +66,50 @@ Inputs::Inputs(rclcpp::Node& node, penumbra::io::LiveRunner& runner)
     : node_(node), runner_(runner) {
   runner.with_inbox([&](const penumbra::io::LiveInbox& inbox) {
     for (const penumbra::io::InputTopic& topic : inbox.topics())
-      links_.push_back({.topic = topic, .subscription = nullptr, .state = {}});
+      links_.push_back({.topic = topic, .subscription = nullptr, .scene = nullptr, .state = {}});
     return true;
   });
+  for (Link& link : links_) {
+    if (link.topic.type != "moveit_msgs/msg/PlanningScene") continue;
+    const std::string space = link.topic.name.substr(0, link.topic.name.rfind('/') + 1);
+    link.scene = node.create_client<GetPlanningScene>(space + "get_planning_scene");
+  }
+}
+
+/// Returns the number of messages of what is attached.
+std::size_t Inputs::attached_received() {
+  return runner_.with_inbox([&](const penumbra::io::LiveInbox& inbox) {
+    std::size_t received = 0;
+    for (std::size_t i = 0; i < links_.size(); ++i)
+      if (links_[i].topic.role == TopicRole::attached) received += inbox.received()[i];
+    return received;
+  });
+}
+
+void Inputs::ask_for_scene(std::size_t topic) {
+  Link& link = links_[topic];
+  if (!link.scene->service_is_ready()) link.is_asked = false;
+  const bool has_robot = runner_.with_inbox(
+      [](const penumbra::io::LiveInbox& inbox) { return inbox.robot().posed() != nullptr; });
+  if (link.is_asked || !has_robot || !link.scene->service_is_ready()) return;
+  link.is_asked = true;
+  using Components = moveit_msgs::msg::PlanningSceneComponents;
+  const auto request = std::make_shared<GetPlanningScene::Request>();
+  request->components.components = Components::ROBOT_STATE |
+                                   Components::ROBOT_STATE_ATTACHED_OBJECTS |
+                                   Components::WORLD_OBJECT_GEOMETRY;
+  const auto take = [this, topic, before = attached_received()](
+                        rclcpp::Client<GetPlanningScene>::SharedFuture answer) {
+    if (attached_received() != before) {  // the answer may be older than what came meanwhile
+      links_[topic].is_asked = false;
+      return;
+    }
+    const auto bytes = std::make_shared<rclcpp::SerializedMessage>();
+    rclcpp::Serialization<moveit_msgs::msg::PlanningScene>().serialize_message(&answer.get()->scene,
+                                                                               bytes.get());
+    runner_.receive(topic, {bytes_of(*bytes), bytes, 0});
+  };
+  link.scene->async_send_request(request, take);
 }
 
 void Inputs::find_publishers(std::size_t topic) {
@@ -98,6 +140,7 @@ void Inputs::follow(bool with_color, bool enabled) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     find_publishers(i);
     Link& link = links_[i];
+    if (link.scene) ask_for_scene(i);
     const TopicRole role = link.topic.role;
     const bool is_known = !is_generic(role) || link.has_publisher;
     const bool is_wanted = !link.topic.type.empty() && is_known &&

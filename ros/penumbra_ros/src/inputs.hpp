@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <moveit_msgs/srv/get_planning_scene.hpp>
 #include <rclcpp/rclcpp.hpp>
 
 #include <io/live/live_diagnostics.hpp>
@@ -20,7 +21,8 @@ class Inputs {
 
   /// Subscribes to what is needed now: target topics once their type is known, colour images if
   /// `with_color`, depth images and clouds if `enabled`. Reliable where all publishers offer that:
-  /// of large images most are lost otherwise.
+  /// of large images most are lost otherwise. Asks each MoveIt for its scene when it is there, and
+  /// when it is back: of what was attached before, it sends changes alone.
   void follow(bool with_color, bool enabled);
 
   /// Returns the state of each of the runner's topics.
@@ -32,10 +34,14 @@ class Inputs {
     rclcpp::SubscriptionBase::SharedPtr subscription;  // null: not subscribed to
     bool is_reliable = false;                          // all of its publishers are
     bool has_publisher = false;
+    rclcpp::Client<moveit_msgs::srv::GetPlanningScene>::SharedPtr scene;  // of planning scenes
+    bool is_asked = false;                                                // the scene's service
     penumbra::io::LiveLink state;
   };
 
   void find_publishers(std::size_t topic);
+  void ask_for_scene(std::size_t topic);
+  [[nodiscard]] std::size_t attached_received();
   [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe(std::size_t topic);
   template <typename M>
   rclcpp::SubscriptionBase::SharedPtr subscribe_latched(std::size_t topic);

@@ -388,6 +388,16 @@ Settings declare_settings(rclcpp::Node& node) {
   settings.live.drift = {.position = 1e-3 * drift[0],
                          .rotation = drift[1] * std::numbers::pi / 180.0};
   settings.live.drift.check();
+  using penumbra::PointsRule;
+  PointsRule& points = settings.live.points;
+  penumbra::for_each_setting<PointsRule>(
+      [&]<typename Value>(const penumbra::Setting<PointsRule, Value>& setting) {
+        points.*setting.member = static_cast<Value>(declare.number<Stored<Value>>(
+            setting.name, points.*setting.member, static_cast<Stored<Value>>(setting.range.least),
+            static_cast<Stored<Value>>(setting.range.most), setting.meaning));
+      });
+  settings.live.points_rate = declare.number("points_rate", 0.0, 0.0, 1000.0,
+                                             "clouds of an image a second, at most; 0: each");
   declare("publish", Texts(output_names.begin(), output_names.end()),
           "results to publish; those without a subscriber are not computed", changeable);
   settings.publish = read_publish(node);
