@@ -25,9 +25,7 @@ constexpr int most_repeats = 1'000'000;
 
 void add_robot(CLI::App& app, RobotOptions& options) {
   add_packages(app, options.packages);
-  add_geometry(app, options.geometry, "collision");
-  add_extra(app, options.extra);
-  add_leniency(app, options.allow_missing_meshes, options.geometry_fallback);
+  add_drawn(app, options, "collision");
 }
 
 void add_render(CLI::App& app, RenderArguments& render) {

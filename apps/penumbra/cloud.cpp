@@ -65,9 +65,7 @@ void add_cloud(CLI::App& app, CloudArguments& arguments) {
       "all points of a scan were measured at its stamp; default: by their times, if they have any");
   add_number(app, "--threads", "default 1; results do not depend on it", "N", cloud.threads, 1,
              RendererOptions::max_threads);
-  add_geometry(app, input.geometry, "the recording's, else collision");
-  add_extra(app, input.extra);
-  add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
+  add_drawn(app, input, "the recording's, else collision");
   add_frames(app, input.frames);
   app.add_flag("--force", cloud.force, "write into a folder that holds other files");
   add_server(app, arguments.server,

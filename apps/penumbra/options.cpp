@@ -66,7 +66,13 @@ void add_renderer(CLI::App& app, Backend& backend, RendererOptions& renderer) {
              renderer.threads, 1, RendererOptions::max_threads);
 }
 
-void add_extra(CLI::App& app, std::vector<ExtraMesh>& extra) {
+void add_links(CLI::App& app, std::vector<ExtraMesh>& extra,
+               std::vector<std::string>& ignore_links) {
+  add_list(app, "--ignore-links",
+           "links that are not drawn, for example the sensor's own housing; may be given several "
+           "times",
+           "PATTERN",
+           [&ignore_links](const std::string& pattern) { ignore_links.push_back(pattern); });
   add_list(app, "--extra",
            "mesh that a link carries and the URDF lacks; may be given several times", "LINK=FILE",
            [&extra](const std::string& text) {

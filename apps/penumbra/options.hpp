@@ -106,14 +106,19 @@ CLI::Option* add_choice(CLI::App& app, const std::string& names, const std::stri
 // Options that several commands have.
 void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& packages);
 void add_renderer(CLI::App& app, Backend& backend, RendererOptions& renderer);
-void add_extra(CLI::App& app, std::vector<ExtraMesh>& extra);
+void add_links(CLI::App& app, std::vector<ExtraMesh>& extra,
+               std::vector<std::string>& ignore_links);
 void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback);
 void add_frames(CLI::App& app, io::FrameRange& frames);
 
-template <typename To>
-void add_geometry(CLI::App& app, To& geometry, const std::string& default_name) {
-  add_choice<Geometry>(app, "--geometry", "collision or visual; default: " + default_name, geometry,
+/// What is drawn of a robot. `Drawn`: RobotOptions or io::InputOptions.
+template <typename Drawn>
+void add_drawn(CLI::App& app, Drawn& drawn, const std::string& default_geometry) {
+  add_choice<Geometry>(app, "--geometry", "collision or visual; default: " + default_geometry,
+                       drawn.geometry,
                        {{"collision", Geometry::collision}, {"visual", Geometry::visual}});
+  add_links(app, drawn.extra, drawn.ignore_links);
+  add_leniency(app, drawn.allow_missing_meshes, drawn.geometry_fallback);
 }
 
 /// --port and --address. `port_help`: the meaning of --port.

@@ -208,9 +208,7 @@ void add_session(CLI::App& app, io::SessionOptions& session, const std::string& 
   io::InputOptions& input = session.input;
   io::RuleOptions& rule = session.rule;
   add_renderer(app, session.backend, session.renderer);
-  add_geometry(app, input.geometry, geometry_default);
-  add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
-  add_extra(app, input.extra);
+  add_drawn(app, input, geometry_default);
   add_rule(app, rule);
   add_option(app, "--sensor",
              "realsense_d4xx (default), zed, tof, structured_light or none: their tolerance and "
@@ -258,9 +256,7 @@ void add_calibrate(CLI::App& app, CalibrateArguments& calibrate) {
                "estimate the zero offset of joints that the images contradict, too");
   app.add_flag("--time-offset", calibrate.input.time_offset,
                "estimate the time between images and poses, too, from frames of a moving arm");
-  add_geometry(app, input.geometry, "the recording's, else collision");
-  add_extra(app, input.extra);
-  add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
+  add_drawn(app, input, "the recording's, else collision");
   add_frames(app, input.frames);
   add_bag(app, input.bag, {.time_offset = false});
 }
@@ -281,9 +277,7 @@ void add_view_planning(CLI::App& app, ViewPlanningArguments& planning) {
   add_number(app, "--threads", "default: one per core; results do not depend on it", "N",
              planning.threads, 1, RendererOptions::max_threads);
   add_frames(app, input.frames);
-  add_geometry(app, input.geometry, "the recording's, else collision");
-  add_extra(app, input.extra);
-  add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
+  add_drawn(app, input, "the recording's, else collision");
   add_bag(app, input.bag);
 }
 
@@ -305,9 +299,7 @@ void add_look_ahead(CLI::App& app, LookAheadArguments& ahead) {
   add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", ahead.output);
   add_number(app, "--threads", "default: one per core; results do not depend on it", "N",
              ahead.threads, 1, RendererOptions::max_threads);
-  add_geometry(app, input.geometry, "the recording's, else collision");
-  add_extra(app, input.extra);
-  add_leniency(app, input.allow_missing_meshes, input.geometry_fallback);
+  add_drawn(app, input, "the recording's, else collision");
   add_bag(app, input.bag);
 }
 

@@ -34,6 +34,8 @@ struct InputOptions {
   bool geometry_fallback = false;     ///< of RobotOptions, in addition to the recording's
   bool allow_missing_meshes = false;  ///< likewise
   std::vector<ExtraMesh> extra;       ///< likewise
+  /// Likewise; of several robots of a recording, ROBOT/PATTERN.
+  std::vector<std::string> ignore_links;
   bool needs_camera_pose = true;      ///< false: it may be unknown, and is then the identity
   bool needs_depth = false;           ///< true: a recording without depth images is an error
   FrameRange frames;

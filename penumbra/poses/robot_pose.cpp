@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
 #include <span>
 #include <sstream>
@@ -21,6 +22,18 @@ std::string describe_disputes(const Robot& robot, std::span<const JointDispute> 
     text << (&other == &disputes[1] ? "; so is '" : ", '") << robot.variables()[other.variable]
          << "'";
   return text.str();
+}
+
+/// Returns why a joint's position at a stamp is not known.
+std::string reason_of(const JointGap& gap, std::int64_t stamp) {
+  if (gap.jump)
+    return "jumps by " + std::to_string(*gap.jump) + " next to the stamp, more than it can move";
+  if (gap.why != JointStatus::stale) return "never seen";
+  std::string text = "no position near the stamp";
+  if (!gap.last_seen) return text;
+  text += ", the last is " + std::to_string((stamp - *gap.last_seen) / 1'000'000) + " ms older";
+  if (!gap.source.empty()) text += ", by " + gap.source + std::string(others_unused);
+  return text;
 }
 
 }  // namespace
@@ -69,18 +82,19 @@ std::string describe(const Robot& robot, const JointAnswer& joints) {
   if (joints.status == JointStatus::disputed) return describe_disputes(robot, joints.disputes);
   if (joints.gaps.empty()) return "no joint positions";
   std::string text;
-  for (const JointGap& gap : joints.gaps) {
-    text += (text.empty() ? "" : ", ") + std::string("joint '") + robot.variables()[gap.variable] +
-            "' ";
-    if (gap.jump) {
-      text += "jumps by " + std::to_string(*gap.jump) + " next to the stamp, more than it can move";
-      continue;
-    }
-    text += gap.why == JointStatus::stale ? "has no position near the stamp" : "was never seen";
-    if (!gap.last_seen) continue;
-    text += " (last seen at " + std::to_string(*gap.last_seen) + " ns";
-    if (!gap.source.empty()) text += " by " + gap.source + std::string(others_unused);
-    text += ")";
+  for (auto first = joints.gaps.begin(); first != joints.gaps.end();) {
+    const std::string reason = reason_of(*first, joints.stamp);
+    const auto end = std::find_if(first, joints.gaps.end(), [&](const JointGap& gap) {
+      return reason_of(gap, joints.stamp) != reason;
+    });
+    constexpr std::ptrdiff_t most_named = 3;
+    text += (text.empty() ? "" : "; ") + std::string(end - first > 1 ? "joints" : "joint");
+    for (auto gap = first; gap < std::min(end, first + most_named); ++gap)
+      text += (gap == first ? " '" : ", '") + robot.variables()[gap->variable] + "'";
+    if (end - first > most_named)
+      text += " and " + std::to_string(end - first - most_named) + " more";
+    text += ": " + reason;
+    first = end;
   }
   return text;
 }

@@ -55,6 +55,7 @@ struct JointAnswer {
   std::int64_t age = 0;                ///< nanoseconds from the stamp to the farthest used state
   std::vector<JointGap> gaps;          ///< empty if status is ok or disputed
   std::vector<JointDispute> disputes;  ///< empty if status is ok
+  std::int64_t stamp = 0;              ///< for which it is, nanoseconds
 };
 
 /// How a joint buffer compares and interpolates a variable's values.

@@ -62,6 +62,13 @@ TEST_F(CloudBag, LosesTheRobot) {
   });
 }
 
+TEST_F(CloudBag, LeavesOutLinksThatAreIgnored) {
+  const Outcome outcome = cloud({"--topic", "/points", "--ignore-links", "board"});
+  EXPECT_EQ(outcome.status, 2);
+  expect_has(outcome.err, {"no link is rendered", "ignore_links"});
+  expect_refused(cloud({"--ignore-links", "lidar_*"}), {"ignore_links", "lidar_*"});
+}
+
 TEST_F(CloudBag, AsksWhatToDoWithTheLabels) {
   bag_.write_mcap(path("tiny.mcap"));
   const std::string bag = path("tiny.mcap");

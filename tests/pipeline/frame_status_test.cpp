@@ -102,16 +102,17 @@ TEST_F(FrameStatusTest, WithoutDepthTheRobotIsUnknown) {
 TEST_F(FrameStatusTest, TheJointBuffersAnswers) {
   JointAnswer answer;
   answer.status = JointStatus::stale;
+  answer.stamp = 42 + 412'000'000;
   answer.gaps = {
       {.variable = 0, .why = JointStatus::stale, .last_seen = 42, .jump = {}, .source = "driver"}};
   const Robot robot = slab_robot();
   const auto given = [&] { return Frame{.depth = depth_.view(), .pose = pose_of(robot, answer)}; };
   expect_pose_unknown(given(), FrameStatus::stale_joints,
-                      "'slide' has no position near the stamp (last seen at 42 ns by driver");
+                      "joint 'slide': no position near the stamp, the last is 412 ms older, by driver");
   answer.status = JointStatus::missing;
   answer.gaps = {
       {.variable = 0, .why = JointStatus::missing, .last_seen = {}, .jump = {}, .source = {}}};
-  expect_pose_unknown(given(), FrameStatus::missing_joints, "'slide' was never seen");
+  expect_pose_unknown(given(), FrameStatus::missing_joints, "'slide': never seen");
 
   answer = {
       .status = JointStatus::ok, .positions = positions_, .age = 1500, .gaps = {}, .disputes = {}};

@@ -49,7 +49,7 @@ class PoseLookupTest : public testing::Test {
 
 TEST_F(PoseLookupTest, ByJoints) {
   at(5 * ms, {});
-  expect(FrameStatus::missing_joints, "'slide' was never seen");
+  expect(FrameStatus::missing_joints, "'slide': never seen");
   add_joint(10 * ms, 0.1);
   at(15 * ms, {});
   expect(FrameStatus::stale_joints, "'slide'");
@@ -121,13 +121,13 @@ TEST_F(PoseLookupTest, WhatMovesNothingDrawnMayBeMissing) {
     lookup.at(history, 10 * ms, answer_);
     EXPECT_EQ(answer_.status, FrameStatus::ok) << answer_.message;
     EXPECT_EQ(answer_.uncertain_links, frame);
-    EXPECT_NE(answer_.uncertain_reason.find("joint 'b' was never seen"), std::string::npos)
+    EXPECT_NE(answer_.uncertain_reason.find("joint 'b': never seen"), std::string::npos)
         << answer_.uncertain_reason;
     EXPECT_EQ(answer_.positions, (std::vector<double>{0.1, 0.0}));
     PoseHistory other(robot);
     other.add_joints(10 * ms, b, some);
     lookup.at(other, 10 * ms, answer_);
-    expect(FrameStatus::missing_joints, "joint 'a' was never seen");
+    expect(FrameStatus::missing_joints, "joint 'a': never seen");
   }
   PoseLookup lookup(robot, {.source = PoseSource::transforms});
   PoseHistory history(robot);
