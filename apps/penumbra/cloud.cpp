@@ -139,8 +139,12 @@ class CloudPages final : public io::CloudWatcher {
             const CloudReport& report, const std::string& fault) override {
     pages_[sensor]->store.save_scan(points, report, index, fault);
   }
-  void finish(std::span<const std::string> notes) {
-    for (const auto& page : pages_) page->store.finish({}, notes);
+  void finish(const io::CloudRunResult& result) {
+    for (std::size_t i = 0; i < pages_.size(); ++i) {
+      std::vector<std::string> notes = result.sensors[i].notes();
+      notes.insert(notes.end(), result.notes.begin(), result.notes.end());
+      pages_[i]->store.finish({}, notes);
+    }
   }
 
  private:
@@ -207,7 +211,7 @@ int execute(const CloudArguments& arguments) {
   print_table(std::move(rows));
   if (!options.output.empty()) std::cout << "results: " << options.output.string() << '\n';
   if (pages && !result.is_stopped) {
-    pages->finish(result.notes);
+    pages->finish(result);
     std::cout << "all clouds are labelled; Ctrl-C ends the viewer" << std::endl;
     while (!was_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

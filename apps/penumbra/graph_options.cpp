@@ -158,7 +158,8 @@ void add_live(CLI::App& app, LiveArguments& live) {
   add_settings<PointsRule>(app, "M", [&live](const auto& setting, const auto& numbers) {
     return io::set_numbers(setting.range, numbers, live.points.*setting.member);
   });
-  add_number(app, "--points-rate", "clouds of an image a second, at most; default 0: each", "HZ",
+  add_number(app, "--points-rate",
+             "point clouds a second of each camera, at most; default 0: one for each image", "HZ",
              live.points_rate, 0.0, 1000.0);
   add_number(app, "--duration", "end after so many seconds; default: never", "S", live.duration,
              0.0, longest_duration);

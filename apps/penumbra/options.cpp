@@ -69,8 +69,8 @@ void add_renderer(CLI::App& app, Backend& backend, RendererOptions& renderer) {
 void add_links(CLI::App& app, std::vector<ExtraMesh>& extra,
                std::vector<std::string>& ignore_links) {
   add_list(app, "--ignore-links",
-           "links that are not drawn, for example the sensor's own housing; may be given several "
-           "times",
+           "links that are not drawn, for example the sensor's own housing; of several robots "
+           "ROBOT/PATTERN; may be given several times",
            "PATTERN",
            [&ignore_links](const std::string& pattern) { ignore_links.push_back(pattern); });
   add_list(app, "--extra",

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <concepts>
 #include <initializer_list>
 #include <map>
 #include <string_view>
@@ -82,14 +83,17 @@ class Chooser {
 
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(bag_ + ": " + what); }
 
-  [[nodiscard]] std::vector<const BagTopic*> of(TopicTypes types) const {
+  /// Returns all topics of these types. Results of Penumbra are no input unless they are named.
+  [[nodiscard]] std::vector<const BagTopic*> of(TopicTypes types, bool with_results = false) const {
     std::vector<const BagTopic*> found;
     for (const BagTopic* topic : topics_)
-      if (std::find(types.begin(), types.end(), topic->type) != types.end()) found.push_back(topic);
+      if (std::find(types.begin(), types.end(), topic->type) != types.end() &&
+          (with_results || topic->name.find("/penumbra/") == std::string::npos))
+        found.push_back(topic);
     return found;
   }
 
-  template <typename F>
+  template <std::predicate<const std::string&> F>
   [[nodiscard]] std::vector<const BagTopic*> of(TopicTypes types, const F& is_one) const {
     auto found = of(types);
     std::erase_if(found, [&](const BagTopic* topic) { return !is_one(topic->name); });
@@ -101,7 +105,7 @@ class Chooser {
                                const std::string& name, TopicTypes types) const {
     const std::string why = "as " + option + " says";
     std::vector<std::string_view> known;
-    for (const BagTopic* topic : of(types)) {
+    for (const BagTopic* topic : of(types, true)) {
       if (topic->name == name) return use(role, *topic, why);
       known.push_back(topic->name);
     }
@@ -174,8 +178,7 @@ std::vector<TopicUse> choose_clouds(const Chooser& chooser, const BagOptions& op
   for (const std::string& name : options.cloud_topics)
     uses.push_back(chooser.named("cloud", "--topic", name, cloud_types));
   if (options.cloud_topics.empty())
-    for (const BagTopic* topic : chooser.of(
-             cloud_types, [](const std::string& name) { return !name.starts_with("/penumbra/"); }))
+    for (const BagTopic* topic : chooser.of(cloud_types))
       uses.push_back(Chooser::use("cloud", *topic, "by its type"));
   if (uses.empty()) chooser.refuse("has no clouds (" + one_of(cloud_types) + ")");
   return uses;

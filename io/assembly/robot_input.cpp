@@ -66,6 +66,7 @@ Robot robot_of(std::span<const RobotDescription> descriptions,
   for (const auto& [name, text] : descriptions) {
     RobotOptions own = options;
     own.extra = extra_of(options.extra, name);
+    own.ignore_links = patterns_of(options.ignore_links, name);
     const Robot robot = Robot::parse(text, folder, own);
     robots.push_back(
         {name, robot, mount_of(name + "/" + robot.links().front(), static_transforms)});

@@ -334,6 +334,15 @@ std::optional<CloudRecording> CloudRecording::open(const std::filesystem::path& 
   return recording;
 }
 
+std::vector<std::string> patterns_of(const std::vector<std::string>& patterns,
+                                     const std::string& robot) {
+  const std::string prefix = robot.empty() ? "" : robot + "/";
+  std::vector<std::string> own;
+  for (const std::string& pattern : patterns)
+    if (pattern.starts_with(prefix)) own.push_back(pattern.substr(prefix.size()));
+  return own;
+}
+
 std::vector<ExtraMesh> extra_of(const std::vector<ExtraMesh>& extra, const std::string& robot) {
   const std::string prefix = robot.empty() ? "" : robot + "/";
   std::vector<ExtraMesh> own;

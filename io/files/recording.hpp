@@ -36,7 +36,10 @@ struct RecordedRobot {
 /// Loads the robot, or joins the robots (Robot::join). Throws InputError.
 [[nodiscard]] Robot load_robot(const std::vector<RecordedRobot>& robots);
 
-/// Returns the parts of one of several robots: those of links ROBOT/LINK, as of LINK.
+/// Return what is of one of several robots: parts of links ROBOT/LINK as of LINK, and ROBOT/PATTERN
+/// as PATTERN. Of the only robot, which has no name, that is all.
+[[nodiscard]] std::vector<std::string> patterns_of(const std::vector<std::string>& patterns,
+                                                   const std::string& robot);
 [[nodiscard]] std::vector<ExtraMesh> extra_of(const std::vector<ExtraMesh>& extra,
                                               const std::string& robot);
 

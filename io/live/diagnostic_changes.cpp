@@ -27,17 +27,27 @@ std::string kind_of(std::string_view message) {
 std::vector<std::string> DiagnosticChanges::update(const DiagnosticArrayMessage& message) {
   std::vector<std::string> lines;
   std::map<std::string, std::string> now;
+  const std::map<std::string, std::string> former = reported_.value_or(now);
   for (const DiagnosticStatusMessage& status : message.status) {
     if (status.level == DiagnosticStatusMessage::ok) continue;
     std::string kind = kind_of(status.message);
-    const auto found = reported_.find(status.name);
-    if (found == reported_.end() || found->second != kind)
+    const auto found = former.find(status.name);
+    if (found == former.end() || found->second != kind)
       lines.push_back(status.name + ": " + status.message);
     now[status.name] = std::move(kind);
   }
-  for (const auto& [name, kind] : reported_)
+  for (const auto& [name, kind] : former)
     if (!now.empty() && !now.contains(name)) lines.push_back(name + ": recovered");
-  if (now.empty() && !reported_.empty()) lines.emplace_back("penumbra: no faults");
+  if (now.empty() && (!reported_ || !reported_->empty())) {
+    std::string line = "penumbra: no faults";
+    for (const DiagnosticStatusMessage& status : message.status) {
+      const std::size_t space = status.name.rfind(": ");  // after the program's name
+      const std::string what =
+          space == std::string::npos ? status.name : status.name.substr(space + 2);
+      line += (&status == message.status.data() ? ": " : "; ") + what + " " + status.message;
+    }
+    lines.push_back(std::move(line));
+  }
   reported_ = std::move(now);
   return lines;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,13 @@ namespace penumbra::io {
 /// Finds changes between successive diagnostics.
 class DiagnosticChanges {
  public:
-  /// Returns a line for each status whose fault changed or ended since the last call. A change of
-  /// the numbers in a message, for example of a duration, does not count.
+  /// Returns a line for each status whose fault changed or ended since the last call, and one with
+  /// all messages once there is no fault. A change of the numbers in a message, for example of a
+  /// duration, does not count.
   [[nodiscard]] std::vector<std::string> update(const DiagnosticArrayMessage& message);
 
  private:
-  std::map<std::string, std::string> reported_;  // kinds of faults, by status name
+  std::optional<std::map<std::string, std::string>> reported_;  // kinds of faults, by status name
 };
 
 }  // namespace penumbra::io

@@ -41,8 +41,8 @@ struct LiveOptions {
   std::vector<CameraInputOptions> cameras = {};
   std::vector<CloudInputOptions> clouds = {};
   DriftLimits drift = {};  ///< beyond which a camera's motion is a warning
-  PointsRule points = {};  ///< of images that are published
-  double points_rate = 0;  ///< at most so many clouds of a camera a second; 0: of each image
+  PointsRule points = {};  ///< which points of an image are published
+  double points_rate = 0;  ///< point clouds a second of a camera, at most; 0: one for each image
 };
 
 /// Sets names and topics of several robots. `resolve`: from NS/TOPIC to the name on the graph.

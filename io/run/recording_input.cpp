@@ -176,9 +176,8 @@ void InputOptions::apply_to(RobotOptions& robot, const std::string& name) const 
   robot.allow_missing_meshes |= allow_missing_meshes;
   const std::vector<ExtraMesh> own = extra_of(extra, name);
   robot.extra.insert(robot.extra.end(), own.begin(), own.end());
-  const std::string prefix = name.empty() ? "" : name + "/";
-  for (const std::string& pattern : ignore_links)
-    if (pattern.starts_with(prefix)) robot.ignore_links.push_back(pattern.substr(prefix.size()));
+  const std::vector<std::string> ignored = patterns_of(ignore_links, name);
+  robot.ignore_links.insert(robot.ignore_links.end(), ignored.begin(), ignored.end());
 }
 
 std::vector<std::string> cameras_of(const std::filesystem::path& input) {

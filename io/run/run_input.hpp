@@ -34,10 +34,10 @@ struct InputOptions {
   bool geometry_fallback = false;     ///< of RobotOptions, in addition to the recording's
   bool allow_missing_meshes = false;  ///< likewise
   std::vector<ExtraMesh> extra;       ///< likewise
-  /// Likewise; of several robots of a recording, ROBOT/PATTERN.
+  /// Likewise; of several robots, ROBOT/PATTERN.
   std::vector<std::string> ignore_links;
-  bool needs_camera_pose = true;      ///< false: it may be unknown, and is then the identity
-  bool needs_depth = false;           ///< true: a recording without depth images is an error
+  bool needs_camera_pose = true;  ///< false: it may be unknown, and is then the identity
+  bool needs_depth = false;       ///< true: a recording without depth images is an error
   FrameRange frames;
   std::optional<double> fps;  ///< of a recording without stamps, 1/s
   int threads = 0;            ///< that decode images; 0: one per core; 1: none of their own

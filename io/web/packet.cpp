@@ -67,7 +67,7 @@ std::optional<Wanted> parse_wanted(std::string_view parts, std::string_view step
 
 PartBytes cloud_part(const PointsView& points, std::span<const std::uint8_t> labels) {
   constexpr std::size_t most = 100'000;
-  const std::size_t step = points.count / most + 1;
+  const std::size_t step = std::max<std::size_t>(1, (points.count + most - 1) / most);
   std::string bytes;
   bytes.reserve(sizeof(Point) * (points.count / step + 1));
   for (std::size_t i = 0; i < points.count; i += step) {

@@ -74,8 +74,8 @@ class FrameArchive {
   [[nodiscard]] virtual std::vector<std::string> missing() const = 0;
 };
 
-/// Returns the measured points of a scan as Part::cloud, without colour; of more than 100,000 a
-/// part, evenly.
+/// Returns the measured points of a scan as Part::cloud, without colour; of more than 100,000
+/// points each n-th.
 [[nodiscard]] PartBytes cloud_part(const PointsView& points, std::span<const std::uint8_t> labels);
 
 /// Makes point clouds of depth images. Thread-safe.

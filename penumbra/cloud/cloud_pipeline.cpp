@@ -161,6 +161,9 @@ std::string CloudPipeline::State::fault_of(const Scan& scan) {
 
 /// Finds the poses of each part of a scan, and the part of each point. Returns as place().
 bool CloudPipeline::State::place_parts(const Scan& scan, const PoseAt& pose_at) {
+  T_sensor_body.clear();
+  reaches.clear();
+  part_of.clear();
   if (!scan.times.empty() && scan.times.size() != scan.points.count)
     return refuse(FrameStatus::bad_depth, std::to_string(scan.times.size()) + " times for " +
                                               std::to_string(scan.points.count) + " points");
@@ -169,9 +172,6 @@ bool CloudPipeline::State::place_parts(const Scan& scan, const PoseAt& pose_at) 
   const auto place_at = [&](std::int64_t time) {
     return place(stamp_after(scan.stamp.value_or(0), time), pose_at);
   };
-  T_sensor_body.clear();
-  reaches.clear();
-  part_of.clear();
   report.parts = 1;
   if (scan.times.empty() || !scan.origin) return place_at(0);
   const auto [least, most] = std::minmax_element(scan.times.begin(), scan.times.end());
@@ -236,7 +236,7 @@ void CloudPipeline::State::take(const CloudLabels& found, const Scan& scan) {
   }
 }
 
-/// Returns the pose of a target's frame in the points' frame, at the scan's begin.
+/// Returns the pose of a target's frame in the points' frame, in the scan's first part.
 Eigen::Isometry3d CloudPipeline::State::frame_of(const Target& target) const {
   const auto placement = placement_of(target.shape);
   if (!placement || placement->frame.kind == ReferenceFrame::Kind::camera)

@@ -56,8 +56,8 @@ struct CloudReport {
   std::span<const std::uint16_t> point_links;     ///< index + 1 in `links`; 0: none
   std::array<std::size_t, label_count> points{};  ///< their number, by label
   std::size_t parts = 0;  ///< in which the scan was labelled, each with its own poses
-  /// The robot's links in the points' frame at the scan's begin, without what is attached; NaN:
-  /// the pose is not known. Empty: none is.
+  /// The robot's links in the points' frame in the scan's first part, without what is attached;
+  /// NaN: the pose is not known. Empty: none is.
   std::span<const Eigen::Isometry3d> T_sensor_link;
   std::span<const TargetReport> targets;  ///< in the order of the scan's
   std::span<const std::string> links;     ///< as FrameReport::links

@@ -32,7 +32,7 @@ struct PointCloud {
   std::vector<std::uint32_t> pixels;  ///< of each point: v * width + u
 };
 
-/// Which points are made of an image; by default all, which are 3.7 MB of 640x480 pixels.
+/// Which points are made of an image; by default all: 3.7 MB for 640x480 pixels.
 struct PointsRule {
   int stride = 1;
   double range = 0.0;

@@ -32,6 +32,16 @@ class BagNamesTest : public BagTest {
   }
 };
 
+// A bag recorded next to a node has its results, too.
+TEST_F(BagNamesTest, ResultsOfPenumbraAreNoInput) {
+  for (const char* const result : {"filtered_depth", "virtual_depth"})
+    bag_.copy("/camera/depth/image_rect_raw", std::string("/cell/penumbra/") + result);
+  bag_.copy("/camera/depth/camera_info", "/cell/penumbra/camera_info");
+  const Outcome outcome = run();
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  expect_recorded_labels();
+}
+
 TEST_F(BagNamesTest, ALeadingSlashIsNothing) {
   add_board();
   rename_frames([](const std::string& frame) { return "/" + frame; });

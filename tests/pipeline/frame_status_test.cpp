@@ -107,8 +107,9 @@ TEST_F(FrameStatusTest, TheJointBuffersAnswers) {
       {.variable = 0, .why = JointStatus::stale, .last_seen = 42, .jump = {}, .source = "driver"}};
   const Robot robot = slab_robot();
   const auto given = [&] { return Frame{.depth = depth_.view(), .pose = pose_of(robot, answer)}; };
-  expect_pose_unknown(given(), FrameStatus::stale_joints,
-                      "joint 'slide': no position near the stamp, the last is 412 ms older, by driver");
+  expect_pose_unknown(
+      given(), FrameStatus::stale_joints,
+      "joint 'slide': no position near the stamp, the last is 412 ms older, by driver");
   answer.status = JointStatus::missing;
   answer.gaps = {
       {.variable = 0, .why = JointStatus::missing, .last_seen = {}, .jump = {}, .source = {}}};

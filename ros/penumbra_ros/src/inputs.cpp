@@ -33,7 +33,7 @@ bool is_image(TopicRole role) {
   return role == TopicRole::depth || role == TopicRole::color || role == TopicRole::cloud;
 }
 
-/// Messages that are received as bytes: of packages that may not be installed, and clouds.
+/// Messages that are received as bytes.
 bool is_generic(TopicRole role) {
   return role == TopicRole::attached || role == TopicRole::plan || role == TopicRole::cloud;
 }
@@ -140,7 +140,6 @@ void Inputs::follow(bool with_color, bool enabled) {
   for (std::size_t i = 0; i < links_.size(); ++i) {
     find_publishers(i);
     Link& link = links_[i];
-    if (link.scene) ask_for_scene(i);
     const TopicRole role = link.topic.role;
     const bool is_known = !is_generic(role) || link.has_publisher;
     const bool is_wanted = !link.topic.type.empty() && is_known &&
@@ -148,6 +147,9 @@ void Inputs::follow(bool with_color, bool enabled) {
                            (enabled || (role != TopicRole::depth && role != TopicRole::cloud));
     if (is_wanted && !link.subscription) link.subscription = subscribe(i);
     if (!is_wanted) link.subscription.reset();
+    // A change after the answer comes by the subscription.
+    const bool is_heard = link.subscription && link.subscription->get_publisher_count() > 0;
+    if (link.scene && (is_heard || !link.has_publisher)) ask_for_scene(i);
   }
 }
 
@@ -213,7 +215,7 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_latched(std::size_t topic)
       options);
 }
 
-// Only where MoveIt or Livox's driver is installed are their messages known.
+// Only where Livox's driver is installed are its messages known.
 rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_generic(std::size_t topic) {
   const penumbra::io::InputTopic& of = links_[topic].topic;
   try {

@@ -21,8 +21,8 @@ class Inputs {
 
   /// Subscribes to what is needed now: target topics once their type is known, colour images if
   /// `with_color`, depth images and clouds if `enabled`. Reliable where all publishers offer that:
-  /// of large images most are lost otherwise. Asks each MoveIt for its scene when it is there, and
-  /// when it is back: of what was attached before, it sends changes alone.
+  /// of large images most are lost otherwise. Asks MoveIt for its planning scene when its
+  /// service appears, because MoveIt publishes changes only.
   void follow(bool with_color, bool enabled);
 
   /// Returns the state of each of the runner's topics.

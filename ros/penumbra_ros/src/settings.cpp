@@ -133,7 +133,9 @@ penumbra::RobotOptions declare_robot(Declaration& declare) {
       declare("geometry_fallback", false, "draw links that have only the other geometry with that");
   robot.allow_missing_meshes = declare(
       "allow_missing_meshes", false, "go on without meshes that cannot be read; results name them");
-  robot.ignore_links = declare("ignore_links", Texts{}, "patterns of links that are not drawn");
+  robot.ignore_links =
+      declare("ignore_links", Texts{},
+              "patterns of links that are not drawn; of several robots ROBOT/PATTERN");
   robot.only_links = declare("only_links", Texts{}, "if not empty: patterns of the links drawn");
   for (const auto& [link, metres] :
        declare.pairs("margins", "LINK=METRES: by how much links are drawn larger; patterns"))
@@ -396,8 +398,9 @@ Settings declare_settings(rclcpp::Node& node) {
             setting.name, points.*setting.member, static_cast<Stored<Value>>(setting.range.least),
             static_cast<Stored<Value>>(setting.range.most), setting.meaning));
       });
-  settings.live.points_rate = declare.number("points_rate", 0.0, 0.0, 1000.0,
-                                             "clouds of an image a second, at most; 0: each");
+  settings.live.points_rate =
+      declare.number("points_rate", 0.0, 0.0, 1000.0,
+                     "point clouds a second of each camera, at most; 0: one for each image");
   declare("publish", Texts(output_names.begin(), output_names.end()),
           "results to publish; those without a subscriber are not computed", changeable);
   settings.publish = read_publish(node);
