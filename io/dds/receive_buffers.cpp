@@ -7,7 +7,7 @@ namespace penumbra::io {
 namespace {
 
 // Two simultaneous images of 1280x720, depth and colour, are 4.4 MiB in 70 datagrams. Measured at
-// 30 Hz: half of the colour images are lost with 1 MiB, none with 4 MiB (docs/ros2.md).
+// 30 Hz: half of the colour images are lost with 1 MiB, none with 4 MiB (docs/live.md).
 constexpr std::uint64_t enough = std::uint64_t{4} << 20;
 
 std::optional<std::uint64_t> read_setting(const char* name) {

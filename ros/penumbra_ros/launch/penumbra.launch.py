@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Starts a Penumbra node for one camera, or for clouds and laser scans.
+"""Starts a Penumbra node for cameras, or for clouds and laser scans.
 
 ros2 launch penumbra_ros penumbra.launch.py camera:=/camera/camera targets:=/detections
+ros2 launch penumbra_ros penumbra.launch.py cameras:=left=/left/depth/image,wrist=/wrist/depth/image
 ros2 launch penumbra_ros penumbra.launch.py clouds:=/ouster/points,/scan
 
 With container:=NAME the node is loaded into that running container; otherwise it is a process of its
@@ -25,6 +26,7 @@ ARGUMENTS = {
     "camera": ("", "namespace of the camera's depth/image_rect_raw; without params_file: "
                    + CAMERA),
     "depth_topic": ("", "the depth images, in place of the camera's"),
+    "cameras": ("", "of several cameras NAME=TOPIC, separated by commas: their depth images"),
     "clouds": ("", "topics of PointCloud2 or LaserScan, separated by commas; then a camera must be "
                    "named to be judged"),
     "robot_description_topic": ("robot_description", "the URDF"),
@@ -39,8 +41,14 @@ ARGUMENTS = {
 
 def settings_of(value):
     parameters = [value["params_file"]] if value["params_file"] else []
-    camera = value["camera"] or ("" if parameters or value["clouds"] else CAMERA)
+    others = parameters or value["clouds"] or value["cameras"]
+    camera = value["camera"] or ("" if others else CAMERA)
     given = {}
+    for named in value["cameras"].split(",") if value["cameras"] else []:
+        name, _, topic = named.partition("=")
+        if not (name and topic):
+            raise RuntimeError(f"cameras:={value['cameras']}: '{named}' is not NAME=TOPIC")
+        given[f"cameras.{name}.depth_topic"] = topic
     if value["depth_topic"] or camera:
         given["depth_topic"] = value["depth_topic"] or camera + "/depth/image_rect_raw"
     if value["use_sim_time"]:
