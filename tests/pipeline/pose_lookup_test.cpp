@@ -60,7 +60,7 @@ TEST_F(PoseLookupTest, ByJoints) {
   EXPECT_FALSE(answer_.T_parent_camera);
   add_joint(30 * ms, 0.9);
   at(25 * ms, {});
-  expect(FrameStatus::stale_joints, "'slide' jumps");
+  expect(FrameStatus::stale_joints, "'slide': jumps");
 }
 
 TEST_F(PoseLookupTest, ByTransforms) {

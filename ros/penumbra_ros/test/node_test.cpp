@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The node between a player of the shipped recording and subscribers.
+#include "move_group.hpp"
 #include "penumbra_node.hpp"
 #include "player.hpp"
 
@@ -14,7 +15,6 @@
 #include <class_loader/class_loader.hpp>
 #include <diagnostic_msgs/msg/diagnostic_array.hpp>
 #include <gtest/gtest.h>
-#include <moveit_msgs/srv/get_planning_scene.hpp>
 #include <rclcpp_components/node_factory.hpp>
 
 #include <io/files/png.hpp>
@@ -316,40 +316,6 @@ TEST_F(NodeTest, DepthOfTheSameProcessIsNotCopied) {
   EXPECT_EQ(watcher.address.load(), published);
   runner.stop();
 }
-
-/// Answers as MoveIt does, with a box on the arm's gripper or with nothing.
-class MoveIt {
- public:
-  explicit MoveIt(bool with_box) : node(std::make_shared<rclcpp::Node>("move_group")) {
-    using moveit_msgs::srv::GetPlanningScene;
-    service_ = node->create_service<GetPlanningScene>(
-        "get_planning_scene",
-        [this, with_box](const GetPlanningScene::Request::SharedPtr /*request*/,
-                         const GetPlanningScene::Response::SharedPtr answer) {
-          ++asked;
-          auto& state = answer->scene.robot_state;
-          state.joint_state.name = {"shoulder_pan"};
-          state.joint_state.position = {0.0};
-          if (!with_box) return;
-          moveit_msgs::msg::AttachedCollisionObject box;
-          box.link_name = "gripper";
-          box.object.id = "box";
-          box.object.header.frame_id = "gripper";
-          box.object.primitives.resize(1);
-          box.object.primitives[0].type = shape_msgs::msg::SolidPrimitive::BOX;
-          box.object.primitives[0].dimensions = {0.3, 0.3, 0.3};
-          box.object.primitive_poses.resize(1);
-          box.object.pose.orientation.w = box.object.primitive_poses[0].orientation.w = 1.0;
-          state.attached_collision_objects = {box};
-        });
-  }
-
-  rclcpp::Node::SharedPtr node;
-  int asked = 0;
-
- private:
-  rclcpp::ServiceBase::SharedPtr service_;
-};
 
 // MoveIt sends changes alone: a node that starts later, or again, has to ask.
 TEST_F(NodeTest, WhatWasAttachedBeforeIsAskedForWheneverMoveItComes) {
