@@ -122,12 +122,12 @@ int print_tunings(const io::CloudRunResult& result) {
 }
 
 /// The viewer's pages of the clouds, one for each sensor.
-class CloudPages final : public io::CloudWatcher {
+class CloudPages {
  public:
   explicit CloudPages(const CloudArguments& arguments)
       : options_(web_options(arguments.server)), input_(arguments.run.input.path.string()) {}
 
-  void begin(const Robot& robot, std::span<const std::string> sensors) override {
+  void begin(const Robot& robot, std::span<const std::string> sensors) {
     for (const std::string& sensor : sensors) {
       const auto& page =
           pages_.emplace_back(std::make_unique<Page>(robot, input_ + ", " + sensor, options_));
@@ -136,7 +136,7 @@ class CloudPages final : public io::CloudWatcher {
     }
   }
   void take(std::size_t sensor, std::uint64_t index, const PointsView& points,
-            const CloudReport& report, const std::string& fault) override {
+            const CloudReport& report, const std::string& fault) {
     pages_[sensor]->store.save_scan(points, report, index, fault);
   }
   void finish(const io::CloudRunResult& result) {
@@ -174,7 +174,11 @@ int execute(const CloudArguments& arguments) {
   catch_interrupts();
   io::CloudRunOptions options = arguments.run;
   std::optional<CloudPages> pages;
-  if (arguments.server.port) options.watcher = &pages.emplace(arguments);
+  if (arguments.server.port) {
+    pages.emplace(arguments);
+    options.on_begin = [&](const auto&... of) { pages->begin(of...); };
+    options.on_cloud = [&](const auto&... of) { pages->take(of...); };
+  }
   const io::CloudRunResult result = [&] {
     Progress progress(0);
     return io::run_clouds(options, print_line, [&] {

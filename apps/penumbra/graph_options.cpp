@@ -177,6 +177,7 @@ void add_live(CLI::App& app, LiveArguments& live) {
 void check_live(const CLI::App& /*app*/, const LiveArguments& live) {
   check_renderer(live.session.backend, live.session.renderer);
   check_server(live.server);
+  live.points.check();
   const io::BagOptions& topics = live.session.input.bag;
   if (live.cameras.empty() && live.clouds.empty()) return;
   if (!live.cameras.empty() && topics.depth_topic)

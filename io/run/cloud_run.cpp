@@ -157,7 +157,7 @@ void RecordedRun::label(const JointRow& row, CloudSummary& summary) {
   if (summary.time_note.empty()) summary.time_note = points.time_note;
   const auto index = static_cast<std::uint64_t>(row.index);
   clouds_.push_back(cloud_frame_json(report, index, fault));
-  if (options_.watcher != nullptr) options_.watcher->take(0, index, points.points, report, fault);
+  if (options_.on_cloud) options_.on_cloud(0, index, points.points, report, fault);
   if (!fault.empty() || options_.output.empty()) return;
   std::vector<std::byte> data;
   const PointCloud2Message out = cloud_output(stored.cloud, report, options_.how, data);
@@ -167,7 +167,7 @@ void RecordedRun::label(const JointRow& row, CloudSummary& summary) {
 void RecordedRun::label_all(const std::function<bool()>& go_on, CloudRunResult& result) {
   CloudSummary& summary = result.sensors.emplace_back();
   summary.name = recording_.clouds.file(0).parent_path().filename().string();
-  if (options_.watcher != nullptr) options_.watcher->begin(robot_, {&summary.name, 1});
+  if (options_.on_begin) options_.on_begin(robot_, {&summary.name, 1});
   for (const JointRow& row : rows_) {
     const std::int64_t first = options_.input.frames.first.value_or(0);
     if (row.index < first || (options_.input.frames.end && row.index >= *options_.input.frames.end))
@@ -288,7 +288,7 @@ BagRun::BagRun(const CloudRunOptions& options, const BagClouds& clouds)
   std::vector<std::string> names;
   for (const TopicUse& use : clouds.topics.clouds)
     names.push_back(result_.sensors.emplace_back().name = use.name);
-  if (options.watcher != nullptr) options.watcher->begin(clouds.robot, names);
+  if (options.on_begin) options.on_begin(clouds.robot, names);
   if (!writer_) return;
   for (const TopicUse& use : clouds.topics.clouds) {
     channels_.push_back(channel("/penumbra" + use.name, use.type));
@@ -317,9 +317,9 @@ const CloudReport& BagRun::write(std::size_t sensor, const ReceivedCloud& cloud)
     return workers_[sensor].label(cloud);
   });
   if (summary.time_note.empty()) summary.time_note = cloud.points.time_note;
-  if (options_.watcher != nullptr)
-    options_.watcher->take(sensor, summary.clouds - 1, cloud.points.points, report,
-                           cloud.source_message);
+  if (options_.on_cloud)
+    options_.on_cloud(sensor, summary.clouds - 1, cloud.points.points, report,
+                      cloud.source_message);
   const bool is_unreadable = report.labels.empty() && !cloud.source_message.empty();
   if (!writer_ || is_unreadable) return report;
   std::visit(

@@ -23,27 +23,17 @@
 
 namespace penumbra::io {
 
-/// Receives what run_clouds() labels, in its thread.
-class CloudWatcher {
- public:
-  CloudWatcher() = default;
-  CloudWatcher(const CloudWatcher&) = delete;
-  CloudWatcher& operator=(const CloudWatcher&) = delete;
-  virtual ~CloudWatcher() = default;
-
-  /// Called once, before clouds. `sensors`: their names.
-  virtual void begin(const Robot& robot, std::span<const std::string> sensors) = 0;
-  /// `index`: of the sensor's clouds. `fault`: why this one is not labelled, if not empty.
-  /// Arguments are valid during the call only.
-  virtual void take(std::size_t sensor, std::uint64_t index, const PointsView& points,
-                    const CloudReport& report, const std::string& fault) = 0;
-};
-
 struct CloudRunOptions {
-  InputOptions input;               ///< a recording folder with `frames.cloud`, or a bag
-  std::filesystem::path output;     ///< empty: write nothing
-  CloudWatcher* watcher = nullptr;  ///< must outlive the run; null: nobody watches
-  bool tune = false;                ///< measure the sensors' rules, without output and watcher
+  InputOptions input;            ///< a recording folder with `frames.cloud`, or a bag
+  std::filesystem::path output;  ///< empty: write nothing
+  bool tune = false;             ///< measure the sensors' rules, without output
+  /// Called once, before clouds. `sensors`: their names. May be null, as on_cloud.
+  std::function<void(const Robot&, std::span<const std::string> sensors)> on_begin;
+  /// Called for each labelled cloud. `index`: of the sensor's clouds. `fault`: why this one is not
+  /// labelled, if not empty. Arguments are valid during the call only.
+  std::function<void(std::size_t sensor, std::uint64_t index, const PointsView& points,
+                     const CloudReport& report, const std::string& fault)>
+      on_cloud;
   /// What options change of the recording's rule, or of the default, in their order.
   std::vector<std::function<void(CloudRule&)>> rule_changes;
   CloudOutput how;

@@ -47,12 +47,19 @@ void without_robot(const FrameReport& report, DepthImage& out) {
       out);
 }
 
+void PointsRule::check() const {
+  check_settings(*this);
+  constexpr double least_voxel = 0.001;  // metres: the cubes of an axis are numbered by 21 bits
+  if (voxel > 0 && voxel < least_voxel)
+    throw InputError("points_voxel: expected 0, or 0.001 m or more");
+}
+
 CloudMaker::CloudMaker(const Camera& camera, const PointsRule& rule)
     : rule_(rule),
       rays_x_(camera.intrinsics.width(), camera.intrinsics.height(),
               std::numeric_limits<float>::quiet_NaN()),
       rays_y_(rays_x_) {
-  check_settings(rule);
+  rule.check();
   if (rule.voxel > 0) cubes_.resize(std::bit_ceil(2 * rays_x_.size()));
   for (int v = 0; v < rays_x_.height(); ++v)
     for (int u = 0; u < rays_x_.width(); ++u) {

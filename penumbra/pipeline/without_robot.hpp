@@ -39,13 +39,17 @@ struct PointsRule {
   double voxel = 0.0;
 
   static constexpr auto settings() {
-    return std::tuple(Setting("points_stride", &PointsRule::stride, {1, 64}, "",
-                              "of points: each N-th pixel of each N-th row"),
-                      Setting("points_range", &PointsRule::range, {0, 1000}, "m",
-                              "of points: how far from the camera they may be; 0: any"),
-                      Setting("points_voxel", &PointsRule::voxel, {0, 10}, "m",
-                              "of points: one, the first, in each cube of this size; 0: all"));
+    return std::tuple(
+        Setting("points_stride", &PointsRule::stride, {1, 64}, "",
+                "points of each N-th pixel of each N-th row only"),
+        Setting("points_range", &PointsRule::range, {0, 1000}, "m",
+                "points up to this distance from the camera only; 0: all"),
+        Setting("points_voxel", &PointsRule::voxel, {0, 10}, "m",
+                "one point, the first, in each cube of this size, 0.001 or more; 0: all points"));
   }
+
+  /// Throws InputError for settings out of range.
+  void check() const;
 };
 
 /// Converts one camera's depth images to points. Allocates nothing once a cloud is large enough.

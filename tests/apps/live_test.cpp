@@ -32,6 +32,7 @@ TEST(LiveCommand, RefusesWhatCannotBe) {
       {{"--duration", "-1"}, "--duration"},
       {{"--points-stride", "0"}, "--points-stride: '0' is not a whole number from 1 to 64"},
       {{"--points-voxel", "x"}, "--points-voxel"},
+      {{"--points-voxel", "0.0001"}, "points_voxel: expected 0, or 0.001 m or more"},
       {{"--points-rate", "-1"}, "--points-rate"},
       {{"--port", "70000"}, "--port"},
       {{"--address", "0.0.0.0"}, "give --port, too"},

@@ -81,6 +81,7 @@ TEST(Points, AreRefusedForARuleOutOfRange) {
   EXPECT_THROW(CloudMaker(camera, {.stride = 0}), InputError);
   EXPECT_THROW(CloudMaker(camera, {.range = -1.0}), InputError);
   EXPECT_THROW(CloudMaker(camera, {.voxel = std::nan("")}), InputError);
+  EXPECT_THROW(CloudMaker(camera, {.voxel = 1e-30}), InputError);
 }
 
 }  // namespace

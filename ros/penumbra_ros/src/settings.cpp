@@ -398,6 +398,7 @@ Settings declare_settings(rclcpp::Node& node) {
             setting.name, points.*setting.member, static_cast<Stored<Value>>(setting.range.least),
             static_cast<Stored<Value>>(setting.range.most), setting.meaning));
       });
+  points.check();
   settings.live.points_rate =
       declare.number("points_rate", 0.0, 0.0, 1000.0,
                      "point clouds a second of each camera, at most; 0: one for each image");
