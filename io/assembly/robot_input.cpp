@@ -167,6 +167,7 @@ void RobotInput::request_load() {
   for (const std::string& name : options_.names)
     request.descriptions.push_back({name, descriptions_.at(name)});
   for (const auto& [child, t] : static_transforms_) request.static_transforms.push_back(t);
+  requested_transforms_ = static_transforms_.size();
   request_ = std::make_unique<const RobotLoadRequest>(std::move(request));
 }
 
@@ -179,6 +180,11 @@ void RobotInput::set_robot(MadeRobot made) {
   placed_ = requests_;
   fault_ = std::move(made.fault);
   if (made.robot) replace(std::move(made.robot));
+  retry_with_new_transforms();
+}
+
+void RobotInput::retry_with_new_transforms() {
+  if (static_transforms_.size() > requested_transforms_) retry();
 }
 
 void RobotInput::take(const JointStateMessage& message, const std::string& robot,
@@ -214,6 +220,7 @@ void RobotInput::take(const TfMessage& message, bool is_static, std::string_view
       posed_->history.add_transform(t.header.stamp, t.header.frame_id, t.child_frame_id,
                                     t.T_parent_child, source);
   }
+  retry_with_new_transforms();
 }
 
 }  // namespace penumbra::io

@@ -158,6 +158,8 @@ class RobotInput {
  private:
   void replace(std::shared_ptr<PosedRobot> robot);
   void request_load();
+  /// The places of several robots are made of static transforms.
+  void retry_with_new_transforms();
 
   RobotInputOptions options_;
   std::shared_ptr<PosedRobot> posed_;
@@ -169,6 +171,7 @@ class RobotInput {
   FrameTree frames_;
   std::uint64_t frames_revision_ = 0;
   std::map<std::string, TransformMessage> static_transforms_;  // by child; published only once
+  std::size_t requested_transforms_ = 0;                       // of the last request
   AttachedInput attached_;
   PlanInput plan_;
   Attachments attachments_;      // of this and of later robots

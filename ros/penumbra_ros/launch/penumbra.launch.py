@@ -9,8 +9,10 @@ With container:=NAME the node is loaded into that running container; otherwise i
 own, which is started again 2 s after a failure, except for one of its parameters (status 2).
 """
 import difflib
+import os
 
 import launch.logging
+from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, TimerAction
 from launch.substitutions import LaunchConfiguration
@@ -34,7 +36,9 @@ ARGUMENTS = {
     "params_file": ("", "parameters as in config/penumbra.yaml; given arguments override them"),
     "name": ("penumbra", "the node's name, and the first part of its topics"),
     "namespace": ("", "the node's namespace"),
+    "autostart": ("", "false: a lifecycle manager configures and activates the node"),
     "container": ("", "a running component container to load the node into"),
+    "rviz": ("", "true: start rviz2, too; it shows the first camera"),
     "use_sim_time": ("", "true: diagnostics use /clock"),
 }
 
@@ -51,8 +55,9 @@ def settings_of(value):
         given[f"cameras.{name}.depth_topic"] = topic
     if value["depth_topic"] or camera:
         given["depth_topic"] = value["depth_topic"] or camera + "/depth/image_rect_raw"
-    if value["use_sim_time"]:
-        given["use_sim_time"] = value["use_sim_time"].lower() == "true"
+    for name in ("use_sim_time", "autostart"):
+        if value[name]:
+            given[name] = value[name].lower() == "true"
     if value["clouds"]:
         given["clouds"] = value["clouds"].split(",")
     if value["targets"]:
@@ -73,6 +78,18 @@ def process_of(settings):
     return Node(executable="penumbra_node", output="screen", on_exit=ended, **settings)
 
 
+def rviz_of(value):
+    below = value["name"]
+    if value["cameras"]:
+        below += "/" + value["cameras"].partition("=")[0]
+    shown = ["markers", "points", "labels", "overlay", "overlay/compressed"]
+    config = os.path.join(get_package_share_directory("penumbra_ros"), "rviz", "penumbra.rviz")
+    return Node(package="rviz2", executable="rviz2", namespace=value["namespace"],
+                arguments=["-d", config],
+                remappings=[(f"penumbra/{topic}", f"{below}/{topic}") for topic in shown]
+                + [("robot_description", value["robot_description_topic"])])
+
+
 def start(context):
     # A launch file that includes this one has arguments of its own.
     for name in set(context.launch_configurations) - set(ARGUMENTS):
@@ -81,12 +98,13 @@ def start(context):
                 f"there is no argument '{name}'; did you mean '{ours}'?")
     value = {name: LaunchConfiguration(name).perform(context) for name in ARGUMENTS}
     settings = settings_of(value)
+    others = [rviz_of(value)] if value["rviz"].lower() == "true" else []
     if not value["container"]:
-        return [process_of(settings)]
+        return [process_of(settings)] + others
     component = ComposableNode(plugin="penumbra_ros::PenumbraNode",
                                extra_arguments=[{"use_intra_process_comms": True}], **settings)
     return [LoadComposableNodes(target_container=value["container"],
-                                composable_node_descriptions=[component])]
+                                composable_node_descriptions=[component])] + others
 
 
 def generate_launch_description():

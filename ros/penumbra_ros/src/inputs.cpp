@@ -62,7 +62,7 @@ penumbra::io::ImageMessage image_message(const Image& image) {
 
 }  // namespace
 
-Inputs::Inputs(rclcpp::Node& node, penumbra::io::LiveRunner& runner)
+Inputs::Inputs(rclcpp_lifecycle::LifecycleNode& node, penumbra::io::LiveRunner& runner)
     : node_(node), runner_(runner) {
   runner.with_inbox([&](const penumbra::io::LiveInbox& inbox) {
     for (const penumbra::io::InputTopic& topic : inbox.topics())
@@ -108,6 +108,7 @@ void Inputs::ask_for_scene(std::size_t topic) {
     rclcpp::Serialization<moveit_msgs::msg::PlanningScene>().serialize_message(&answer.get()->scene,
                                                                                bytes.get());
     runner_.receive(topic, {bytes_of(*bytes), bytes, 0});
+    links_[topic].is_answered = true;
   };
   link.scene->async_send_request(request, take);
 }
@@ -136,7 +137,14 @@ void Inputs::find_publishers(std::size_t topic) {
   link.state.other_type = published == link.topic.type ? "" : published;
 }
 
+bool Inputs::waits_for_scene() const {
+  return std::any_of(links_.begin(), links_.end(), [](const Link& link) {
+    return link.scene && !link.is_answered && link.scene->service_is_ready();
+  });
+}
+
 void Inputs::follow(bool with_color, bool enabled) {
+  const bool takes_images = enabled && !waits_for_scene();
   for (std::size_t i = 0; i < links_.size(); ++i) {
     find_publishers(i);
     Link& link = links_[i];
@@ -144,7 +152,7 @@ void Inputs::follow(bool with_color, bool enabled) {
     const bool is_known = !is_generic(role) || link.has_publisher;
     const bool is_wanted = !link.topic.type.empty() && is_known &&
                            (role != TopicRole::color || with_color) &&
-                           (enabled || (role != TopicRole::depth && role != TopicRole::cloud));
+                           (takes_images || (role != TopicRole::depth && role != TopicRole::cloud));
     if (is_wanted && !link.subscription) link.subscription = subscribe(i);
     if (!is_wanted) link.subscription.reset();
     // A change after the answer comes by the subscription.

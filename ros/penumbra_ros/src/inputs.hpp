@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <moveit_msgs/srv/get_planning_scene.hpp>
-#include <rclcpp/rclcpp.hpp>
+#include <rclcpp_lifecycle/lifecycle_node.hpp>
 
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/live_runner.hpp>
@@ -17,13 +17,15 @@ namespace penumbra_ros {
 class Inputs {
  public:
   /// Both must outlive this.
-  Inputs(rclcpp::Node& node, penumbra::io::LiveRunner& runner);
+  Inputs(rclcpp_lifecycle::LifecycleNode& node, penumbra::io::LiveRunner& runner);
 
   /// Subscribes to what is needed now: target topics once their type is known, colour images if
   /// `with_color`, depth images and clouds if `enabled`. Reliable where all publishers offer that:
   /// of large images most are lost otherwise. Asks MoveIt for its planning scene when its
-  /// service appears, because MoveIt publishes changes only.
+  /// service appears, because MoveIt publishes changes only; images wait for the first answer.
   void follow(bool with_color, bool enabled);
+  /// Returns whether MoveIt has not said yet what is attached.
+  [[nodiscard]] bool waits_for_scene() const;
 
   /// Returns the state of each of the runner's topics.
   [[nodiscard]] std::vector<penumbra::io::LiveLink> links() const;
@@ -36,6 +38,7 @@ class Inputs {
     bool has_publisher = false;
     rclcpp::Client<moveit_msgs::srv::GetPlanningScene>::SharedPtr scene;  // of planning scenes
     bool is_asked = false;                                                // the scene's service
+    bool is_answered = false;                                             // once
     penumbra::io::LiveLink state;
   };
 
@@ -52,7 +55,7 @@ class Inputs {
   [[nodiscard]] rclcpp::SubscriptionOptions options_of(std::size_t topic);
   [[nodiscard]] rclcpp::QoS qos_of(std::size_t topic) const;
 
-  rclcpp::Node& node_;
+  rclcpp_lifecycle::LifecycleNode& node_;
   penumbra::io::LiveRunner& runner_;
   std::vector<Link> links_;  // of each topic
 };

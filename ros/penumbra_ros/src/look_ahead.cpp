@@ -64,7 +64,7 @@ penumbra_msgs::msg::TargetForecast to_message(const penumbra::TargetForecast& fo
 
 }  // namespace
 
-LookAheadService::LookAheadService(rclcpp::Node& node, const std::string& name)
+LookAheadService::LookAheadService(rclcpp_lifecycle::LifecycleNode& node, const std::string& name)
     : service_(node.create_service<Service>(
           name, [this](const std::shared_ptr<rmw_request_id_t> id,
                        const std::shared_ptr<Service::Request> request) {

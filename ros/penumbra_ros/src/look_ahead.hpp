@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <penumbra_msgs/srv/look_ahead.hpp>
-#include <rclcpp/rclcpp.hpp>
+#include <rclcpp_lifecycle/lifecycle_node.hpp>
 
 #include <io/assembly/assembled_frame.hpp>
 
@@ -20,7 +20,7 @@ namespace penumbra_ros {
 class LookAheadService {
  public:
   /// `name`: "~/look_ahead".
-  LookAheadService(rclcpp::Node& node, const std::string& name);
+  LookAheadService(rclcpp_lifecycle::LifecycleNode& node, const std::string& name);
 
   /// Takes the newest judged image.
   void take(const penumbra::io::AssembledFrame& job);

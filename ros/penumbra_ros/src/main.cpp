@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   }
   try {
     rclcpp::executors::SingleThreadedExecutor executor;
-    executor.add_node(node);
+    executor.add_node(node->get_node_base_interface());
     const auto failure = node->failure();
     if (executor.spin_until_future_complete(failure) == rclcpp::FutureReturnCode::SUCCESS)
       failure.get();

@@ -17,8 +17,9 @@ using penumbra::io::Result;
 constexpr std::size_t points_depth = 5;  // megabytes each
 
 template <typename M>
-auto advertise(rclcpp::Node& node, const std::string& name, std::size_t depth = result_depth) {
-  return node.create_publisher<M>(name, rclcpp::QoS(depth), with_qos_parameters());
+auto advertise(rclcpp_lifecycle::LifecycleNode& node, const std::string& name,
+               std::size_t depth = result_depth) {
+  return rclcpp::create_publisher<M>(node, name, rclcpp::QoS(depth), with_qos_parameters());
 }
 
 }  // namespace
@@ -37,8 +38,8 @@ rclcpp::PublisherOptions with_qos_parameters() {
   return options;
 }
 
-Outputs::Outputs(rclcpp::Node& node, const std::string& below, bool target_frames,
-                 std::string frame_prefix)
+Outputs::Outputs(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& images,
+                 const std::string& below, bool target_frames, std::string frame_prefix)
     : frame_prefix_(std::move(frame_prefix)),
       look_ahead_(node, below + "look_ahead"),
       points_(advertise<sensor_msgs::msg::PointCloud2>(node, below + "points", points_depth)),
@@ -50,7 +51,7 @@ Outputs::Outputs(rclcpp::Node& node, const std::string& below, bool target_frame
   for (const Result result : {Result::virtual_depth, Result::labels, Result::mask,
                               Result::filtered_depth, Result::robot_mask})
     images_[result] = image_transport::create_publisher(
-        &node,
+        &images,
         node.get_node_topics_interface()->resolve_topic_name(
             below + output_names[static_cast<std::size_t>(result)]),
         rclcpp::QoS(result_depth).get_rmw_qos_profile(), with_qos_parameters());

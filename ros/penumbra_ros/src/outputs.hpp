@@ -16,6 +16,7 @@
 #include <penumbra_msgs/msg/targets.hpp>
 #include <rclcpp/rclcpp.hpp>
 #include <rclcpp/serialization.hpp>
+#include <rclcpp_lifecycle/lifecycle_node.hpp>
 #include <sensor_msgs/msg/camera_info.hpp>
 #include <sensor_msgs/msg/compressed_image.hpp>
 #include <sensor_msgs/msg/point_cloud2.hpp>
@@ -54,10 +55,11 @@ template <typename M>
 /// write() and take(); the other functions are for any thread.
 class Outputs final : public penumbra::io::ResultSink, public penumbra::io::FrameWatcher {
  public:
-  /// `below`: of the topics, "~/" or "~/CAMERA/". `target_frames`: publishes targets in TF.
-  /// `frame_prefix`: of link names in TF.
-  Outputs(rclcpp::Node& node, const std::string& below, bool target_frames,
-          std::string frame_prefix);
+  /// `images`: publishes those by image_transport, which takes no lifecycle node. `below`: of the
+  /// topics, "~/" or "~/CAMERA/". `target_frames`: publishes targets in TF. `frame_prefix`: of link
+  /// names in TF.
+  Outputs(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& images, const std::string& below,
+          bool target_frames, std::string frame_prefix);
 
   /// Limits the results to these names.
   void select(const std::set<std::string>& names);
@@ -100,14 +102,14 @@ class Outputs final : public penumbra::io::ResultSink, public penumbra::io::Fram
 class CloudOutputs final : public penumbra::io::CloudSink {
  public:
   /// `topic`: of the clouds; labelled ones are on "TOPIC/labelled", targets on "TOPIC/targets".
-  CloudOutputs(rclcpp::Node& node, const std::string& topic)
+  CloudOutputs(rclcpp_lifecycle::LifecycleNode& node, const std::string& topic)
       : node_(node), topics_{topic, topic + "/labelled", topic + "/targets"} {}
 
   [[nodiscard]] bool wants(penumbra::io::CloudResult result, const std::string& type) override;
   void write(penumbra::io::CloudResult result, std::span<const std::byte> payload) override;
 
  private:
-  rclcpp::Node& node_;
+  rclcpp_lifecycle::LifecycleNode& node_;
   // Of each CloudResult.
   std::array<std::string, 3> topics_;
   std::array<rclcpp::GenericPublisher::SharedPtr, 3> publishers_;

@@ -11,7 +11,6 @@ namespace {
 
 using penumbra::io::DiagnosticStatusMessage;
 using penumbra::io::LiveRunner;
-using std_srvs::srv::SetBool;
 using std_srvs::srv::Trigger;
 
 constexpr std::chrono::seconds check_period{1};
@@ -27,14 +26,56 @@ const DiagnosticStatusMessage* subject_of(const penumbra::io::DiagnosticArrayMes
 }  // namespace
 
 PenumbraNode::PenumbraNode(const rclcpp::NodeOptions& options)
-    : Node("penumbra", options),
-      settings_(declare_settings(*this)),
-      diagnostics_(LiveRunner::steady_now(), {.name = get_name()}),
-      updater_(this) {
+    : LifecycleNode("penumbra", options), settings_(declare_settings(*this)), updater_(this) {
+  updater_.setHardwareID(get_fully_qualified_name());
+  add_diagnostics();
+  on_change_ = add_on_set_parameters_callback(
+      [this](const std::vector<rclcpp::Parameter>& changes) { return change(changes); });
+  warn_of_unknown_parameters();
+  // Nothing can be published once the context is shut down.
+  before_shutdown_ = get_node_base_interface()->get_context()->add_pre_shutdown_callback([this] {
+    if (runner_) runner_->stop();
+  });
+  if (!settings_.autostart) return;
+  configure();
+  activate();
+}
+
+PenumbraNode::~PenumbraNode() {
+  get_node_base_interface()->get_context()->remove_pre_shutdown_callback(before_shutdown_);
+  clean_up();
+}
+
+PenumbraNode::CallbackReturn PenumbraNode::on_configure(const rclcpp_lifecycle::State& /*former*/) {
+  make_outputs();
+  inputs_ = std::make_unique<Inputs>(*this, *runner_);
+  diagnostics_.emplace(LiveRunner::steady_now(),
+                       penumbra::io::DiagnosticSource{.name = get_name()});
+  reset_ = create_service<Trigger>(
+      "~/reset", [this](const Trigger::Request::SharedPtr, Trigger::Response::SharedPtr response) {
+        runner_->forget();
+        response->success = true;
+      });
+  inputs_->follow(false, active_);
+  timer_ = create_wall_timer(check_period, [this] { check(); });
+  runner_->start();
+  return CallbackReturn::SUCCESS;
+}
+
+void PenumbraNode::make_outputs() {
+  // Names are resolved by this node, parameters of QoS and of plugins are its own.
+  rclcpp::NodeOptions options;
+  options.use_global_arguments(false).start_parameter_services(false);
+  options.use_intra_process_comms(get_node_options().use_intra_process_comms());
+  for (const auto& [name, value] : get_node_parameters_interface()->get_parameter_overrides())
+    options.append_parameter_override(name, value);
+  images_ =
+      std::make_shared<rclcpp::Node>(std::string(get_name()) + "_images", get_namespace(),
+                                     options.context(get_node_base_interface()->get_context()));
   std::vector<penumbra::io::ResultSink*> sinks;
   for (const penumbra::io::CameraInputOptions& camera : settings_.live.cameras) {
     const std::string below = camera.name.empty() ? "~/" : "~/" + camera.name + "/";
-    outputs_.push_back(std::make_unique<Outputs>(*this, below, settings_.target_frames,
+    outputs_.push_back(std::make_unique<Outputs>(*this, *images_, below, settings_.target_frames,
                                                  camera.mount.frame_prefix));
     outputs_.back()->select(settings_.publish);
     outputs_.back()->set_rule(settings_.pipeline.rule);
@@ -50,38 +91,49 @@ PenumbraNode::PenumbraNode(const rclcpp::NodeOptions& options)
                                          cloud_sinks);
   for (std::size_t i = 0; i < outputs_.size(); ++i) runner_->watch(i, *outputs_[i]);
   if (outputs_.size() > 1) fuse();
-  inputs_ = std::make_unique<Inputs>(*this, *runner_);
-  updater_.setHardwareID(get_fully_qualified_name());
-  add_diagnostics();
-  reset_ = create_service<Trigger>(
-      "~/reset", [this](const Trigger::Request::SharedPtr, Trigger::Response::SharedPtr response) {
-        runner_->forget();
-        response->success = true;
-      });
-  enable_ = create_service<SetBool>("~/enable", [this](const SetBool::Request::SharedPtr request,
-                                                       SetBool::Response::SharedPtr response) {
-    enable(request->data);
-    response->success = true;
-  });
-  on_change_ = add_on_set_parameters_callback(
-      [this](const std::vector<rclcpp::Parameter>& changes) { return change(changes); });
-  warn_of_unknown_parameters();
-  inputs_->follow(false, enabled_);
-  timer_ = create_wall_timer(check_period, [this] { check(); });
-  runner_->start();
-  // Nothing can be published once the context is shut down.
-  before_shutdown_ = get_node_base_interface()->get_context()->add_pre_shutdown_callback(
-      [this] { runner_->stop(); });
 }
 
-PenumbraNode::~PenumbraNode() {
-  get_node_base_interface()->get_context()->remove_pre_shutdown_callback(before_shutdown_);
-  runner_->stop();
+PenumbraNode::CallbackReturn PenumbraNode::on_activate(const rclcpp_lifecycle::State& /*former*/) {
+  active_ = true;  // from the next check on: MoveIt's service is discovered by then
+  return CallbackReturn::SUCCESS;
+}
+
+PenumbraNode::CallbackReturn PenumbraNode::on_deactivate(
+    const rclcpp_lifecycle::State& /*former*/) {
+  active_ = false;
+  inputs_->follow(wants_overlay(), active_);
+  return CallbackReturn::SUCCESS;
+}
+
+PenumbraNode::CallbackReturn PenumbraNode::on_cleanup(const rclcpp_lifecycle::State& /*former*/) {
+  clean_up();
+  return CallbackReturn::SUCCESS;
+}
+
+PenumbraNode::CallbackReturn PenumbraNode::on_shutdown(const rclcpp_lifecycle::State& /*former*/) {
+  clean_up();
+  return CallbackReturn::SUCCESS;
+}
+
+void PenumbraNode::clean_up() {
+  active_ = false;
+  if (runner_) runner_->stop();
+  timer_.reset();
+  reset_.reset();
+  inputs_.reset();
+  runner_.reset();
+  fusion_.reset();
+  target_views_.reset();
+  clouds_.clear();
+  outputs_.clear();
+  images_.reset();
+  statuses_ = {};
+  changes_ = {};
 }
 
 void PenumbraNode::fuse() {
-  target_views_ = create_publisher<penumbra_msgs::msg::TargetViews>(
-      "~/target_views", rclcpp::QoS(result_depth), with_qos_parameters());
+  target_views_ = rclcpp::create_publisher<penumbra_msgs::msg::TargetViews>(
+      *this, "~/target_views", rclcpp::QoS(result_depth), with_qos_parameters());
   std::vector<std::string> cameras;
   for (const penumbra::io::CameraInputOptions& camera : settings_.live.cameras)
     cameras.push_back(camera.name);
@@ -122,12 +174,12 @@ rcl_interfaces::msg::SetParametersResult PenumbraNode::change(const Changes& cha
   rcl_interfaces::msg::SetParametersResult result;
   try {
     settings_.pipeline.rule = read_rule(*this, changes);
-    const std::set<std::string> publish = read_publish(*this, changes);
+    settings_.publish = read_publish(*this, changes);
     for (const auto& outputs : outputs_) {
-      outputs->select(publish);
+      outputs->select(settings_.publish);
       outputs->set_rule(settings_.pipeline.rule);
     }
-    runner_->configure(settings_.pipeline);
+    if (runner_) runner_->configure(settings_.pipeline);
     result.successful = true;
   } catch (const std::exception& error) {
     result.successful = false;
@@ -136,28 +188,26 @@ rcl_interfaces::msg::SetParametersResult PenumbraNode::change(const Changes& cha
   return result;
 }
 
-void PenumbraNode::enable(bool enabled) {
-  enabled_ = enabled;
-  inputs_->follow(false, enabled_);
-}
-
 void PenumbraNode::check() {
   if (runner_->has_failed() &&
       failure_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
     failed_.set_exception(runner_->fault());
-    RCLCPP_FATAL(get_logger(), "nothing is judged any more; load the node again");
+    RCLCPP_FATAL(get_logger(), "nothing is judged any more; clean up and configure the node again");
   }
-  inputs_->follow(wants_overlay(), enabled_);
+  inputs_->follow(wants_overlay(), active_);
   const auto links = inputs_->links();
   statuses_ = runner_->with_inbox([&](const penumbra::io::LiveInbox& inbox) {
-    return diagnostics_.report(inbox, links, {LiveRunner::steady_now(), now().nanoseconds()});
+    return diagnostics_->report(inbox, links, {LiveRunner::steady_now(), now().nanoseconds()});
   });
   if (fusion_) fusion_->add_contradictions(statuses_);
   for (std::size_t i = 1; i < statuses_.status.size(); ++i) {  // the first is the robot's
     DiagnosticStatusMessage& sensor = statuses_.status[i];
-    if (!enabled_) {
+    if (!active_) {
       sensor.level = DiagnosticStatusMessage::ok;
-      sensor.message = "disabled by ~/enable";
+      sensor.message = "inactive";
+    } else if (inputs_->waits_for_scene()) {
+      sensor.level = DiagnosticStatusMessage::warn;
+      sensor.message = "waits for MoveIt to say what is attached (get_planning_scene)";
     }
     if (runner_->has_failed()) {
       sensor.level = DiagnosticStatusMessage::error;
@@ -175,7 +225,8 @@ void PenumbraNode::check() {
 }
 
 void PenumbraNode::report(diagnostic_updater::DiagnosticStatusWrapper& status, std::size_t number) {
-  if (statuses_.status.empty()) return status.summary(DiagnosticStatusMessage::stale, "starting");
+  if (statuses_.status.empty())
+    return status.summary(DiagnosticStatusMessage::stale, "not configured");
   const DiagnosticStatusMessage& from = statuses_.status[number];
   status.summary(from.level, from.message);
   for (const auto& [key, value] : from.values) status.add(key, value);

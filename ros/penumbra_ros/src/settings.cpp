@@ -31,7 +31,7 @@ constexpr bool changeable = true;
 class Declaration {
  public:
   /// `before`: of the names.
-  explicit Declaration(rclcpp::Node& node, std::string before = "")
+  explicit Declaration(rclcpp_lifecycle::LifecycleNode& node, std::string before = "")
       : node_(node), before_(std::move(before)) {}
 
   template <typename T>
@@ -89,12 +89,13 @@ class Declaration {
     return described;
   }
 
-  rclcpp::Node& node_;
+  rclcpp_lifecycle::LifecycleNode& node_;
   std::string before_;
 };
 
 template <typename T>
-T value_of(const rclcpp::Node& node, const Changes& changes, const std::string& name) {
+T value_of(const rclcpp_lifecycle::LifecycleNode& node, const Changes& changes,
+           const std::string& name) {
   for (const rclcpp::Parameter& change : changes)
     if (change.get_name() == name) return change.get_value<T>();
   return node.get_parameter(name).get_value<T>();
@@ -110,11 +111,11 @@ double to_number(const std::string& name, const std::string& text) {
   throw InputError("parameter '" + name + "': '" + text + "' is not a number");
 }
 
-std::string resolved(rclcpp::Node& node, const std::string& topic) {
+std::string resolved(rclcpp_lifecycle::LifecycleNode& node, const std::string& topic) {
   return node.get_node_topics_interface()->resolve_topic_name(topic);
 }
 
-std::vector<std::string> resolved(rclcpp::Node& node, Texts topics) {
+std::vector<std::string> resolved(rclcpp_lifecycle::LifecycleNode& node, Texts topics) {
   for (std::string& topic : topics) topic = resolved(node, topic);
   return topics;
 }
@@ -186,7 +187,8 @@ void declare_mount(Declaration& declare, penumbra::io::CameraInputOptions& camer
       declare.number<std::int64_t>("queue", 8, 1, 1000, "images that may wait for their pose"));
 }
 
-void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::LiveOptions& live) {
+void declare_topics(rclcpp_lifecycle::LifecycleNode& node, Declaration& declare,
+                    penumbra::io::LiveOptions& live) {
   live.description_topics = {resolved(node, "robot_description")};
   live.transform_topic = resolved(node, "/tf");
   live.static_transform_topic = resolved(node, "/tf_static");
@@ -210,7 +212,7 @@ void declare_topics(rclcpp::Node& node, Declaration& declare, penumbra::io::Live
 }
 
 /// Returns the NAME of all parameters cameras.NAME.PARAMETER.
-std::set<std::string> cameras_of(rclcpp::Node& node) {
+std::set<std::string> cameras_of(rclcpp_lifecycle::LifecycleNode& node) {
   const std::string before = "cameras.";
   std::set<std::string> names;
   for (const auto& [name, value] : node.get_node_parameters_interface()->get_parameter_overrides())
@@ -220,8 +222,8 @@ std::set<std::string> cameras_of(rclcpp::Node& node) {
 }
 
 /// Declares a camera. `depth_topic`: its default. Returns false without a topic.
-bool declare_camera(rclcpp::Node& node, Declaration& declare, const std::string& depth_topic,
-                    penumbra::io::CameraInputOptions& camera) {
+bool declare_camera(rclcpp_lifecycle::LifecycleNode& node, Declaration& declare,
+                    const std::string& depth_topic, penumbra::io::CameraInputOptions& camera) {
   declare_mount(declare, camera);
   const auto depth = declare("depth_topic", depth_topic,
                              "depth images; a name that ends in /compressed or /compressedDepth is "
@@ -252,7 +254,8 @@ bool declare_camera(rclcpp::Node& node, Declaration& declare, const std::string&
   return !camera.depth_topic.empty();
 }
 
-void declare_cameras(rclcpp::Node& node, const penumbra::io::CameraInputOptions& common,
+void declare_cameras(rclcpp_lifecycle::LifecycleNode& node,
+                     const penumbra::io::CameraInputOptions& common,
                      std::vector<penumbra::io::CameraInputOptions>& cameras, bool has_clouds) {
   const std::set<std::string> names = cameras_of(node);
   for (const std::string& name : names) {
@@ -269,7 +272,7 @@ void declare_cameras(rclcpp::Node& node, const penumbra::io::CameraInputOptions&
     cameras.push_back(camera);
 }
 
-void declare_clouds(rclcpp::Node& node, Declaration& declare,
+void declare_clouds(rclcpp_lifecycle::LifecycleNode& node, Declaration& declare,
                     const penumbra::io::CameraInputOptions& common, Settings& settings) {
   for (const std::string& text :
        declare("clouds", Texts{},
@@ -313,7 +316,7 @@ void declare_rule(Declaration& declare) {
 }
 
 /// Throws InputError if a camera and a sensor of clouds, or two of these, publish on one topic.
-void check_names(rclcpp::Node& node, const Settings& settings) {
+void check_names(rclcpp_lifecycle::LifecycleNode& node, const Settings& settings) {
   std::set<std::string> taken;
   for (const penumbra::io::CameraInputOptions& camera : settings.live.cameras)
     for (const char* name : output_names)
@@ -328,7 +331,7 @@ void check_names(rclcpp::Node& node, const Settings& settings) {
 
 }  // namespace
 
-penumbra::LabelRule read_rule(const rclcpp::Node& node, const Changes& changes) {
+penumbra::LabelRule read_rule(const rclcpp_lifecycle::LifecycleNode& node, const Changes& changes) {
   const auto labels = value_of<std::string>(node, changes, "labels");
   if (labels != "full" && labels != "paper")
     throw InputError("parameter 'labels' is '" + labels + "'; it must be one of full, paper");
@@ -350,7 +353,8 @@ penumbra::LabelRule read_rule(const rclcpp::Node& node, const Changes& changes) 
   return options.applied_to({});
 }
 
-std::set<std::string> read_publish(const rclcpp::Node& node, const Changes& changes) {
+std::set<std::string> read_publish(const rclcpp_lifecycle::LifecycleNode& node,
+                                   const Changes& changes) {
   const auto names = value_of<Texts>(node, changes, "publish");
   for (const std::string& name : names)
     if (std::find(output_names.begin(), output_names.end(), name) == output_names.end())
@@ -358,7 +362,7 @@ std::set<std::string> read_publish(const rclcpp::Node& node, const Changes& chan
   return {names.begin(), names.end()};
 }
 
-Settings declare_settings(rclcpp::Node& node) {
+Settings declare_settings(rclcpp_lifecycle::LifecycleNode& node) {
   Declaration declare(node);
   Settings settings;
   settings.live.robot.robot = declare_robot(declare);
@@ -405,6 +409,9 @@ Settings declare_settings(rclcpp::Node& node) {
   declare("publish", Texts(output_names.begin(), output_names.end()),
           "results to publish; those without a subscriber are not computed", changeable);
   settings.publish = read_publish(node);
+  settings.autostart = declare("autostart", true,
+                               "configure and activate the node at the start; false: another does, "
+                               "such as Nav2's lifecycle manager");
   settings.target_frames = declare("target_frames", false, "publish handled targets in TF");
   if (settings.target_frames && settings.live.cameras.size() > 1)
     throw InputError("parameter 'target_frames': TF can have the targets of one camera only");

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <rclcpp/rclcpp.hpp>
+#include <rclcpp_lifecycle/lifecycle_node.hpp>
 
 #include <penumbra/pipeline/pipeline.hpp>
 
@@ -20,16 +20,18 @@ struct Settings {
   penumbra::PipelineConfig pipeline;
   std::set<std::string> publish;  ///< names of results
   bool target_frames = false;     ///< publishes targets in TF
+  bool autostart = true;          ///< the node configures and activates itself
 };
 
 /// Declares the parameters and reads them. Throws an exception whose message names the parameter.
-[[nodiscard]] Settings declare_settings(rclcpp::Node& node);
+[[nodiscard]] Settings declare_settings(rclcpp_lifecycle::LifecycleNode& node);
 
 /// Return these parameters with the values of `changes`, or the node's for those that are not in
 /// it. Throw penumbra::InputError for invalid values.
 using Changes = std::vector<rclcpp::Parameter>;
-[[nodiscard]] penumbra::LabelRule read_rule(const rclcpp::Node& node, const Changes& changes = {});
-[[nodiscard]] std::set<std::string> read_publish(const rclcpp::Node& node,
+[[nodiscard]] penumbra::LabelRule read_rule(const rclcpp_lifecycle::LifecycleNode& node,
+                                            const Changes& changes = {});
+[[nodiscard]] std::set<std::string> read_publish(const rclcpp_lifecycle::LifecycleNode& node,
                                                  const Changes& changes = {});
 
 }  // namespace penumbra_ros

@@ -15,6 +15,7 @@
 #include <class_loader/class_loader.hpp>
 #include <diagnostic_msgs/msg/diagnostic_array.hpp>
 #include <gtest/gtest.h>
+#include <lifecycle_msgs/msg/state.hpp>
 #include <rclcpp_components/node_factory.hpp>
 
 #include <io/files/png.hpp>
@@ -59,7 +60,7 @@ class NodeTest : public testing::Test {
     player_ = std::make_unique<Player>(example, true);
     node_ = std::make_shared<PenumbraNode>(options(parameters));
     executor_->add_node(player_->node);
-    executor_->add_node(node_);
+    executor_->add_node(node_->get_node_base_interface());
     labels_ = player_->node->create_subscription<Image>(
         "/penumbra/labels", 10,
         [this](Image::ConstSharedPtr image) { received_[stamp_of(image->header)] = image; });
@@ -165,21 +166,33 @@ TEST_F(NodeTest, RuleAndResultsChangeWhileItRuns) {
   EXPECT_FALSE(labels_of(4));
 }
 
-TEST_F(NodeTest, ServicesResetAndDisable) {
+TEST_F(NodeTest, ForgetsWhatItSaw) {
   start();
   const auto reset =
       call<std_srvs::srv::Trigger>("reset", std::make_shared<std_srvs::srv::Trigger::Request>());
   ASSERT_TRUE(reset);
   EXPECT_TRUE(reset->success);
   EXPECT_TRUE(labels_of(1)) << "robot and camera are still known";
-  auto request = std::make_shared<std_srvs::srv::SetBool::Request>();
-  request->data = false;
-  ASSERT_TRUE(call<std_srvs::srv::SetBool>("enable", request));
+}
+
+TEST_F(NodeTest, HasALifecycle) {
+  using lifecycle_msgs::msg::State;
+  start();
+  EXPECT_EQ(node_->get_current_state().id(), State::PRIMARY_STATE_ACTIVE);
+  node_->deactivate();
   EXPECT_FALSE(labels_of(2));
-  request->data = true;
-  ASSERT_TRUE(call<std_srvs::srv::SetBool>("enable", request));
+  node_->cleanup();
+  EXPECT_TRUE(spin_until([&] { return labels_->get_publisher_count() == 0; }));
+  EXPECT_TRUE(node_->set_parameter({"publish", std::vector<std::string>{"labels"}}).successful);
+  node_->configure();
+  EXPECT_FALSE(labels_of(2));
+  EXPECT_EQ(node_->activate().id(), State::PRIMARY_STATE_ACTIVE);
   EXPECT_TRUE(spin_until([&] { return player_->is_heard(); }));
-  EXPECT_TRUE(labels_of(3));
+  EXPECT_TRUE(spin_until([&] { return labels_of(3) != nullptr; }));
+  EXPECT_EQ(node_->shutdown().id(), State::PRIMARY_STATE_FINALIZED);
+
+  const PenumbraNode waiting(options({{"autostart", false}}));
+  EXPECT_EQ(waiting.get_current_state().id(), State::PRIMARY_STATE_UNCONFIGURED);
 }
 
 /// Moves the arm's first joint to an angle in two seconds.
@@ -296,7 +309,7 @@ class AddressWatcher final : public penumbra::io::FrameWatcher, public penumbra:
 
 TEST_F(NodeTest, DepthOfTheSameProcessIsNotCopied) {
   Player player(example, true);
-  const auto node = std::make_shared<rclcpp::Node>("penumbra", options());
+  const auto node = std::make_shared<rclcpp_lifecycle::LifecycleNode>("penumbra", options());
   const Settings settings = declare_settings(*node);
   AddressWatcher watcher;
   penumbra::io::LiveRunner runner(settings.live, settings.pipeline, {&watcher});
@@ -304,7 +317,7 @@ TEST_F(NodeTest, DepthOfTheSameProcessIsNotCopied) {
   Inputs inputs(*node, runner);
   inputs.follow(false, true);
   runner.start();
-  executor_->add_node(node);
+  executor_->add_node(node->get_node_base_interface());
   executor_->add_node(player.node);
   ASSERT_TRUE(spin_until([&] { return player.is_heard(); }));
   std::int64_t later = 0;
@@ -341,11 +354,21 @@ TEST_F(NodeTest, WhatWasAttachedBeforeIsAskedForWheneverMoveItComes) {
   EXPECT_TRUE(spin_until([&] { return robot_pixels() == arm; })) << next.asked;
 }
 
+TEST_F(NodeTest, NothingIsJudgedBeforeMoveItSaysWhatIsAttached) {
+  MoveIt moveit(true);
+  executor_->add_node(moveit.node);
+  start();
+  EXPECT_EQ(moveit.asked, 1);
+  const auto first = received_.begin()->second, later = labels_of(0);
+  ASSERT_TRUE(later);
+  EXPECT_EQ(first->data, later->data) << "the box was there from the first image on";
+}
+
 TEST_F(NodeTest, ImagesAreReliableWhereAllPublishersAre) {
   auto drivers = std::make_shared<rclcpp::Node>("drivers");
   node_ = std::make_shared<PenumbraNode>(options());
   executor_->add_node(drivers);
-  executor_->add_node(node_);
+  executor_->add_node(node_->get_node_base_interface());
   const auto asks_for = [&](rclcpp::ReliabilityPolicy policy) {
     return spin_until([&] {
       const auto asking = drivers->get_subscriptions_info_by_topic("/depth/image");
@@ -369,7 +392,7 @@ TEST_F(NodeTest, DiagnosticsSayWhatIsMissing) {
       });
   node_ = std::make_shared<PenumbraNode>(options());
   executor_->add_node(listener);
-  executor_->add_node(node_);
+  executor_->add_node(node_->get_node_base_interface());
   EXPECT_TRUE(spin_until([&] { return message.find("no depth images") == 0; })) << message;
 }
 
@@ -394,7 +417,7 @@ TEST_F(NodeTest, ServesSeveralCamerasAndClouds) {
   player_ = std::make_unique<Player>(example, true);
   node_ = std::make_shared<PenumbraNode>(options(several));
   executor_->add_node(player_->node);
-  executor_->add_node(node_);
+  executor_->add_node(node_->get_node_base_interface());
   std::map<std::string, Image::ConstSharedPtr> labels;
   std::vector<rclcpp::SubscriptionBase::SharedPtr> heard;
   for (const std::string camera : {"left", "right"})
