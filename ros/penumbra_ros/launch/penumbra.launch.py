@@ -82,7 +82,7 @@ def rviz_of(value):
     below = value["name"]
     if value["cameras"]:
         below += "/" + value["cameras"].partition("=")[0]
-    shown = ["markers", "points", "labels", "overlay", "overlay/compressed"]
+    shown = ["markers", "points", "mask"]
     config = os.path.join(get_package_share_directory("penumbra_ros"), "rviz", "penumbra.rviz")
     return Node(package="rviz2", executable="rviz2", namespace=value["namespace"],
                 arguments=["-d", config],
