@@ -107,12 +107,13 @@ PenumbraNode::CallbackReturn PenumbraNode::on_deactivate(
 
 PenumbraNode::CallbackReturn PenumbraNode::on_cleanup(const rclcpp_lifecycle::State& /*former*/) {
   clean_up();
+  // Otherwise the executor goes on waiting for what is gone.
+  get_node_base_interface()->trigger_notify_guard_condition();
   return CallbackReturn::SUCCESS;
 }
 
-PenumbraNode::CallbackReturn PenumbraNode::on_shutdown(const rclcpp_lifecycle::State& /*former*/) {
-  clean_up();
-  return CallbackReturn::SUCCESS;
+PenumbraNode::CallbackReturn PenumbraNode::on_shutdown(const rclcpp_lifecycle::State& former) {
+  return on_cleanup(former);
 }
 
 void PenumbraNode::clean_up() {
