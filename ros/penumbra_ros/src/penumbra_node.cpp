@@ -2,8 +2,10 @@
 #include "penumbra_node.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string_view>
 
+#include <lifecycle_msgs/msg/state.hpp>
 #include <rclcpp_components/register_node_macro.hpp>
 
 namespace penumbra_ros {
@@ -32,13 +34,15 @@ PenumbraNode::PenumbraNode(const rclcpp::NodeOptions& options)
   on_change_ = add_on_set_parameters_callback(
       [this](const std::vector<rclcpp::Parameter>& changes) { return change(changes); });
   warn_of_unknown_parameters();
+  if (settings_.autostart) {
+    configure();  // logs an exception, and goes on
+    if (activate().id() != lifecycle_msgs::msg::State::PRIMARY_STATE_ACTIVE)
+      throw std::runtime_error("the node could not be configured: see the message above");
+  }
   // Nothing can be published once the context is shut down.
   before_shutdown_ = get_node_base_interface()->get_context()->add_pre_shutdown_callback([this] {
     if (runner_) runner_->stop();
   });
-  if (!settings_.autostart) return;
-  configure();
-  activate();
 }
 
 PenumbraNode::~PenumbraNode() {
