@@ -91,6 +91,9 @@ def main(package):
     [loading] = start.function(context(container="/cell"))
     assert loading.target_container == "/cell"
     assert loading.composable_node_descriptions[0].plugin == "penumbra_ros::PenumbraNode"
+    [_, rviz] = start.function(context(cameras="left=/l,right=/r", name="eyes", rviz="true"))
+    assert ("penumbra/mask", "eyes/left/mask") in rviz.remappings, rviz.remappings
+    assert pathlib.Path(rviz.arguments[1]).is_file(), rviz.arguments
     for file in ("config/penumbra.yaml", "rviz/penumbra.rviz"):
         assert yaml.safe_load((package / file).read_text())
 

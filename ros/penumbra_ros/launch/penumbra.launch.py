@@ -9,10 +9,9 @@ With container:=NAME the node is loaded into that running container; otherwise i
 own, which is started again 2 s after a failure, except for one of its parameters (status 2).
 """
 import difflib
-import os
+import pathlib
 
 import launch.logging
-from ament_index_python.packages import get_package_share_directory
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, TimerAction
 from launch.substitutions import LaunchConfiguration
@@ -83,9 +82,9 @@ def rviz_of(value):
     if value["cameras"]:
         below += "/" + value["cameras"].partition("=")[0]
     shown = ["markers", "points", "mask"]
-    config = os.path.join(get_package_share_directory("penumbra_ros"), "rviz", "penumbra.rviz")
+    config = pathlib.Path(__file__).parent.parent / "rviz/penumbra.rviz"
     return Node(package="rviz2", executable="rviz2", namespace=value["namespace"],
-                arguments=["-d", config],
+                arguments=["-d", str(config)],
                 remappings=[(f"penumbra/{topic}", f"{below}/{topic}") for topic in shown]
                 + [("robot_description", value["robot_description_topic"])])
 
