@@ -39,12 +39,12 @@ std::vector<std::string> DiagnosticChanges::update(const DiagnosticArrayMessage&
   for (const auto& [name, kind] : former)
     if (!now.empty() && !now.contains(name)) lines.push_back(name + ": recovered");
   if (now.empty() && (!reported_ || !reported_->empty())) {
-    std::string line = "penumbra: no faults";
+    std::string line;
     for (const DiagnosticStatusMessage& status : message.status) {
-      const std::size_t space = status.name.rfind(": ");  // after the program's name
-      const std::string what =
-          space == std::string::npos ? status.name : status.name.substr(space + 2);
-      line += (&status == message.status.data() ? ": " : "; ") + what + " " + status.message;
+      const std::size_t subject = status.name.rfind(": ") + 2;  // after the program's name
+      const std::string program = status.name.substr(0, subject);
+      line += line.empty() ? program + "no faults: " : "; ";
+      line += status.name.substr(subject) + " " + status.message;
     }
     lines.push_back(std::move(line));
   }

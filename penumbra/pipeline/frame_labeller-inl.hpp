@@ -52,7 +52,8 @@ class FrameLabeller {
  private:
   FrameStatus check(LabelledFrame& frame);
   [[nodiscard]] LabelView unknown_labels() const;
-  VirtualDepthView draw(const PoseResult& poses);
+  void add_reaches(LabelledImages& images, const PoseResult& poses);
+  VirtualDepthView draw(const PoseResult& poses, std::span<const Reach> reaches);
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
 
   Intrinsics render_intrinsics_;

@@ -81,16 +81,14 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
   images.is_blind = !has_depth(frame.status);
   {
     const StageTimer timer(frame.render_ms);
-    images.virtual_depth = draw(poses);
+    images.virtual_depth = draw(poses, {});
   }
   {
     const StageTimer timer(frame.classify_ms);
     if (has_depth_ && !images.is_blind)
       images.measured = rectified_depth_ ? rectified_depth_->rectify(depth) : depth;
     images.labels = classify(images.virtual_depth, images.measured);
-    if (!poses.reaches.empty())
-      images.labels = unknown_in_reaches(images.labels, images.virtual_depth.links, poses.reaches,
-                                         labels_with_reaches_);
+    if (!poses.reaches.empty()) add_reaches(images, poses);
   }
   frame.uncovered = uncovered_ ? uncovered_->marked() : 0;
   return frame;
@@ -127,10 +125,22 @@ LabelView FrameLabeller::unknown_labels() const {
   return view;
 }
 
-VirtualDepthView FrameLabeller::draw(const PoseResult& poses) {
+/// Adds what links of unknown pose could hide to images of the others, whose fringe stays.
+void FrameLabeller::add_reaches(LabelledImages& images, const PoseResult& poses) {
+  const ImageView<const std::uint8_t> known = images.labels.labels;
+  labels_with_reaches_.fit(known.width, known.height);
+  for (int v = 0; v < known.height; ++v)
+    std::copy_n(known.row(v), known.width, &labels_with_reaches_(0, v));
+  images.virtual_depth = draw(poses, poses.reaches);
+  images.labels =
+      unknown_in_reaches(classify(images.virtual_depth, images.measured),
+                         images.virtual_depth.links, poses.reaches, labels_with_reaches_);
+}
+
+VirtualDepthView FrameLabeller::draw(const PoseResult& poses, std::span<const Reach> reaches) {
   VirtualDepthView drawn = renderer_->render(poses.T_camera_link);
-  if (!poses.attached.empty() || !poses.reaches.empty())
-    drawn = attached_.add_to(drawn, poses.attached, poses.reaches);
+  if (!poses.attached.empty() || !reaches.empty())
+    drawn = attached_.add_to(drawn, poses.attached, reaches);
   return raw_images_ ? raw_images_->virtual_depth(drawn) : drawn;
 }
 

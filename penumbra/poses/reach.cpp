@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <penumbra/poses/reach-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
@@ -93,21 +94,23 @@ void draw_reaches(std::span<const Reach> reaches, const Intrinsics& intrinsics,
 }
 
 LabelView unknown_in_reaches(const LabelView& labels, const ImageView<const std::uint16_t>& links,
-                             std::span<const Reach> reaches, Image<std::uint8_t>& copy) {
-  copy.fit(labels.labels.width, labels.labels.height);
+                             std::span<const Reach> reaches, Image<std::uint8_t>& known) {
+  constexpr auto value = [](Label label) { return static_cast<std::uint8_t>(label); };
   LabelView result = labels;
-  result.labels = copy.view();
-  for (int v = 0; v < copy.height(); ++v)
-    for (int u = 0; u < copy.width(); ++u) {
-      const auto label = labels.labels(u, v);
-      copy(u, v) = label;
-      const bool is_seen = label == static_cast<std::uint8_t>(Label::occluded) ||
-                           label == static_cast<std::uint8_t>(Label::beyond);
+  result.labels = known.view();
+  for (int v = 0; v < known.height(); ++v)
+    for (int u = 0; u < known.width(); ++u) {
+      const std::uint8_t before = std::exchange(known(u, v), labels.labels(u, v));
+      std::uint8_t& label = known(u, v);
+      const auto set = [&](Label other) {
+        --result.pixels[label];
+        label = value(other);
+        ++result.pixels[label];
+      };
       const auto is_here = [&](const Reach& reach) { return reach.link + 1 == links(u, v); };
-      if (!is_seen || std::none_of(reaches.begin(), reaches.end(), is_here)) continue;
-      copy(u, v) = static_cast<std::uint8_t>(Label::unknown);
-      --result.pixels[label];
-      ++result.pixels[static_cast<std::size_t>(Label::unknown)];
+      if (label == value(Label::front) && before == value(Label::fringe)) set(Label::fringe);
+      const bool is_seen = label == value(Label::occluded) || label == value(Label::beyond);
+      if (is_seen && std::any_of(reaches.begin(), reaches.end(), is_here)) set(Label::unknown);
     }
   return result;
 }

@@ -149,7 +149,7 @@ TEST_F(LiveDiagnosticsTest, WarnsOfAWrongSetupUntilItIsAnother) {
 
 io::DiagnosticArrayMessage of_cameras(const std::string& left, const std::string& right) {
   io::DiagnosticArrayMessage message;
-  for (const auto& [name, why] : {std::pair("left", left), std::pair("right", right)})
+  for (const auto& [name, why] : {std::pair("eyes: left", left), std::pair("eyes: right", right)})
     message.status.push_back({.level = why.empty() ? Status::ok : Status::error,
                               .name = name,
                               .message = why.empty() ? "3 frames/s" : why});
@@ -158,16 +158,16 @@ io::DiagnosticArrayMessage of_cameras(const std::string& left, const std::string
 
 TEST(DiagnosticChanges, ReportEachStatusByItself) {
   io::DiagnosticChanges changes;
-  const Words well{"penumbra: no faults: left 3 frames/s; right 3 frames/s"};
+  const Words well{"eyes: no faults: left 3 frames/s; right 3 frames/s"};
   EXPECT_EQ(changes.update(of_cameras("", "")), well);
   EXPECT_EQ(changes.update(of_cameras("no images for 1.2 s", "")),
-            Words{"left: no images for 1.2 s"});
+            Words{"eyes: left: no images for 1.2 s"});
   EXPECT_EQ(changes.update(of_cameras("no images for 12.5 s", "")), Words{});
   EXPECT_EQ(changes.update(of_cameras("no images for 13.0 s", "no camera_info yet")),
-            Words{"right: no camera_info yet"});
+            Words{"eyes: right: no camera_info yet"});
   EXPECT_EQ(changes.update(of_cameras("no images for 14.0 s", "3 images are bad")),
-            Words{"right: 3 images are bad"});
-  EXPECT_EQ(changes.update(of_cameras("", "4 images are bad")), Words{"left: recovered"});
+            Words{"eyes: right: 3 images are bad"});
+  EXPECT_EQ(changes.update(of_cameras("", "4 images are bad")), Words{"eyes: left: recovered"});
   EXPECT_EQ(changes.update(of_cameras("", "")), well);
   EXPECT_EQ(changes.update(of_cameras("", "")), Words{});
 }

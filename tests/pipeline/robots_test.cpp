@@ -146,6 +146,35 @@ TEST_P(RobotsTest, WhatOneOfUnknownPoseCanReachIsUnknown) {
   EXPECT_EQ(report.targets[2].verdict, Verdict::hidden);
 }
 
+/// The slab's depth, carried past its outline, lies before the cart's ball.
+TEST(Robots, FringeBeforeOneOfUnknownPoseIsNotTrusted) {
+  PipelineConfig config = plain_config();
+  config.rule.fringe_reach = LabelRule().fringe_reach;
+  Pipeline pipeline(cell(), slab_camera(), config);
+  Image<float> depth = scene_depth(slab_camera(), 0.0);
+  for (int v = 50; v < 65; ++v)
+    for (int u = 99; u < 104; ++u) depth(u, v) = depth(97, v);
+  const auto labels_of = [&](std::vector<std::size_t> uncertain) {
+    const FrameReport& report =
+        pipeline.process({.depth = depth.view(),
+                          .pose = {.positions = std::vector<double>{0.0, 0.15},
+                                   .uncertain_links = std::move(uncertain),
+                                   .uncertain_reason = "stale"}});
+    std::array<std::size_t, label_count> pixels{};
+    std::vector<int> labels;
+    for (int v = 50; v < 65; ++v)
+      for (int u = 99; u < 104; ++u) labels.push_back(report.labels(u, v));
+    for (int v = 0; v < depth.height(); ++v)
+      for (int u = 0; u < depth.width(); ++u) ++pixels[report.labels(u, v)];
+    EXPECT_EQ(pixels[static_cast<std::size_t>(Label::fringe)], report.pixels.fringe);
+    EXPECT_EQ(pixels[static_cast<std::size_t>(Label::front)], report.pixels.front);
+    return labels;
+  };
+  const std::vector<int> fringe(75, static_cast<int>(Label::fringe));
+  EXPECT_EQ(labels_of({}), fringe);
+  EXPECT_EQ(labels_of({4, 5}), fringe);
+}
+
 TEST(Robots, WhatOneOfUnknownPoseCarriesReachesFarther) {
   Pipeline pipeline(cell(), slab_camera(), plain_config());
   const Image<float> depth = scene_depth(slab_camera(), 0.0);
