@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include <penumbra/poses/reach-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
@@ -95,22 +94,22 @@ void draw_reaches(std::span<const Reach> reaches, const Intrinsics& intrinsics,
 
 LabelView unknown_in_reaches(const LabelView& labels, const ImageView<const std::uint16_t>& links,
                              std::span<const Reach> reaches, Image<std::uint8_t>& known) {
-  constexpr auto value = [](Label label) { return static_cast<std::uint8_t>(label); };
   LabelView result = labels;
   result.labels = known.view();
+  result.touched = nullptr;  // there may be fringe elsewhere
   for (int v = 0; v < known.height(); ++v)
     for (int u = 0; u < known.width(); ++u) {
-      const std::uint8_t before = std::exchange(known(u, v), labels.labels(u, v));
-      std::uint8_t& label = known(u, v);
-      const auto set = [&](Label other) {
-        --result.pixels[label];
-        label = value(other);
-        ++result.pixels[label];
-      };
+      const auto before = static_cast<Label>(known(u, v));
+      const auto label = static_cast<Label>(labels.labels(u, v));
       const auto is_here = [&](const Reach& reach) { return reach.link + 1 == links(u, v); };
-      if (label == value(Label::front) && before == value(Label::fringe)) set(Label::fringe);
-      const bool is_seen = label == value(Label::occluded) || label == value(Label::beyond);
-      if (is_seen && std::any_of(reaches.begin(), reaches.end(), is_here)) set(Label::unknown);
+      Label now = label;
+      if (before == Label::fringe && is_trusted(label)) now = Label::fringe;
+      if ((label == Label::occluded || label == Label::beyond) &&
+          std::any_of(reaches.begin(), reaches.end(), is_here))
+        now = Label::unknown;
+      known(u, v) = static_cast<std::uint8_t>(now);
+      --result.pixels[static_cast<std::size_t>(label)];
+      ++result.pixels[static_cast<std::size_t>(now)];
     }
   return result;
 }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The launch file's arguments and restarts, with stand-ins for ROS 2's launch."""
+"""The launch files' arguments and restarts, with stand-ins for ROS 2's launch."""
 import importlib.util
 import pathlib
 import sys
@@ -33,9 +33,12 @@ def launch_file(path, warnings):
     stand_in("launch.logging", get_logger=lambda name: logger)
     stand_in("launch", LaunchDescription=lambda entities: entities,
              logging=sys.modules["launch.logging"])
-    stand_in("launch.actions", TimerAction=Action, OpaqueFunction=Action,
+    stand_in("launch.actions", TimerAction=Action, OpaqueFunction=Action, ExecuteProcess=Action,
+             IncludeLaunchDescription=lambda path, launch_arguments: (path, dict(launch_arguments)),
              DeclareLaunchArgument=lambda name, **arguments: Action(name=name, **arguments))
-    stand_in("launch.substitutions", LaunchConfiguration=Configuration)
+    stand_in("launch.substitutions", LaunchConfiguration=Configuration,
+             PathJoinSubstitution="/".join)
+    stand_in("launch_ros.substitutions", FindPackageShare=str)
     stand_in("launch_ros.actions", Node=Action, LoadComposableNodes=Action)
     stand_in("launch_ros.descriptions", ComposableNode=Action)
     spec = importlib.util.spec_from_file_location("penumbra_launch", path)
@@ -96,6 +99,20 @@ def main(package):
     assert pathlib.Path(rviz.arguments[1]).is_file(), rviz.arguments
     for file in ("config/penumbra.yaml", "rviz/penumbra.rviz"):
         assert yaml.safe_load((package / file).read_text())
+    check_cell(package.parent / "penumbra_examples", set(defaults))
+
+
+def check_cell(package, arguments):
+    """The example includes the launch file with arguments that it has."""
+    *declared, start = launch_file(package / "launch/cell.launch.py", [])
+    defaults = {argument.name: argument.default_value for argument in declared}
+    cell = Context(launch_configurations={**defaults, "bag": "b", "moveit": "false"})
+    [player, (path, given)] = start.function(cell)
+    assert player.cmd[-1] == "b", player.cmd
+    assert path == "penumbra_ros/launch/penumbra.launch.py" and set(given) <= arguments, given
+    cell.launch_configurations["bag"] = ""
+    assert len(start.function(cell)) == 4, "arm, camera, its pose, Penumbra"
+    assert yaml.safe_load((package / "config/sensors_3d.yaml").read_text())
 
 
 if __name__ == "__main__":

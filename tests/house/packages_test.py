@@ -16,7 +16,7 @@ for folder in folders:
     package.validate()
     assert package.licenses == ["Apache-2.0"], package.licenses
     names.append(package.name)
-assert names == ["penumbra", "penumbra_msgs", "penumbra_ros"], names
+assert names == ["penumbra", "penumbra_examples", "penumbra_msgs", "penumbra_ros"], names
 
 # colcon does not look for packages inside of a package, so docs/ros2.md names both folders.
 if not shutil.which("colcon"):
