@@ -28,7 +28,7 @@ NOT_RUN = {
     r"docker ": "needs Docker and its base images",
     r"build/dev/bench/": "a benchmark on real recordings",
     r"cd penumbra$": "after git clone",
-    r"ros2 |rviz2 |colcon |rosdep |git clone ": "ROS 2's own: scripts/test_ros.sh",
+    r"ros2 |rviz2 |colcon |rosdep |git clone |ln -s |config=|export (CYCLONE|FASTRTPS)": "ROS 2's own: scripts/test_ros.sh",
     r"python3 -m penumbra\.batch": "tests/python/test_batch.py",
     r"python3 -m penumbra\.datasets": "tests/python/test_datasets.py",
     r"penumbra_research |export PATH=|scripts/experiment_tables": "minutes: tests/research",

@@ -18,12 +18,15 @@ for folder in folders:
     names.append(package.name)
 assert names == ["penumbra", "penumbra_examples", "penumbra_msgs", "penumbra_ros"], names
 
-# colcon does not look for packages inside of a package, so docs/ros2.md names both folders.
+# colcon does not look for packages inside of a package, so docs/ros2.md links ros/.
 if not shutil.which("colcon"):
     print("skipped: no colcon")
     sys.exit(77)
 with tempfile.TemporaryDirectory() as workspace:
-    listed = subprocess.run(["colcon", "--log-base", workspace, "list", "--names-only",
-                             "--base-paths", root, root / "ros"],
+    source = pathlib.Path(workspace, "src")
+    source.mkdir()
+    (source / "penumbra").symlink_to(root)
+    (source / "penumbra_ros").symlink_to("penumbra/ros")
+    listed = subprocess.run(["colcon", "list", "--names-only"], cwd=workspace,
                             capture_output=True, text=True, check=True).stdout.split()
 assert listed == names, listed
