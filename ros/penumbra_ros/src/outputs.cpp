@@ -49,12 +49,16 @@ Outputs::Outputs(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& images,
       markers_(advertise<visualization_msgs::msg::MarkerArray>(node, below + "markers")),
       detections_(advertise<vision_msgs::msg::Detection3DArray>(node, below + "detections")) {
   for (const Result result : {Result::virtual_depth, Result::labels, Result::mask,
-                              Result::filtered_depth, Result::robot_mask})
+                              Result::filtered_depth, Result::robot_mask}) {
+    const std::string topic = node.get_node_topics_interface()->resolve_topic_name(
+        below + output_names[static_cast<std::size_t>(result)]);
+    // JPEG, compressed_image_transport's default, would change labels and masks.
+    std::string parameters = topic.substr(images.get_effective_namespace().size());
+    std::replace(parameters.begin(), parameters.end(), '/', '.');
+    images.declare_parameter(parameters + ".compressed.format", "png");
     images_[result] = image_transport::create_publisher(
-        &images,
-        node.get_node_topics_interface()->resolve_topic_name(
-            below + output_names[static_cast<std::size_t>(result)]),
-        rclcpp::QoS(result_depth).get_rmw_qos_profile(), with_qos_parameters());
+        &images, topic, rclcpp::QoS(result_depth).get_rmw_qos_profile(), with_qos_parameters());
+  }
   if (target_frames) frames_ = std::make_unique<tf2_ros::TransformBroadcaster>(node);
 }
 
