@@ -178,8 +178,9 @@ void PenumbraNode::warn_of_unknown_parameters() {
 rcl_interfaces::msg::SetParametersResult PenumbraNode::change(const Changes& changes) {
   rcl_interfaces::msg::SetParametersResult result;
   try {
-    settings_.pipeline.rule = read_rule(*this, changes);
+    const penumbra::LabelRule rule = read_rule(*this, changes);
     settings_.publish = read_publish(*this, changes);
+    settings_.pipeline.rule = rule;  // both are kept, or none
     for (const auto& outputs : outputs_) {
       outputs->select(settings_.publish);
       outputs->set_rule(settings_.pipeline.rule);
