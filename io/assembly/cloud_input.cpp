@@ -149,8 +149,7 @@ std::shared_ptr<ReceivedCloud> CloudInput::next(std::int64_t now) {
 
 /// Takes the targets whose clouds are not past.
 void CloudInput::receive_targets() {
-  while (setup_->targets.waiting() > 0)
-    for (Target& target : setup_->targets.take()) targets_.push_back(std::move(target));
+  for (Target& target : setup_->targets.take()) targets_.push_back(std::move(target));
   late_targets_ += std::erase_if(targets_, [&](const Target& target) {
     return !given_.empty() && target.stamp > 0 && *target.stamp < given_.front()->header.stamp;
   });

@@ -52,9 +52,7 @@ TargetInbox::TargetInbox(const Robot& robot, std::string_view camera_frame,
     : robot_(robot), camera_frame_(camera_frame), frame_prefix_(frame_prefix), hidden_(hidden) {}
 
 TargetInbox::List::iterator TargetInbox::forget(List::iterator one) {
-  auto entry = by_name_.lower_bound(one->target.name);
-  while (entry->second != one) ++entry;
-  by_name_.erase(entry);
+  by_name_.erase(one->target.name);
   return waiting_.erase(one);
 }
 
@@ -75,8 +73,8 @@ void TargetInbox::make_room(const std::string& topic, std::int64_t stamp) {
 }
 
 Target& TargetInbox::add_target(std::string name, const MessageHeader& header) {
-  if (by_name_.count(name) == most_of_a_name) {
-    forget(by_name_.lower_bound(name)->second);
+  if (const auto other = by_name_.find(name); other != by_name_.end()) {
+    forget(other->second);
     ++replaced_;
   }
   Waiting& waiting = waiting_.emplace_back();
@@ -178,13 +176,10 @@ ReferenceFrame TargetInbox::resolve_frame(Target& target) const {
 }
 
 std::vector<Target> TargetInbox::take() {
-  std::vector<List::iterator> first;
-  for (auto one = waiting_.begin(); one != waiting_.end(); ++one)
-    if (by_name_.lower_bound(one->target.name)->second == one) first.push_back(one);
   std::vector<Target> targets;
-  for (const List::iterator one : first) {
-    Target& target = targets.emplace_back(one->target);
-    forget(one);
+  by_name_.clear();
+  for (Waiting& waiting : std::exchange(waiting_, {})) {
+    Target& target = targets.emplace_back(std::move(waiting.target));
     // Only pixels have an image frame. The camera's name is compared as it stands.
     if (!target.frame_id.empty() && target.frame_id == without_slash(camera_frame_))
       target.frame_id = camera_frame_;

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <penumbra/robot/robot.hpp>
@@ -40,8 +41,6 @@ class TargetInbox {
   static constexpr std::int64_t longest_lag = 1'000'000'000;
   /// If so many wait, the oldest are dropped before the next message is taken.
   static constexpr std::size_t most_waiting = 1000;
-  /// Of one name; a further one replaces the first.
-  static constexpr std::size_t most_of_a_name = 2;
 
   /// `camera_frame`: of the judged images; `frame_prefix`: stands before link names in frames.
   /// `robot` must outlive this.
@@ -59,12 +58,11 @@ class TargetInbox {
   /// Adds a point with a ball of PointTarget::radius around it.
   void add(const std::string& topic, const PoseStampedMessage& message);
 
-  /// Returns the targets that wait, of each name the first: one of the next image may have come
-  /// already.
+  /// Returns the targets received since the last call, the newest of each name.
   [[nodiscard]] std::vector<Target> take();
 
   [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
-  /// Returns how many were never taken because newer ones of their name came first.
+  /// Returns how many were never taken because a newer one of their name came first.
   [[nodiscard]] std::size_t replaced() const { return replaced_; }
   /// Returns how many were dropped because they were late or too many.
   [[nodiscard]] std::size_t discarded() const { return discarded_; }
@@ -100,8 +98,8 @@ class TargetInbox {
   HiddenTargets hidden_;
   std::map<std::string, std::int64_t> newest_;  // stamp of each topic
   std::string_view topic_;                      // of the current message, newest_'s
-  List waiting_;
-  std::multimap<std::string_view, List::iterator> by_name_;  // in waiting_, and in its order
+  List waiting_;                                // since the last take()
+  std::unordered_map<std::string_view, List::iterator> by_name_;  // in waiting_
   std::size_t replaced_ = 0, discarded_ = 0;
 };
 

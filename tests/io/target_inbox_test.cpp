@@ -66,24 +66,6 @@ TEST_F(TargetInboxTest, IdsThatStandTwiceAreNone) {
   EXPECT_EQ(taken(), (Names{{"/d/7", false}, {"/d/7 2", false}, {"/d/7 2 2", false}}));
 }
 
-/// Two messages may come between two images, and none between the next two.
-TEST_F(TargetInboxTest, EachImageGetsTheFirstOfAName) {
-  const auto stamps = [&] {
-    std::vector<std::int64_t> all;
-    for (const Target& target : inbox_.take()) all.push_back(*target.stamp);
-    return all;
-  };
-  for (const std::int64_t stamp : {1, 2}) inbox_.add("/k", tracked(stamp, 0, 2));
-  EXPECT_EQ(stamps(), (std::vector<std::int64_t>{1, 1}));
-  EXPECT_EQ(stamps(), (std::vector<std::int64_t>{2, 2}));
-  EXPECT_EQ(inbox_.replaced(), 0U);
-  for (const std::int64_t stamp : {3, 4, 5}) inbox_.add("/k", tracked(stamp, 0, 2));
-  EXPECT_EQ(inbox_.replaced(), 2U);
-  EXPECT_EQ(stamps(), (std::vector<std::int64_t>{4, 4}));
-  EXPECT_EQ(stamps(), (std::vector<std::int64_t>{5, 5}));
-  EXPECT_EQ(inbox_.waiting(), 0U);
-}
-
 /// Tracking ids that are always new, and no image that they could be judged on.
 TEST_F(TargetInboxTest, WhatIsNotTakenDoesNotPileUp) {
   constexpr std::int64_t frame = 33'000'000, start = 1'000'000'000'000;

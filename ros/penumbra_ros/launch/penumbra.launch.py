@@ -2,7 +2,7 @@
 """Starts a Penumbra node for cameras, or for clouds and laser scans.
 
 ros2 launch penumbra_ros penumbra.launch.py camera:=/camera/camera targets:=/detections
-ros2 launch penumbra_ros penumbra.launch.py cameras:=left=/left/depth/image,wrist=/wrist/depth/image
+ros2 launch penumbra_ros penumbra.launch.py cameras:=left=/left/depth/image_rect_raw,wrist=/wrist/depth/image_rect_raw
 ros2 launch penumbra_ros penumbra.launch.py clouds:=/ouster/points,/scan
 
 With container:=NAME the node is loaded into that running container; otherwise it is a process of its

@@ -167,12 +167,14 @@ bool PenumbraNode::wants_overlay() const {
 }
 
 void PenumbraNode::warn_of_unknown_parameters() {
+  const auto& cameras = settings_.live.cameras;
+  const bool have_names = !cameras.empty() && !cameras.front().name.empty();
   // Others with a point are of QoS and of plugins, which declare them later.
   for (const auto& [name, value] : get_node_parameters_interface()->get_parameter_overrides())
     if (!has_parameter(name) &&
         (name.find('.') == std::string::npos || name.rfind("cameras.", 0) == 0))
       RCLCPP_WARN(get_logger(), "there is no parameter '%s'%s", name.c_str(),
-                  outputs_.size() > 1 ? "; those of cameras are cameras.NAME.PARAMETER" : "");
+                  have_names ? "; those of cameras are cameras.NAME.PARAMETER" : "");
 }
 
 rcl_interfaces::msg::SetParametersResult PenumbraNode::change(const Changes& changes) {
