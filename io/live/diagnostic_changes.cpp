@@ -39,14 +39,13 @@ std::vector<std::string> DiagnosticChanges::update(const DiagnosticArrayMessage&
   for (const auto& [name, kind] : former)
     if (!now.empty() && !now.contains(name)) lines.push_back(name + ": recovered");
   if (now.empty() && (!reported_ || !reported_->empty())) {
-    std::string line;
+    std::string program, all;
     for (const DiagnosticStatusMessage& status : message.status) {
       const std::size_t subject = status.name.rfind(": ") + 2;  // after the program's name
-      const std::string program = status.name.substr(0, subject);
-      line += line.empty() ? program + "no faults: " : "; ";
-      line += status.name.substr(subject) + " " + status.message;
+      program = status.name.substr(0, subject);
+      all += (all.empty() ? "" : "; ") + status.name.substr(subject) + " " + status.message;
     }
-    lines.push_back(std::move(line));
+    lines.push_back(program + "no faults: " + all);
   }
   reported_ = std::move(now);
   return lines;

@@ -219,8 +219,8 @@ LiveFault camera_fault(const LiveInbox& inbox, std::size_t number, std::span<con
   if (camera.without_info() >= least_without_info)
     return {Status::error,
             std::to_string(camera.without_info()) +
-                " images are not judged: no camera_info with their stamp came in time, as it did "
-                "with others; it is late or lost, or they are another camera's: " +
+                " images are not judged: they have no camera_info of their stamp. It is late or "
+                "lost, or they are another camera's: " +
                 why_silent(inbox, TopicRole::camera_info, number, links)};
   return result_fault(inbox, tally, inbox.warnings(number), camera.arrivals(), links, now);
 }

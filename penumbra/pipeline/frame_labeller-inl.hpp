@@ -52,8 +52,9 @@ class FrameLabeller {
  private:
   FrameStatus check(LabelledFrame& frame);
   [[nodiscard]] LabelView unknown_labels() const;
-  void add_reaches(LabelledImages& images, const PoseResult& poses);
-  VirtualDepthView draw(const PoseResult& poses, std::span<const Reach> reaches);
+  void add_reaches(LabelledImages& images, const VirtualDepthView& robot, const PoseResult& poses);
+  VirtualDepthView add(const VirtualDepthView& robot, std::span<const PlacedBody> bodies,
+                       std::span<const Reach> reaches);
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
 
   Intrinsics render_intrinsics_;

@@ -79,16 +79,18 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
   }
   if (has_depth_ && has_depth(frame.status)) frame.status = worse(frame.status, check(frame));
   images.is_blind = !has_depth(frame.status);
+  VirtualDepthView robot;
   {
     const StageTimer timer(frame.render_ms);
-    images.virtual_depth = draw(poses, {});
+    robot = renderer_->render(poses.T_camera_link);
+    images.virtual_depth = add(robot, poses.attached, {});
   }
   {
     const StageTimer timer(frame.classify_ms);
     if (has_depth_ && !images.is_blind)
       images.measured = rectified_depth_ ? rectified_depth_->rectify(depth) : depth;
     images.labels = classify(images.virtual_depth, images.measured);
-    if (!poses.reaches.empty()) add_reaches(images, poses);
+    if (!poses.reaches.empty()) add_reaches(images, robot, poses);
   }
   frame.uncovered = uncovered_ ? uncovered_->marked() : 0;
   return frame;
@@ -126,21 +128,23 @@ LabelView FrameLabeller::unknown_labels() const {
 }
 
 /// Adds what links of unknown pose could hide to images of the others, whose fringe stays.
-void FrameLabeller::add_reaches(LabelledImages& images, const PoseResult& poses) {
+void FrameLabeller::add_reaches(LabelledImages& images, const VirtualDepthView& robot,
+                                const PoseResult& poses) {
   const ImageView<const std::uint8_t> known = images.labels.labels;
   labels_with_reaches_.fit(known.width, known.height);
   for (int v = 0; v < known.height; ++v)
     std::copy_n(known.row(v), known.width, &labels_with_reaches_(0, v));
-  images.virtual_depth = draw(poses, poses.reaches);
+  images.virtual_depth = add(robot, poses.attached, poses.reaches);
   images.labels =
       unknown_in_reaches(classify(images.virtual_depth, images.measured),
                          images.virtual_depth.links, poses.reaches, labels_with_reaches_);
 }
 
-VirtualDepthView FrameLabeller::draw(const PoseResult& poses, std::span<const Reach> reaches) {
-  VirtualDepthView drawn = renderer_->render(poses.T_camera_link);
-  if (!poses.attached.empty() || !reaches.empty())
-    drawn = attached_.add_to(drawn, poses.attached, reaches);
+VirtualDepthView FrameLabeller::add(const VirtualDepthView& robot,
+                                    std::span<const PlacedBody> bodies,
+                                    std::span<const Reach> reaches) {
+  const bool is_alone = bodies.empty() && reaches.empty();
+  const VirtualDepthView drawn = is_alone ? robot : attached_.add_to(robot, bodies, reaches);
   return raw_images_ ? raw_images_->virtual_depth(drawn) : drawn;
 }
 

@@ -28,6 +28,29 @@ class Configuration:
         return context.launch_configurations[self.name]
 
 
+class PackageShare(str):
+    def find(self, package):
+        return package
+
+
+class MoveItConfigs:
+    def __init__(self, robot, package_name):
+        self.parameters = {"package": package_name}
+
+    def robot_description_semantic(self, file, mappings):
+        return self
+
+    def sensors_3d(self, file):
+        self.parameters["sensors"] = file
+        return self
+
+    def to_moveit_configs(self):
+        return self
+
+    def to_dict(self):
+        return self.parameters
+
+
 def launch_file(path, warnings):
     logger = Context(warning=warnings.append)
     stand_in("launch.logging", get_logger=lambda name: logger)
@@ -38,7 +61,8 @@ def launch_file(path, warnings):
              DeclareLaunchArgument=lambda name, **arguments: Action(name=name, **arguments))
     stand_in("launch.substitutions", LaunchConfiguration=Configuration,
              PathJoinSubstitution="/".join)
-    stand_in("launch_ros.substitutions", FindPackageShare=str)
+    stand_in("launch_ros.substitutions", FindPackageShare=PackageShare)
+    stand_in("moveit_configs_utils", MoveItConfigsBuilder=MoveItConfigs)
     stand_in("launch_ros.actions", Node=Action, LoadComposableNodes=Action)
     stand_in("launch_ros.descriptions", ComposableNode=Action)
     spec = importlib.util.spec_from_file_location("penumbra_launch", path)
@@ -110,9 +134,12 @@ def check_cell(package, arguments):
     [player, (path, given)] = start.function(cell)
     assert player.cmd[-1] == "b", player.cmd
     assert path == "penumbra_ros/launch/penumbra.launch.py" and set(given) <= arguments, given
-    cell.launch_configurations["bag"] = ""
-    assert len(start.function(cell)) == 4, "arm, camera, its pose, Penumbra"
-    assert yaml.safe_load((package / "config/sensors_3d.yaml").read_text())
+    cell.launch_configurations.update(bag="", moveit="True")
+    [*_, move_group] = actions = start.function(cell)
+    assert len(actions) == 5, "arm, camera, its pose, Penumbra, MoveIt"
+    sensors = move_group.parameters[0]["sensors"]
+    [sensor] = yaml.safe_load((package.parent / sensors).read_text())["sensors"]
+    assert sensor == "depth_without_robot"
 
 
 if __name__ == "__main__":

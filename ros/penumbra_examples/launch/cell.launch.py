@@ -19,9 +19,9 @@ ARGUMENTS = {
     "robot_ip": ("192.168.1.10", "the arm's controller"),
     "camera_pose": ("0.8 0.0 0.6 3.14159 0.5 0.0",
                     "of camera_link in base_link: x y z yaw pitch roll, metres and radians"),
-    "camera": ("/camera/camera", "namespace of the camera's depth/image_rect_raw"),
+    "camera": ("/camera/camera", "namespace of depth/image_rect_raw, if the bag has another"),
     "targets": ("", "topics of a detector's results, separated by commas"),
-    "bag": ("", "a bag of such a cell, played in a loop in place of arm and camera"),
+    "bag": ("", "a bag of such a cell, played in place of arm and camera"),
     "moveit": ("true", "false: no MoveIt"),
     "rviz": ("true", "false: no rviz"),
 }
@@ -34,7 +34,7 @@ def included(package, file, **arguments):
 
 def arm_and_camera(value):
     if value["bag"]:
-        return [ExecuteProcess(cmd=["ros2", "bag", "play", "--loop", value["bag"]])]
+        return [ExecuteProcess(cmd=["ros2", "bag", "play", value["bag"]])]
     pose = zip(("--x", "--y", "--z", "--yaw", "--pitch", "--roll"), value["camera_pose"].split())
     return [
         included("ur_robot_driver", "ur_control.launch.py", ur_type=value["ur_type"],
@@ -64,7 +64,7 @@ def start(context):
     actions = arm_and_camera(value)
     actions.append(included("penumbra_ros", "penumbra.launch.py", camera=value["camera"],
                             targets=value["targets"], rviz=value["rviz"]))
-    if value["moveit"] == "true":
+    if value["moveit"].lower() == "true":
         actions.append(move_group(value))
     return actions
 

@@ -161,7 +161,14 @@ TEST_F(NodeTest, RuleAndResultsChangeWhileItRuns) {
   EXPECT_FALSE(node_->set_parameter({"front_min_width", 1000}).successful);
   EXPECT_FALSE(node_->set_parameter({"sensor", "eye"}).successful);
   EXPECT_FALSE(node_->set_parameter({"geometry", "visual"}).successful) << "read-only";
-  EXPECT_FALSE(node_->set_parameter({"publish", std::vector<std::string>{"label"}}).successful);
+  EXPECT_FALSE(node_
+                   ->set_parameters_atomically({{"tolerance", std::vector<double>{0.01, 0, 0}},
+                                                {"publish", std::vector<std::string>{"label"}}})
+                   .successful);
+  EXPECT_TRUE(node_->set_parameter({"publish", std::vector<std::string>{"labels"}}).successful);
+  const auto same = labels_of(3);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(after->data, same->data) << "the tolerance was refused, too";
   EXPECT_TRUE(node_->set_parameter({"publish", std::vector<std::string>{"mask"}}).successful);
   EXPECT_FALSE(labels_of(4));
 }
