@@ -135,6 +135,8 @@ def check_cell(package, arguments):
     assert player.cmd[-1] == "b", player.cmd
     assert path == "penumbra_ros/launch/penumbra.launch.py" and set(given) <= arguments, given
     cell.launch_configurations.update(bag="", moveit="True")
+    assert refuses(start.function, cell), "a camera that stands nowhere"
+    cell.launch_configurations["camera_pose"] = "0.8 0 0.6 3.14 0.5 0"
     [*_, move_group] = actions = start.function(cell)
     assert len(actions) == 5, "arm, camera, its pose, Penumbra, MoveIt"
     sensors = move_group.parameters[0]["sensors"]

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """A UR arm, a RealSense camera, Penumbra, MoveIt with an octomap without the arm, and rviz.
 
-ros2 launch penumbra_examples cell.launch.py ur_type:=ur5e robot_ip:=192.168.1.10
+ros2 launch penumbra_examples cell.launch.py camera_pose:="0.8 0 0.6 3.14 0.5 0"
 ros2 launch penumbra_examples cell.launch.py bag:=recorded moveit:=false      # without hardware
 
-Copy it and change what your cell has of its own: above all where the camera stands (`penumbra
-calibrate` finds it).
+Copy it and change what your cell has of its own.
 """
 from launch import LaunchDescription
 from launch.actions import (DeclareLaunchArgument, ExecuteProcess, IncludeLaunchDescription,
@@ -17,8 +16,8 @@ from launch_ros.substitutions import FindPackageShare
 ARGUMENTS = {
     "ur_type": ("ur5e", "the arm"),
     "robot_ip": ("192.168.1.10", "the arm's controller"),
-    "camera_pose": ("0.8 0.0 0.6 3.14159 0.5 0.0",
-                    "of camera_link in base_link: x y z yaw pitch roll, metres and radians"),
+    "camera_pose": ("", "of camera_link in base_link: x y z yaw pitch roll, metres and radians; "
+                        "without a bag there is no default"),
     "camera": ("/camera/camera", "namespace of depth/image_rect_raw, if the bag has another"),
     "targets": ("", "topics of a detector's results, separated by commas"),
     "bag": ("", "a bag of such a cell, played in place of arm and camera"),
@@ -28,14 +27,18 @@ ARGUMENTS = {
 
 
 def included(package, file, **arguments):
-    return IncludeLaunchDescription(PathJoinSubstitution([FindPackageShare(package), "launch", file]),
-                                    launch_arguments=arguments.items())
+    path = PathJoinSubstitution([FindPackageShare(package), "launch", file])
+    return IncludeLaunchDescription(path, launch_arguments=arguments.items())
 
 
 def arm_and_camera(value):
     if value["bag"]:
         return [ExecuteProcess(cmd=["ros2", "bag", "play", value["bag"]])]
-    pose = zip(("--x", "--y", "--z", "--yaw", "--pitch", "--roll"), value["camera_pose"].split())
+    numbers = value["camera_pose"].split()
+    if len(numbers) != 6:
+        raise RuntimeError("camera_pose:= must be x y z yaw pitch roll of camera_link in "
+                           "base_link; `penumbra calibrate` finds where a camera stands")
+    pose = zip(("--x", "--y", "--z", "--yaw", "--pitch", "--roll"), numbers)
     return [
         included("ur_robot_driver", "ur_control.launch.py", ur_type=value["ur_type"],
                  robot_ip=value["robot_ip"], launch_rviz="false"),
