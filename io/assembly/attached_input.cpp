@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <span>
 
 #include <penumbra/base/error.hpp>
@@ -82,13 +84,28 @@ TriangleMesh mesh_of(const CollisionObjectMessage& object) {
   return mesh;
 }
 
-/// Returns whether a body is attached to its link with a mesh.
-bool is_attached(const Attachments& to, std::int64_t stamp, const AttachedBody& body) {
+/// Returns the body of a name that is attached at a stamp.
+std::optional<AttachedBody> find_attached(const Attachments& to, std::int64_t stamp,
+                                          const std::string& name) {
   std::vector<AttachedBody> bodies;
   to.at(stamp, bodies);
-  return std::any_of(bodies.begin(), bodies.end(), [&](const AttachedBody& known) {
-    return known.name == body.name && known.link == body.link && known.mesh;
-  });
+  const auto found = std::ranges::find(bodies, name, &AttachedBody::name);
+  return found == bodies.end() ? std::nullopt : std::optional(std::move(*found));
+}
+
+/// Detaches a body. What is attached after the stamp alone cannot have been removed then, so it
+/// holds from `now` on.
+void detach(std::int64_t stamp, std::int64_t now, const std::string& name, Attachments& to) {
+  const auto last = to.last_change(name);
+  const bool is_early = last && *last > stamp && !find_attached(to, stamp, name);
+  to.detach(is_early ? std::max(now, *last) : stamp, name);
+}
+
+/// Attaches a body. One that was removed after the stamp is attached again from `now` on.
+void attach(std::int64_t stamp, std::int64_t now, const AttachedBody& body, Attachments& to) {
+  to.attach(stamp, body);
+  const std::int64_t last = *to.last_change(body.name);
+  if (!find_attached(to, last, body.name)) to.attach(std::max(now, last), body);
 }
 
 /// Returns T_link_frame. A frame may be a link of the same robot or the root of all.
@@ -107,14 +124,15 @@ Eigen::Isometry3d pose_of_frame(const std::string& frame, const std::string& lin
   return *found;
 }
 
-/// Detaches all bodies of a robot, or those of one link.
-void detach_all(const std::string& prefix, const std::string& link, std::int64_t stamp,
-                Attachments& to) {
+/// Returns the bodies of a robot, or those of one link, that are attached at a stamp.
+std::vector<AttachedBody> attached_to(const std::string& prefix, const std::string& link,
+                                      std::int64_t stamp, const Attachments& all) {
   std::vector<AttachedBody> bodies;
-  to.at(stamp, bodies);
-  for (const AttachedBody& body : bodies)
-    if (body.link.starts_with(prefix) && (link.empty() || body.link == prefix + link))
-      to.detach(stamp, body.name);
+  all.at(stamp, bodies);
+  std::erase_if(bodies, [&](const AttachedBody& body) {
+    return !body.link.starts_with(prefix) || !(link.empty() || body.link == prefix + link);
+  });
+  return bodies;
 }
 
 bool is_same(const TriangleMesh& a, const TriangleMesh& b) {
@@ -145,15 +163,18 @@ std::string AttachedInput::take(const AttachedObjectMessage& message, std::int64
   const CollisionObjectMessage& object = message.object;
   const std::int64_t stamp = object.header.stamp > 0 ? object.header.stamp : now;
   if (object.operation == CollisionObjectMessage::remove) {
-    if (object.id.empty())
-      detach_all(prefix, message.link_name, stamp, to);
-    else
-      to.detach(stamp, prefix + object.id);
+    if (!object.id.empty()) detach(stamp, now, prefix + object.id, to);
+    for (const std::int64_t when : {stamp, std::numeric_limits<std::int64_t>::max()})
+      for (const auto& body : attached_to(prefix, message.link_name, when, to))
+        if (object.id.empty()) detach(stamp, now, body.name, to);
     return {};
   }
   AttachedBody body{.name = prefix + object.id, .link = prefix + message.link_name, .mesh = {}};
   const bool is_add = object.operation == CollisionObjectMessage::add;
-  if (is_add && !has_shape(object) && is_attached(to, stamp, body)) return {};
+  if (is_add && !has_shape(object)) {
+    const auto known = find_attached(to, stamp, body.name);
+    if (known && known->link == body.link && known->mesh) return {};
+  }
   const auto in_world = has_shape(object) ? world_.end() : world_.find(body.name);
   const bool is_of_world = in_world != world_.end();
   const CollisionObjectMessage& shape = is_of_world ? in_world->second : object;
@@ -173,7 +194,7 @@ std::string AttachedInput::take(const AttachedObjectMessage& message, std::int64
   const std::string fault =
       body.reason.empty() ? ""
                           : "object '" + printable(object.id) + "' is not drawn: " + body.reason;
-  to.attach(stamp, std::move(body));
+  attach(stamp, now, body, to);
   return fault;
 }
 
@@ -187,7 +208,7 @@ std::string AttachedInput::take(const PlanningSceneMessage& message, std::int64_
   const std::int64_t of_state = state.joints.header.stamp;
   const std::int64_t stamp = of_state > 0 ? of_state : now;
   if (!state.is_diff && !(state.joints.names.empty() && state.other_joints.joint_names.empty()))
-    detach_all(prefix, {}, stamp, to);
+    for (const auto& body : attached_to(prefix, {}, stamp, to)) to.detach(stamp, body.name);
   std::string fault;
   for (const AttachedObjectMessage& attached : state.attached)
     if (std::string one = take(attached, stamp, to, robot, posed); !one.empty())

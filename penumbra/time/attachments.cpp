@@ -47,6 +47,12 @@ void Attachments::merge(std::size_t count) {
   changes_ = std::move(merged);
 }
 
+std::optional<std::int64_t> Attachments::last_change(std::string_view name) const {
+  const auto is_of_body = [&](const Change& change) { return change.body.name == name; };
+  const auto last = std::find_if(changes_.rbegin(), changes_.rend(), is_of_body);
+  return last == changes_.rend() ? std::nullopt : std::optional(last->stamp);
+}
+
 void Attachments::at(std::int64_t stamp, std::vector<AttachedBody>& bodies) const {
   bodies.clear();
   for (const Change& change : changes_) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,6 +40,9 @@ class Attachments {
   void detach(std::int64_t stamp, std::string_view name);
   /// Whatever is attached last is attached at every stamp, for a clock that was set back.
   void restart();
+
+  /// Returns the stamp of a body's last change, in order of stamps; null if it has none.
+  [[nodiscard]] std::optional<std::int64_t> last_change(std::string_view name) const;
 
   /// Writes the bodies that are attached at a stamp, in the order in which they were attached.
   void at(std::int64_t stamp, std::vector<AttachedBody>& bodies) const;
