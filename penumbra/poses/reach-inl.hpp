@@ -47,9 +47,8 @@ struct Reach {
 void draw_reaches(std::span<const Reach> reaches, const Intrinsics& intrinsics,
                   ImageView<float> depth, ImageView<std::uint16_t> links, TileMask& touched);
 
-/// Returns the labels with `unknown` in place of `occluded` and `beyond` where a ball is the
-/// nearest, and `fringe` in place of trusted ones where it was before. `known`: the labels without
-/// the balls; holds the result.
+/// Returns the labels with `unknown` where a ball is the nearest, unless something real is measured
+/// before it; elsewhere fringe stays. `known`: the labels without the balls; holds the result.
 [[nodiscard]] LabelView unknown_in_reaches(const LabelView& labels,
                                            const ImageView<const std::uint16_t>& links,
                                            std::span<const Reach> reaches,

@@ -102,11 +102,9 @@ LabelView unknown_in_reaches(const LabelView& labels, const ImageView<const std:
       const auto before = static_cast<Label>(known(u, v));
       const auto label = static_cast<Label>(labels.labels(u, v));
       const auto is_here = [&](const Reach& reach) { return reach.link + 1 == links(u, v); };
-      Label now = label;
-      if (before == Label::fringe && is_trusted(label)) now = Label::fringe;
-      if ((label == Label::occluded || label == Label::beyond) &&
-          std::any_of(reaches.begin(), reaches.end(), is_here))
-        now = Label::unknown;
+      Label now = before == Label::fringe && is_trusted(label) ? before : label;
+      if (std::any_of(reaches.begin(), reaches.end(), is_here))
+        now = is_trusted(before) && label == Label::front ? label : Label::unknown;
       known(u, v) = static_cast<std::uint8_t>(now);
       --result.pixels[static_cast<std::size_t>(label)];
       ++result.pixels[static_cast<std::size_t>(now)];

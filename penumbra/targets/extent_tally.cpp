@@ -121,6 +121,8 @@ class ExtentReader {
   }
 
  private:
+  static constexpr float nowhere = std::numeric_limits<float>::infinity();
+
   struct Run {
     PixelState state = PixelState::clear;
     std::uint16_t link = 0;  // of a link image
@@ -178,12 +180,18 @@ class ExtentReader {
     const float* const robot = images_.virtual_depth.depth.row(v);
     const bool has_links = !images_.virtual_depth.links.empty();
     const std::uint16_t* const links = has_links ? images_.virtual_depth.links.row(v) : nullptr;
+    const bool has_unplaced = has_links && !images_.unplaced.empty();
     std::size_t measured = 0, past = 0;
     Run run;  // of equal pixels: faster than counting them one by one in memory
     for (int u = u0; u < u1; ++u) {
       const DepthLimits target = limits(u);
       const float d = depths[u];
-      const PixelState state = state_at_depth(labels[u], robot[u], d, target, beyond_hides_);
+      const bool may_be_anywhere = has_unplaced && is_unplaced(links[u]);
+      const PixelState state =
+          may_be_anywhere && labels[u] == static_cast<std::uint8_t>(Label::unknown)
+              ? PixelState::unknown
+              : state_at_depth(labels[u], may_be_anywhere ? nowhere : robot[u], d, target,
+                               beyond_hides_);
       const bool counts = is_seen(state) && !is_fringe(labels[u]);
       measured += counts && d > 0.0f;
       past += counts && d > target.far;
@@ -197,6 +205,11 @@ class ExtentReader {
     add(run);
     tally_.measured += measured;
     tally_.past += past;
+  }
+
+  /// Whether only a link of unknown pose could be at a pixel. It hides nothing for sure.
+  [[nodiscard]] bool is_unplaced(std::uint16_t link) const {
+    return std::ranges::find(images_.unplaced, link) != images_.unplaced.end();
   }
 
   void add(const Run& run) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -27,6 +28,8 @@ struct LabelledImages {
   DepthView measured;              ///< empty: no points, nothing is hidden by other objects, and
                                    ///< nothing need be measured
   bool is_blind = false;           ///< no usable depth: whatever the robot does not hide is unknown
+  /// Values of the link image where a link of unknown pose could be: it may hide the target or not.
+  std::span<const std::uint16_t> unplaced = {};
 };
 
 /// The thresholds of verdicts, as fractions of the pixels inside the image.
