@@ -102,12 +102,13 @@ Line counted(const char* name, std::size_t pixels, std::optional<double> share, 
 void add_counts(const PixelCounts& pixels, std::vector<Line>& lines) {
   const std::array<std::size_t, 4> of_robot{pixels.front, pixels.occluded, pixels.unknown,
                                             pixels.beyond};
-  const std::size_t robot = std::accumulate(of_robot.begin(), of_robot.end(), std::size_t{0});
+  const std::size_t robot = pixels.robot.value_or(0);
   lines.push_back({"robot " + std::to_string(robot) + " px", {}});
   for (std::size_t i = 0; i < of_robot.size(); ++i) {
     const auto label = static_cast<Label>(i + 1);
-    const double share =
+    std::optional<double> share =
         robot == 0 ? 0.0 : static_cast<double>(of_robot[i]) / static_cast<double>(robot);
+    if (of_robot[i] > robot) share.reset();  // unknown pixels beside it
     lines.push_back(counted(label_names[i], of_robot[i], share, label_color(label)));
   }
   if (pixels.fringe > 0)

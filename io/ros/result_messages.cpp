@@ -32,9 +32,8 @@ void ResultMessages::set(const FrameReport& report) {
   has_virtual_depth_ = !report.virtual_depth.depth.empty();
   if (has_virtual_depth_) copy(report.virtual_depth.depth, virtual_depth_);
   copy(report.labels, labels_);
-  const bool is_whole = report.missing_links.empty();
   for (std::size_t i = 0; i < labels_.size(); ++i)
-    mask_.data()[i] = is_whole && is_trusted(static_cast<Label>(labels_.data()[i])) ? 0 : 255;
+    mask_.data()[i] = is_trusted(static_cast<Label>(labels_.data()[i])) ? 0 : 255;
   without_robot(report, filtered_);
 }
 

@@ -40,11 +40,12 @@ void SetupCheck::add(const FrameReport& report, std::span<const double> joints) 
   if (!has_depth(report.status) || !report.T_root_camera || is_empty(report.depth) ||
       !std::ranges::all_of(report.T_root_link, is_finite))
     return;
+  if (joints.size() != robot_.variables().size()) joints = {};
+  if (!recent_.empty() && recent_.back().joints.empty() != joints.empty()) return;  // not of a kind
   pixels_ += static_cast<std::size_t>(report.labels.width) *
              static_cast<std::size_t>(report.labels.height);
-  measured_ += report.pixels.robot.value_or(0) - report.pixels.unknown;
+  measured_ += report.pixels.front + report.pixels.occluded + report.pixels.beyond;
   elsewhere_ += report.pixels.front + report.pixels.beyond;
-  if (joints.size() != robot_.variables().size()) joints = {};
   recent_.push_back({seen_++,
                      report.stamp,
                      {joints.begin(), joints.end()},

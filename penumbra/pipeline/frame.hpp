@@ -38,13 +38,13 @@ struct Frame {
   std::string source_message = {};
 };
 
-/// Numbers of pixels by label. If the robot's pose is known,
-/// robot = front + occluded + unknown + beyond.
+/// Numbers of pixels by label. robot = front + occluded + unknown + beyond if the robot's pose is
+/// known, all of it is drawn and there is usable depth.
 struct PixelCounts {
   std::optional<std::size_t> robot;  ///< virtual depth > 0; null if the robot's pose is unknown
   std::size_t front = 0;
   std::size_t occluded = 0;
-  std::size_t unknown = 0;  ///< robot without measurement; without a pose all covered pixels
+  std::size_t unknown = 0;  ///< robot without measurement; else as FrameReport::labels
   std::size_t beyond = 0;
   std::size_t fringe = 0;  ///< next to the robot, with unreliable depth
 
@@ -88,7 +88,8 @@ struct FrameReport {
   /// the frame's own image, and is valid as long as that.
   DepthView depth;
 
-  /// Label values; all `unknown` if the robot's pose is unknown.
+  /// Label values; all `unknown` if the robot's pose is unknown. With a missing link, and without
+  /// usable depth from a camera that measures it, all but `occluded` and `beyond` are `unknown`.
   ImageView<const std::uint8_t> labels;
 
   std::span<const TargetReport> targets;  ///< in the order of the frame's targets

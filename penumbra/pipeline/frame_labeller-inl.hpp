@@ -34,8 +34,8 @@ class FrameLabeller {
   FrameLabeller(const Robot& robot, const Camera& camera, const Rectification* rectification,
                 const PipelineConfig& config);
 
-  /// Renders the robot and labels the depth image. Without usable depth every robot pixel is
-  /// unknown. The result refers to `depth` and `poses`, and is valid until the next call.
+  /// Renders the robot and labels the depth image. The result refers to `depth` and `poses`, and is
+  /// valid until the next call.
   LabelledFrame label(const DepthView& depth, const PoseResult& poses);
 
   [[nodiscard]] const DepthRenderer& renderer() const { return *renderer_; }
@@ -53,6 +53,7 @@ class FrameLabeller {
   FrameStatus check(LabelledFrame& frame);
   [[nodiscard]] LabelView unknown_labels() const;
   void add_reaches(LabelledImages& images, const VirtualDepthView& robot, const PoseResult& poses);
+  LabelView without_trusted(const LabelView& labels);
   VirtualDepthView add(const VirtualDepthView& robot, std::span<const PlacedBody> bodies,
                        std::span<const Reach> reaches);
   LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
@@ -70,6 +71,8 @@ class FrameLabeller {
   labelling::Rule measured_;    // defines a measurement
   std::string message_;
   Image<std::uint8_t> labels_with_reaches_;
+  std::vector<std::uint16_t> unplaced_;  // LabelledImages::unplaced
+  Image<std::uint8_t> untrusted_;
   std::vector<std::uint16_t> no_depth_row_;  // all rows of an image (stride 0)
   std::vector<std::uint8_t> unknown_row_;
 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <sstream>
 #include <tuple>
+#include <utility>
 #include <variant>
 
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
@@ -73,7 +74,7 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
   LabelledImages& images = frame.images;
   images.is_blind = true;
   if (!poses.known()) {
-    images.labels = unknown_labels();
+    images.labels = frame.labels = unknown_labels();
     frame.uncovered = uncovered_ ? uncovered_->count() : 0;
     return frame;
   }
@@ -92,6 +93,9 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
     images.labels = classify(images.virtual_depth, images.measured);
     if (!poses.reaches.empty()) add_reaches(images, robot, poses);
   }
+  frame.labels = images.labels;
+  if (!poses.missing_links.empty() || (has_depth_ && images.is_blind))
+    frame.labels = without_trusted(images.labels);
   frame.uncovered = uncovered_ ? uncovered_->marked() : 0;
   return frame;
 }
@@ -135,9 +139,36 @@ void FrameLabeller::add_reaches(LabelledImages& images, const VirtualDepthView& 
   for (int v = 0; v < known.height; ++v)
     std::copy_n(known.row(v), known.width, &labels_with_reaches_(0, v));
   images.virtual_depth = add(robot, poses.attached, poses.reaches);
+  unplaced_.clear();
+  for (const Reach& reach : poses.reaches)
+    unplaced_.push_back(static_cast<std::uint16_t>(reach.link + 1));
+  images.unplaced = unplaced_;
   images.labels =
       unknown_in_reaches(classify(images.virtual_depth, images.measured),
                          images.virtual_depth.links, poses.reaches, labels_with_reaches_);
+}
+
+/// Returns the labels of a frame in which something is not drawn or nothing is measured: whatever
+/// the robot does not certainly hide is unknown.
+LabelView FrameLabeller::without_trusted(const LabelView& labels) {
+  LabelView result{.labels = {}, .pixels = {}, .touched = nullptr};
+  untrusted_.fit(labels.labels.width, labels.labels.height);
+  for (int v = 0; v < untrusted_.height(); ++v)
+    std::transform(labels.labels.row(v), labels.labels.row(v) + untrusted_.width(),
+                   &untrusted_(0, v), [](std::uint8_t value) {
+                     const auto label = static_cast<Label>(value);
+                     return label == Label::occluded || label == Label::beyond
+                                ? value
+                                : static_cast<std::uint8_t>(Label::unknown);
+                   });
+  result.labels = std::as_const(untrusted_).view();
+  for (std::size_t label = 0; label < label_count; ++label) {
+    const bool is_hidden =
+        static_cast<Label>(label) == Label::occluded || static_cast<Label>(label) == Label::beyond;
+    result.pixels[is_hidden ? label : static_cast<std::size_t>(Label::unknown)] +=
+        labels.pixels[label];
+  }
+  return result;
 }
 
 VirtualDepthView FrameLabeller::add(const VirtualDepthView& robot,

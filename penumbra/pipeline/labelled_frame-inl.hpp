@@ -20,8 +20,9 @@ struct LabelledFrame {
   std::string_view message;       ///< empty if the status is ok
   bool nothing_measured = false;  ///< the depth image has no pixel within the sensor's range
   DepthView depth;                ///< the camera's image
-  LabelledImages images = {};
-  std::size_t uncovered = 0;  ///< PixelCounts::uncovered
+  LabelledImages images = {};     ///< for targets, which know why something is not drawn
+  LabelView labels = {};          ///< the report's
+  std::size_t uncovered = 0;      ///< PixelCounts::uncovered
   std::optional<double> render_ms = {}, classify_ms = {};
 
   [[nodiscard]] std::optional<std::int64_t> stamp() const { return poses->stamp; }

@@ -34,7 +34,7 @@ const Rectification* pointer_to(const std::optional<Rectification>& rectificatio
 
 PixelCounts counts_of(const LabelledFrame& frame) {
   const auto count = [&](Label label) {
-    return frame.images.labels.pixels[static_cast<std::size_t>(label)];
+    return frame.labels.pixels[static_cast<std::size_t>(label)];
   };
   PixelCounts pixels{.robot = std::nullopt,
                      .front = count(Label::front),
@@ -43,8 +43,10 @@ PixelCounts counts_of(const LabelledFrame& frame) {
                      .beyond = count(Label::beyond),
                      .fringe = count(Label::fringe),
                      .uncovered = frame.uncovered};
-  if (frame.poses->known())
-    pixels.robot = pixels.front + pixels.occluded + pixels.unknown + pixels.beyond;
+  const auto& drawn = frame.images.labels.pixels;
+  if (frame.poses->known()) pixels.robot = 0;
+  for (const Label label : {Label::front, Label::occluded, Label::unknown, Label::beyond})
+    if (pixels.robot) *pixels.robot += drawn[static_cast<std::size_t>(label)];
   return pixels;
 }
 
@@ -159,7 +161,7 @@ const FrameReport& Pipeline::State::report_of(const Frame& frame, const Labelled
   }
   report.virtual_depth = labelled.images.virtual_depth;
   report.depth = labelled.images.measured;
-  report.labels = labelled.images.labels.labels;
+  report.labels = labelled.labels.labels;
   report.targets = targets.reports();
   return report;
 }

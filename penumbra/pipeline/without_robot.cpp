@@ -31,7 +31,7 @@ void without_robot(const FrameReport& report, DepthImage& out) {
       [&]<typename T>(Image<T>& image) {
         image.fit(labels.width, labels.height);
         const auto* const depth = std::get_if<ImageView<const T>>(&report.depth);
-        const bool has_depth = depth != nullptr && !depth->empty() && report.missing_links.empty();
+        const bool has_depth = depth != nullptr && !depth->empty();
         for (int v = 0; v < labels.height; ++v) {
           const std::uint8_t* const label = labels.row(v);
           T* const to = &image(0, v);

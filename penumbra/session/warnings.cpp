@@ -57,9 +57,10 @@ void Warnings::add(const FrameReport& report, std::span<const double> positions)
     robot_seen_ = robot_seen_ || *report.pixels.robot > 0;
     if (sensor_ && (has_depth(report.status) || report.nothing_measured)) {
       robot_pixels_ += *report.pixels.robot;
-      measured_ += *report.pixels.robot - report.pixels.unknown;
-      front_ += report.pixels.front;
-      beyond_ += report.pixels.beyond;
+      const PixelCounts& pixels = report.pixels;
+      measured_ += pixels.front + pixels.occluded + pixels.beyond;
+      front_ += pixels.front;
+      beyond_ += pixels.beyond;
     }
   }
   for (const std::size_t link : report.near_links) ++frames_near_[link];

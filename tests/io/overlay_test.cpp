@@ -98,7 +98,7 @@ TEST(Overlay, WithoutAPoseTheLegendCountsNoRobot) {
   Scene scene(320, 240, Label::unknown);
   scene.labels = Image<std::uint8_t>(320, 240, static_cast<std::uint8_t>(Label::unknown));
   scene.report.labels = std::as_const(scene.labels).view();
-  scene.report.pixels.unknown = scene.labels.size();
+  scene.report.pixels.robot = scene.report.pixels.unknown = scene.labels.size();
   Image<Rgb8> out;
   draw_overlay(scene.report, scene.images(), out);
   EXPECT_TRUE(shows(out, "robot 76800 px")) << "the test can read the legend";

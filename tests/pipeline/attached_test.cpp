@@ -129,6 +129,10 @@ TEST(Attached, ABodyThatCannotBeDrawnMakesNothingVisible) {
     EXPECT_NE(report.message.find("'part'"), std::string::npos) << report.message;
     ASSERT_EQ(report.missing_links.size(), 1U);
     EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
+    for (const std::uint8_t label : pixels_of(report.labels))
+      ASSERT_TRUE(label == unknown_label || label == static_cast<int>(Label::occluded));
+    EXPECT_EQ(report.pixels.occluded + report.pixels.unknown, depth.size());
+    EXPECT_EQ(report.pixels.robot, report.pixels.occluded) << "of what is drawn";
     DepthImage out;
     without_robot(report, out);
     for (int v = 0; v < depth.height(); ++v)

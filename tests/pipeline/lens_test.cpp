@@ -97,7 +97,9 @@ TEST(Lens, RawImagesShowWhatRaysThroughTheLensMeet) {
     SCOPED_TRACE(lens.name);
     Camera camera = lens_camera();
     camera.distortion = lens.distortion();
-    Pipeline pipeline(slab_robot(), camera, plain_config());
+    PipelineConfig config = plain_config();
+    config.has_depth = false;
+    Pipeline pipeline(slab_robot(), camera, config);
     for (const double slide : {0.0, -0.45, 0.2}) {
       const std::vector<double> positions = {slide};
       uncovered += expect_cast(pipeline.process({.pose = {.positions = positions}}),
