@@ -44,8 +44,9 @@ Frame OwnedFrame::view(const Robot& robot) const {
   }
   if (T_root_link) pose.T_root_link = *T_root_link;
   pose.T_parent_camera = T_parent_camera;
-  pose.uncertain_links = uncertain_links;
-  pose.uncertain_reason = uncertain_reason;
+  pose.uncertain_links.insert(pose.uncertain_links.end(), uncertain_links.begin(),
+                              uncertain_links.end());
+  if (!uncertain_reason.empty()) pose.uncertain_reason = uncertain_reason;
   pose.attached = attached;
   frame.targets = targets;
   if (plan) frame.plan = plan->trajectory;

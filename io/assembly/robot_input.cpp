@@ -118,6 +118,14 @@ std::optional<Eigen::Isometry3d> PosedRobot::find_pose(const std::string& target
   }
   std::vector<Eigen::Isometry3d> T_root_link(robot.links().size());
   robot.forward_kinematics(joints.positions, T_root_link);
+  for (const std::size_t end : {*a, *b})
+    if (const RobotPart* const part = robot.part_of(end)) {
+      const std::size_t root = part->first_link;
+      TransformAnswer mount;
+      history.transforms().at(stamp, robot.links()[0], robot.links()[root], mount);
+      if (mount.status != TransformStatus::ok) return std::nullopt;
+      T_root_link[end] = mount.T_target_source * T_root_link[root].inverse() * T_root_link[end];
+    }
   return T_root_link[*a].inverse() * T_root_link[*b];
 }
 

@@ -113,7 +113,8 @@ FrameReader::FrameReader(const Recording& recording, const Robot& robot)
       depth_scale_(recording.camera.depth_scale),
       rows_(with_gaps(read_joint_file(files_.joints, robot), numbers_of_images(), files_.joints)),
       bodies_(recording.attached),
-      parts_(robot.parts().begin(), robot.parts().end()) {}
+      robot_(robot),
+      camera_parent_(robot.find_link(recording.camera.parent).value_or(0)) {}
 
 /// The numbers of the depth images; without any, of the colour images.
 std::vector<std::int64_t> FrameReader::numbers_of_images() const {
@@ -122,29 +123,28 @@ std::vector<std::int64_t> FrameReader::numbers_of_images() const {
   return {};
 }
 
-RobotPose pose_of(const JointRow& row, std::span<const RobotPart> parts,
+RobotPose pose_of(const JointRow& row, const Robot& robot, std::size_t camera_parent,
                   std::span<const RecordedBody> bodies) {
   RobotPose pose;
-  pose.positions = row.positions;
   // A joint row is of the frame's own stamp.
   if (row.stamp && !row.positions.empty()) pose.age = 0;
-  if (!row.fault.empty() && row.faulty_parts.empty()) {
+  for (const RecordedBody& each : bodies)
+    if (each.first <= row.index && row.index < each.end) pose.attached.push_back(each.body);
+  pose.positions = row.positions;
+  if (row.fault.empty()) return pose;
+  if (row.unknown.empty() || !leave_out(row.unknown, robot, camera_parent, pose)) {
+    pose.positions.clear();
     pose.status = FrameStatus::missing_joints;
     pose.message = row.fault;
   }
   pose.uncertain_reason = row.fault;
-  for (const std::size_t part : row.faulty_parts)
-    for (std::size_t link = parts[part].first_link; link < parts[part].end_link; ++link)
-      pose.uncertain_links.push_back(link);
-  for (const RecordedBody& each : bodies)
-    if (each.first <= row.index && row.index < each.end) pose.attached.push_back(each.body);
   return pose;
 }
 
 Frame FrameReader::read(std::size_t i, bool with_color) const {
   const JointRow& row = rows_[i];
   Frame frame{.index = static_cast<std::size_t>(row.index), .stamp = row.stamp};
-  frame.pose = pose_of(row, parts_, bodies_);
+  frame.pose = pose_of(row, robot_, camera_parent_, bodies_);
   const FileResult depth = files_.depth ? read_depth_image(row.index, frame.depth) : FileResult{};
   if (!depth.ok()) {
     frame.source_status =

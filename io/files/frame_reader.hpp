@@ -20,8 +20,9 @@
 
 namespace penumbra::io {
 
-/// Returns the pose of a joint row, with what is attached in its frame.
-[[nodiscard]] RobotPose pose_of(const JointRow& row, std::span<const RobotPart> parts,
+/// Returns the pose of a joint row, with what is attached in its frame. `camera_parent`: the link
+/// that carries the camera, without which there is no pose.
+[[nodiscard]] RobotPose pose_of(const JointRow& row, const Robot& robot, std::size_t camera_parent,
                                 std::span<const RecordedBody> bodies);
 
 /// Reads a recording's frames. Faults of a frame's data become its status and are never thrown.
@@ -54,7 +55,8 @@ class FrameReader {
   std::optional<double> depth_scale_;          // metres per unit; null: the format's
   std::vector<JointRow> rows_;
   std::vector<RecordedBody> bodies_;
-  std::vector<RobotPart> parts_;
+  Robot robot_;
+  std::size_t camera_parent_;
 };
 
 }  // namespace penumbra::io

@@ -24,12 +24,6 @@ void check_known(const Robot& robot, const FrameTable& table, std::string_view n
                    "; leave out columns of other devices");
 }
 
-std::optional<std::size_t> part_of_variable(const Robot& robot, std::size_t variable) {
-  for (std::size_t i = 0; i < robot.parts().size(); ++i)
-    if (variable < robot.parts()[i].end_variable) return i;
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const Robot& robot) {
@@ -57,16 +51,12 @@ std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const R
       for (std::size_t i = 0; i < columns.size(); ++i) try {
           row.positions[i] = table.number<double>(from, columns[i]);
         } catch (const InputError& fault) {
-          const auto part = part_of_variable(robot, i);
-          if (!part) throw;
-          row.fault = frame + ": " + fault.what();
-          if (row.faulty_parts.empty() || row.faulty_parts.back() != *part)
-            row.faulty_parts.push_back(*part);
+          if (row.fault.empty()) row.fault = frame + ": " + fault.what();
+          row.unknown.push_back(i);
         }
     } catch (const InputError& fault) {
       row.fault = frame + ": " + fault.what();
       row.positions.clear();
-      row.faulty_parts.clear();
     }
     if (row.stamp.value_or(0) < 0)  // the column is something else
       throw InputError(table.place(from.line) + "stamp " + std::to_string(*row.stamp) +

@@ -17,16 +17,16 @@ struct JointRow {
   std::optional<std::int64_t> stamp;  ///< nanoseconds, at least 0; nothing without that column
   std::vector<double> positions;      ///< order of Robot::variables(); empty if the row is at fault
   std::string fault;                  ///< why the row cannot be used, with file and line
-  /// Of several robots, those that a fault concerns; the others' positions can be used. Indices
-  /// into Robot::parts(); empty: the fault concerns all.
-  std::vector<std::size_t> faulty_parts = {};
+  /// Variables whose cells cannot be read, indices into Robot::variables(). The other positions can
+  /// be used; these are the rest positions. Empty: a fault concerns the whole row.
+  std::vector<std::size_t> unknown = {};
 };
 
 /// Reads a joint file: a header "frame,NAME,..." with every variable of the robot once and perhaps
 /// "stamp", then one row per frame, in the file's order. Columns of mimicking joints are ignored. A
-/// bad or empty cell makes its row faulty, or of several robots its robot in this row. Throws
-/// InputError that names file and line for what makes the whole file unsure: no rows, unknown,
-/// doubled or missing names, an invalid or doubled frame number, a negative stamp.
+/// bad or empty cell makes its joint unknown in this row. Throws InputError that names file and
+/// line for what makes the whole file unsure: no rows, unknown, doubled or missing names, an
+/// invalid or doubled frame number, a negative stamp.
 [[nodiscard]] std::vector<JointRow> read_joint_file(const std::filesystem::path& file,
                                                     const Robot& robot);
 

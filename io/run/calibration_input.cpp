@@ -81,9 +81,13 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
                           .nearby = {}};
     const RobotPose& pose = frame.pose;
     const bool has_joints = pose.positions.size() == robot.variables().size();
-    if (pose.status != FrameStatus::ok || frame.source_status != FrameStatus::ok ||
+    const bool is_partial = std::ranges::any_of(
+        pose.uncertain_links, [&](std::size_t link) { return robot.report()[link].drawn; });
+    if (pose.status != FrameStatus::ok || is_partial || frame.source_status != FrameStatus::ok ||
         (has_depth && is_empty(frame.depth.view)) || (pose.T_root_link.empty() && !has_joints)) {
-      const std::string& why = pose.message.empty() ? frame.source_message : pose.message;
+      const std::string& why = is_partial             ? pose.uncertain_reason
+                               : pose.message.empty() ? frame.source_message
+                                                      : pose.message;
       if (faulty++ == 0)
         fault = "frame " + std::to_string(kept.index) + ": " +
                 (why.empty() ? "no joints or no depth" : why);

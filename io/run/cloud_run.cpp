@@ -7,6 +7,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/version.hpp>
+#include <penumbra/poses/pose_lookup.hpp>
 #include <penumbra/time/pose_history.hpp>
 
 #include <io/assembly/bag_scene.hpp>
@@ -72,14 +73,16 @@ class RecordedRun {
         robot_(make_robot()),
         rows_(read_joint_file(recording_.joints, robot_)),
         history_(robot_, {.joints = {.history = 1e9, .max_states = rows_.size() + 1}}),
+        lookup_(robot_, {.camera_parent = recording_.parent}),
         targets_(open_targets()),
         pipeline_(robot_, {.rule = changed_rule(recording_.rule, options),
                            .threads = options.threads,
                            .sensor_parent = recording_.parent,
                            .T_parent_sensor = recording_.T_parent_sensor}) {
     for (const JointRow& row : rows_)
-      if (row.stamp && row.fault.empty())
-        history_.add_joints(*row.stamp, robot_.variables(), row.positions);
+      for (std::size_t i = 0; row.stamp && i < row.positions.size(); ++i)
+        if (std::ranges::find(row.unknown, i) == row.unknown.end())
+          history_.add_joints(*row.stamp, robot_.variables().subspan(i, 1), {&row.positions[i], 1});
   }
 
   [[nodiscard]] CloudRunResult run(const std::function<bool()>& go_on);
@@ -100,13 +103,14 @@ class RecordedRun {
   }
   void label(const JointRow& row, CloudSummary& summary);
   void label_all(const std::function<bool()>& go_on, CloudRunResult& result);
-  [[nodiscard]] RobotPose pose_at(std::int64_t stamp, const JointRow& row) const;
+  [[nodiscard]] RobotPose pose_at(std::int64_t stamp, const JointRow& row);
 
   const CloudRunOptions& options_;
   CloudRecording recording_;
   Robot robot_;
   std::vector<JointRow> rows_;
   PoseHistory history_;
+  PoseLookup lookup_;
   std::optional<TargetsFile> targets_;
   CloudPipeline pipeline_;
   std::optional<SensorTuner> tuner_;  // if the rule is measured
@@ -114,12 +118,12 @@ class RecordedRun {
 };
 
 /// The row's pose at its own stamp, else the pose between the rows.
-RobotPose RecordedRun::pose_at(std::int64_t stamp, const JointRow& row) const {
-  RobotPose pose = pose_of(row, robot_.parts(), recording_.attached);
+RobotPose RecordedRun::pose_at(std::int64_t stamp, const JointRow& row) {
+  RobotPose pose =
+      pose_of(row, robot_, find_camera_parent(robot_, recording_.parent), recording_.attached);
   if (!row.stamp || stamp == *row.stamp) return pose;
-  JointAnswer joints;
-  history_.joints().at(stamp, joints);
-  RobotPose between = penumbra::pose_of(robot_, joints);
+  RobotPose between;
+  lookup_.at(history_, stamp, between);
   between.attached = std::move(pose.attached);
   return between;
 }

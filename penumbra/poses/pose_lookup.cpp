@@ -34,12 +34,6 @@ FrameStatus status_of(TransformStatus transform) {
   return FrameStatus::missing_transform;
 }
 
-/// Returns the number of a joint's variables, which are consecutive.
-std::size_t variables_of(JointType type) {
-  if (type == JointType::planar) return 3;
-  return type == JointType::floating ? 7 : 1;
-}
-
 bool holds(const std::vector<std::size_t>& indices, std::size_t index) {
   return std::find(indices.begin(), indices.end(), index) != indices.end();
 }
@@ -74,27 +68,21 @@ PoseLookup::PoseLookup(const Robot& robot, PoseOptions options)
     : robot_(robot),
       options_(std::move(options)),
       camera_parent_(find_camera_parent(robot, options_.camera_parent)),
+      moves_needed_(robot.variables().size()),
       rest_(robot.rest_positions()),
       T_root_link_(robot.links().size()) {
-  moves_needed_.resize(robot.variables().size());
-  variable_links_.resize(robot.variables().size());
   for (std::size_t link = 0; link < robot.links().size(); ++link) {
     frames_.push_back(options_.frame_prefix + robot.links()[link]);
-    auto& movers = movers_.emplace_back();
-    if (link > 0) {
-      const Joint& joint = robot.joints()[link - 1];  // parents come before children
-      movers = movers_[joint.parent];
-      for (std::size_t i = 0; joint.variable && i < variables_of(joint.type); ++i)
-        movers.push_back(*joint.variable + i);
-      for (const std::size_t variable : movers) variable_links_[variable] = link;
-    }
     is_needed_.push_back(robot.report()[link].drawn || link == camera_parent_);
-    if (!is_needed_[link]) continue;
-    for (const std::size_t variable : movers) moves_needed_[variable] = true;
   }
   leads_to_needed_ = is_needed_;
   for (std::size_t link = frames_.size() - 1; link > 0; --link)
     if (leads_to_needed_[link]) leads_to_needed_[robot.joints()[link - 1].parent] = true;
+  for (std::size_t variable = 0; variable < moves_needed_.size(); ++variable) {
+    const std::vector<bool> moved = lost_joints(robot, {&variable, 1});
+    for (std::size_t link = 0; link < moved.size(); ++link)
+      if (moved[link] && leads_to_needed_[link]) moves_needed_[variable] = true;
+  }
 }
 
 void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, RobotPose& pose) {
@@ -117,91 +105,133 @@ void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, RobotPose& p
   pose.T_root_link.clear();
   if (pose.status != FrameStatus::ok)
     pose.age.reset();
-  else if (by_joints)
+  else if (by_joints && follows_from_joints_)
     pose.positions = joints_.positions;
   else
-    pose.T_root_link = T_root_found_;
+    pose.T_root_link = by_joints ? T_root_link_ : T_root_found_;
 }
 
 void PoseLookup::find_joints(const PoseHistory& history, std::int64_t stamp, RobotPose& pose) {
   history.joints().at(stamp, joints_);
+  follows_from_joints_ = true;
   if (joints_.status != JointStatus::ok) judge_unknown_joints(history.joints(), stamp, pose);
   pose.status = status_of(joints_.status);
   pose.age = joints_.age;
-  if (pose.status != FrameStatus::ok) pose.message = describe(robot_, joints_);
-}
-
-/// Keeps the unknown joints that move a needed link. Without any, the answer is ok and the links
-/// that the others move are uncertain.
-void PoseLookup::judge_unknown_joints(const JointBuffer& joints, std::int64_t stamp,
-                                      RobotPose& pose) {
-  JointStatus& status = joints_.status;
-  auto& gaps = joints_.gaps;
-  auto& disputes = joints_.disputes;
-  const auto mark = [&](const auto& all) {
-    for (const auto& unknown : all)
-      if (moves_needed_[unknown.variable] &&
-          mark_robot_uncertain(variable_links_[unknown.variable], pose))
-        note_uncertain_robot(joints.newest_of({&robot_.variables()[unknown.variable], 1}), stamp);
-  };
-  mark(gaps);
-  mark(disputes);
-  const auto is_needed = [&](const auto& unknown) {
-    return moves_needed_[unknown.variable] &&
-           !holds(pose.uncertain_links, variable_links_[unknown.variable]);
-  };
-  if (std::any_of(gaps.begin(), gaps.end(), is_needed) ||
-      std::any_of(disputes.begin(), disputes.end(), is_needed)) {
-    std::erase_if(gaps, std::not_fn(is_needed));
-    std::erase_if(disputes, std::not_fn(is_needed));
-    status = gaps.empty() ? JointStatus::disputed : JointStatus::stale;
-    for (const JointGap& gap : gaps)
-      if (gap.why == JointStatus::missing) status = JointStatus::missing;
+  if (pose.status != FrameStatus::ok) {
+    pose.message = describe(robot_, joints_);
     return;
   }
-  pose.uncertain_reason = describe(robot_, joints_);
-  for (std::size_t link = 0; link < frames_.size(); ++link) {
-    const auto moves_link = [&](const auto& unknown) {
-      return holds(movers_[link], unknown.variable);
-    };
-    if (std::any_of(gaps.begin(), gaps.end(), moves_link) ||
-        std::any_of(disputes.begin(), disputes.end(), moves_link))
-      add_to(pose.uncertain_links, link);
-  }
-  for (const JointGap& gap : gaps) joints_.positions[gap.variable] = rest_[gap.variable];
-  status = JointStatus::ok;
-  gaps.clear();
-  disputes.clear();
+  const bool has_mounts = !robot_.parts().empty() && history.transforms().knows(frames_[0]);
+  if (has_mounts || !follows_from_joints_ || options_.source == PoseSource::both)
+    robot_.forward_kinematics(joints_.positions, T_root_link_);
+  if (has_mounts) find_mounts(history.transforms(), stamp, pose);
 }
 
-/// Notes that a robot is uncertain whose newest state is `newest`.
-void PoseLookup::note_uncertain_robot(std::optional<std::int64_t> newest, std::int64_t stamp) {
+/// Makes the links uncertain that unknown joints move, and the whole robot if one is disputed. If
+/// that leaves no pose, only the joints that move a needed link stay unknown.
+void PoseLookup::judge_unknown_joints(const JointBuffer& joints, std::int64_t stamp,
+                                      RobotPose& pose) {
+  auto& gaps = joints_.gaps;
+  auto& disputes = joints_.disputes;
+  std::vector<std::size_t> unknown, disputed;
+  const auto take = [&](std::size_t variable, std::vector<std::size_t>& variables) {
+    variables.push_back(variable);
+    if (!moves_needed_[variable]) return;
+    follows_from_joints_ = false;
+    note_late(joints.newest_of({&robot_.variables()[variable], 1}), stamp);
+  };
+  for (const JointGap& gap : gaps) take(gap.variable, unknown);
+  for (const JointDispute& dispute : disputes)
+    take(dispute.variable, moves_needed_[dispute.variable] ? disputed : unknown);
+  if (add_uncertain_links(robot_, lost_joints(robot_, unknown, disputed), camera_parent_,
+                          pose.uncertain_links)) {
+    pose.uncertain_reason = describe(robot_, joints_);
+    for (const JointGap& gap : gaps) joints_.positions[gap.variable] = rest_[gap.variable];
+    joints_.status = JointStatus::ok;
+    return;
+  }
+  const auto is_needed = [&](const auto& one) { return moves_needed_[one.variable]; };
+  std::erase_if(gaps, std::not_fn(is_needed));
+  std::erase_if(disputes, std::not_fn(is_needed));
+  const bool is_missing = std::ranges::any_of(
+      gaps, [](const JointGap& gap) { return gap.why == JointStatus::missing; });
+  joints_.status = is_missing     ? JointStatus::missing
+                   : gaps.empty() ? JointStatus::disputed
+                                  : JointStatus::stale;
+}
+
+/// Notes that what is uncertain has no state after `newest`.
+void PoseLookup::note_late(std::optional<std::int64_t> newest, std::int64_t stamp) {
   const std::int64_t since = newest.value_or(0);
   if (since < stamp) late_since_ = std::max(late_since_.value_or(since), since);
+}
+
+/// Moves the robots of a cell to where they stand by TF.
+void PoseLookup::find_mounts(const TransformBuffer& transforms, std::int64_t stamp,
+                             RobotPose& pose) {
+  constexpr double rounding = 1e-9;
+  forget_lost();
+  for (const RobotPart& part : robot_.parts()) {
+    const Joint& mount = robot_.joints()[part.first_link - 1];
+    if (!find_joint(transforms, stamp, mount, pose)) continue;
+    const Eigen::Isometry3d moved = transform_.T_target_source * mount.origin.inverse();
+    if (moved.isApprox(Eigen::Isometry3d::Identity(), rounding)) continue;
+    follows_from_joints_ = false;
+    for (std::size_t link = part.first_link; link < part.end_link; ++link)
+      T_root_link_[link] = moved * T_root_link_[link];
+  }
+  settle_lost(pose);
 }
 
 void PoseLookup::find_links(const TransformBuffer& transforms, std::int64_t stamp,
                             RobotPose& pose) {
   T_root_found_.resize(frames_.size());
   T_root_found_[0].setIdentity();
-  auto& uncertain = pose.uncertain_links;
+  forget_lost();
   for (const Joint& joint : robot_.joints()) {
     const bool is_mount = joint.parent == 0 && robot_.part_of(joint.child) != nullptr;
     const bool is_given =
         joint.type != JointType::fixed || transforms.knows(frames_[is_mount ? 0 : joint.child]);
-    const bool is_found = !is_given || find_transform(transforms, stamp, frames_[joint.parent],
-                                                      frames_[joint.child], pose);
-    if (!is_found && leads_to_needed_[joint.child]) {
-      if (!mark_robot_uncertain(joint.child, pose)) return;
-      note_uncertain_robot(transforms.newest_of(frames_[joint.child]), stamp);
-    }
-    T_root_found_[joint.child] = T_root_found_[joint.parent] *
-                                 (is_given && is_found ? transform_.T_target_source : joint.origin);
-    if (!is_found) {
-      pose.status = FrameStatus::ok;
-      pose.uncertain_reason = std::exchange(pose.message, {});
-    }
-    if (!is_found || holds(uncertain, joint.parent)) add_to(uncertain, joint.child);
+    const bool is_found = is_given && find_joint(transforms, stamp, joint, pose);
+    T_root_found_[joint.child] =
+        T_root_found_[joint.parent] * (is_found ? transform_.T_target_source : joint.origin);
+  }
+  settle_lost(pose);
+}
+
+void PoseLookup::forget_lost() {
+  lost_.is_lost.assign(frames_.size(), false);
+  lost_.status = FrameStatus::ok;
+  lost_.is_needed = false;
+}
+
+/// Looks up the pose of a joint's child link. Returns false and notes the joint as lost if TF lacks
+/// it.
+bool PoseLookup::find_joint(const TransformBuffer& transforms, std::int64_t stamp,
+                            const Joint& joint, RobotPose& pose) {
+  if (find_transform(transforms, stamp, frames_[joint.parent], frames_[joint.child], pose))
+    return true;
+  const bool is_needed = leads_to_needed_[joint.child];
+  if (is_needed) note_late(transforms.newest_of(frames_[joint.child]), stamp);
+  std::size_t from = joint.child;  // what is lost
+  if (is_needed && pose.status == FrameStatus::poses_disagree) from = root_of(joint.child);
+  if (joint.parent == 0 && robot_.part_of(joint.child) != nullptr) from = 0;  // it may be anywhere
+  lost_.is_lost[from] = true;
+  const FrameStatus status = std::exchange(pose.status, FrameStatus::ok);
+  const std::string message = std::exchange(pose.message, {});
+  if (lost_.status == FrameStatus::ok || (is_needed && !lost_.is_needed))
+    lost_.status = status, lost_.message = message, lost_.is_needed = is_needed;
+  return false;
+}
+
+/// Makes the links uncertain that lost joints move, or the pose unknown.
+void PoseLookup::settle_lost(RobotPose& pose) {
+  if (lost_.status == FrameStatus::ok) return;
+  if (add_uncertain_links(robot_, lost_.is_lost, camera_parent_, pose.uncertain_links)) {
+    add_part(pose.uncertain_reason, lost_.message);
+  } else {
+    pose.status = lost_.status;
+    pose.message = lost_.message;
   }
 }
 
@@ -221,17 +251,13 @@ bool PoseLookup::find_transform(const TransformBuffer& transforms, std::int64_t 
   return false;
 }
 
-/// Makes all links of a link's robot uncertain. Returns false if the frame cannot do without that
-/// robot: it is the only one, or carries the camera.
-bool PoseLookup::mark_robot_uncertain(std::size_t link, RobotPose& pose) const {
+/// Returns the first link of a link's robot.
+std::size_t PoseLookup::root_of(std::size_t link) const {
   const RobotPart* const part = robot_.part_of(link);
-  if (part == nullptr || part == robot_.part_of(camera_parent_)) return false;
-  for (std::size_t i = part->first_link; i < part->end_link; ++i) add_to(pose.uncertain_links, i);
-  return true;
+  return part == nullptr ? 0 : part->first_link;
 }
 
 void PoseLookup::compare(RobotPose& pose) {
-  robot_.forward_kinematics(joints_.positions, T_root_link_);
   struct Disagreement {
     std::size_t link = 0;
     double distance = 0.0;
@@ -247,12 +273,13 @@ void PoseLookup::compare(RobotPose& pose) {
   const auto text = [&](const Disagreement& most) {
     return disagreement_text(robot_.links()[most.link], most.distance);
   };
-  if (needed.distance > agreement && mark_robot_uncertain(needed.link, pose)) {
-    add_part(pose.uncertain_reason, text(needed));
-    compare(pose);  // the other robots
-  } else if (needed.distance > agreement) {
-    pose.status = FrameStatus::poses_disagree;
-    pose.message = text(needed);
+  if (needed.distance > agreement) {
+    forget_lost();
+    lost_.is_lost[root_of(needed.link)] = true;
+    lost_.status = FrameStatus::poses_disagree;
+    lost_.message = text(needed);
+    settle_lost(pose);
+    if (has_pose(pose.status)) compare(pose);  // the other robots
   } else if (other.distance > agreement) {
     add_part(pose.uncertain_reason, text(other));
   }

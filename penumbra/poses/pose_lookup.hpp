@@ -42,16 +42,15 @@ class PoseLookup {
   PoseLookup(const Robot& robot, PoseOptions options);
 
   /// TF is looked up from link to parent link; a fixed joint whose frame TF never named has the
-  /// URDF's pose, and so has the mount of a robot (Robot::join) if TF never named "world". Joints
-  /// and transforms that are missing, stale or disputed are a fault if they move a link with
-  /// geometry or the camera's parent. Otherwise the links that they move are uncertain. Of several
-  /// robots (Robot::join) one that does not carry the camera is uncertain as a whole, and no fault.
+  /// URDF's pose. The mount of a robot (Robot::join) follows TF, whatever the source, unless TF
+  /// never named "world". Links that a missing or stale joint or transform moves are uncertain. A
+  /// robot is uncertain as a whole if none of its joints that move geometry is known, or if one is
+  /// disputed. It is a fault if the only robot is, or the link that carries the camera.
   /// Allocates nothing for a pose that is ok, once `pose` has been used.
   void at(const PoseHistory& history, std::int64_t stamp, RobotPose& pose);
 
-  /// Of the last lookup: the newest state, nanoseconds, of the robots that are uncertain because
-  /// none of their states has reached the stamp yet; 0 if they have no state; null if there is no
-  /// such robot.
+  /// Of the last lookup: the newest state, nanoseconds, of what is uncertain because no state has
+  /// reached the stamp yet; 0 if it has no state; null if there is nothing such.
   [[nodiscard]] std::optional<std::int64_t> late_since() const { return late_since_; }
 
  private:
@@ -59,18 +58,29 @@ class PoseLookup {
   void judge_unknown_joints(const JointBuffer& joints, std::int64_t stamp, RobotPose& pose);
   void find_links(const TransformBuffer& transforms, std::int64_t stamp, RobotPose& pose);
   void find_camera(const TransformBuffer& transforms, std::int64_t stamp, RobotPose& pose);
-  void note_uncertain_robot(std::optional<std::int64_t> newest, std::int64_t stamp);
+  void find_mounts(const TransformBuffer& transforms, std::int64_t stamp, RobotPose& pose);
+  bool find_joint(const TransformBuffer& transforms, std::int64_t stamp, const Joint& joint,
+                  RobotPose& pose);
+  void forget_lost();
+  void settle_lost(RobotPose& pose);
+  void note_late(std::optional<std::int64_t> newest, std::int64_t stamp);
   void compare(RobotPose& pose);
-  bool mark_robot_uncertain(std::size_t link, RobotPose& pose) const;
+  [[nodiscard]] std::size_t root_of(std::size_t link) const;
   bool find_transform(const TransformBuffer& transforms, std::int64_t stamp,
                       std::string_view target, std::string_view source, RobotPose& pose);
+
+  /// Joints that TF lacks.
+  struct Lost {
+    std::vector<bool> is_lost;  ///< of each link: the joint above it
+    FrameStatus status = FrameStatus::ok;
+    std::string message = {};  ///< of the first needed one, else of the first
+    bool is_needed = false;
+  };
 
   const Robot& robot_;
   PoseOptions options_;
   std::vector<std::string> frames_;  // of each link, in TF
   std::size_t camera_parent_;
-  std::vector<std::size_t> variable_links_;       // of each variable: a link that it moves
-  std::vector<std::vector<std::size_t>> movers_;  // of each link: the variables that move it
   std::vector<bool> is_needed_;        // of each link: has geometry, or carries the camera
   std::vector<bool> leads_to_needed_;  // of each link: needed, or an ancestor of a needed link
   std::vector<bool> moves_needed_;     // of each variable
@@ -81,6 +91,8 @@ class PoseLookup {
   std::vector<Eigen::Isometry3d> T_root_found_;  // by transforms
   std::optional<std::int64_t> late_since_;
   std::vector<Eigen::Isometry3d> T_root_link_;  // by the joint states
+  bool follows_from_joints_ = true;             // T_root_link_ from the positions alone
+  Lost lost_;
 };
 
 }  // namespace penumbra

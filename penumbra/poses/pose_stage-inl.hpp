@@ -103,6 +103,7 @@ class PoseStage {
   FrameStatus check_links(std::span<const Eigen::Isometry3d> T_root_link);
   FrameStatus place_links(const RobotPose& pose);
   FrameStatus place_uncertain();
+  void take_out_uncertain();
   void add_reach(std::size_t link, Ball ball);
   FrameStatus place_bodies(std::span<const AttachedBody> bodies);
   FrameStatus place_body(const AttachedBody& body);

@@ -79,6 +79,7 @@ const PoseResult& PoseStage::place(const RobotPose& pose, std::optional<std::int
   result_.reaches.clear();
   if (has_pose(status)) status = worse(status, place_uncertain());
   if (has_pose(status)) status = worse(status, place_bodies(pose.attached));
+  if (has_pose(status)) take_out_uncertain();
   return result_;
 }
 
@@ -177,7 +178,7 @@ FrameStatus PoseStage::place_links(const RobotPose& pose) {
   return FrameStatus::ok;
 }
 
-/// Takes links of unknown pose out of the picture. What they could reach is unknown.
+/// Finds what links of unknown pose could reach.
 FrameStatus PoseStage::place_uncertain() {
   if (result_.is_uncertain(parent_))
     return fault(FrameStatus::missing_transform,
@@ -187,11 +188,6 @@ FrameStatus PoseStage::place_uncertain() {
     const bool is_first = link == 0 || !result_.is_uncertain(robot_.joints()[link - 1].parent);
     if (is_first && reach_[link].radius >= 0.0) add_reach(link, reach_[link]);
   }
-  for (const std::size_t link : result_.uncertain_links) {
-    if (!robot_.report()[link].drawn) continue;
-    result_.T_root_link[link].matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
-    result_.T_camera_link[link] = Eigen::Translation3d(0.0, 0.0, -max_distance);  // not in view
-  }
   if (result_.reaches.empty()) return FrameStatus::ok;
   std::string names;
   for (const Reach& reach : result_.reaches)
@@ -199,6 +195,15 @@ FrameStatus PoseStage::place_uncertain() {
   return fault(
       FrameStatus::missing_link,
       names + " is not drawn, and what it could hide is unknown: " + result_.uncertain_reason);
+}
+
+/// Takes links of unknown pose out of the picture.
+void PoseStage::take_out_uncertain() {
+  for (const std::size_t link : result_.uncertain_links) {
+    if (!robot_.report()[link].drawn) continue;
+    result_.T_root_link[link].matrix().setConstant(std::numeric_limits<double>::quiet_NaN());
+    result_.T_camera_link[link] = Eigen::Translation3d(0.0, 0.0, -max_distance);  // not in view
+  }
 }
 
 /// Adds where a ball of a link can be to the reach of the first link of unknown pose above it.
@@ -210,6 +215,8 @@ void PoseStage::add_reach(std::size_t link, Ball ball) {
   }
   if (link == 0)
     ball.radius = std::numeric_limits<double>::infinity();
+  else if (robot_.joints()[link - 1].type == JointType::fixed)  // its pose may be TF's
+    ball = transformed(result_.T_camera_link[link], ball);
   else
     ball = transformed(result_.T_camera_link[parent()], swept(robot_.joints()[link - 1], ball));
   for (Reach& reach : result_.reaches)

@@ -9,6 +9,12 @@
 namespace penumbra {
 namespace {
 
+/// Returns the number of a joint's variables, which are consecutive.
+std::size_t variables_of(JointType type) {
+  if (type == JointType::planar) return 3;
+  return type == JointType::floating ? 7 : 1;
+}
+
 /// The first dispute, and which other joints are disputed.
 std::string describe_disputes(const Robot& robot, std::span<const JointDispute> disputes) {
   if (disputes.empty()) return "two programs publish different joint positions";
@@ -59,9 +65,69 @@ std::vector<Body> bodies_of(const Robot& robot) {
 }
 
 RobotPose pose_of(const Robot& robot, const JointAnswer& joints) {
-  const FrameStatus status = status_of(joints.status);
-  if (status != FrameStatus::ok) return {.status = status, .message = describe(robot, joints)};
-  return {.positions = joints.positions, .age = joints.age};
+  RobotPose pose{.positions = joints.positions, .age = joints.age};
+  if (joints.status == JointStatus::ok) return pose;
+  std::vector<std::size_t> unknown;
+  for (const JointGap& gap : joints.gaps) unknown.push_back(gap.variable);
+  if (!joints.disputes.empty() || unknown.empty() || !leave_out(unknown, robot, 0, pose))
+    return {.status = status_of(joints.status), .message = describe(robot, joints)};
+  pose.uncertain_reason = describe(robot, joints);
+  return pose;
+}
+
+std::vector<bool> lost_joints(const Robot& robot, std::span<const std::size_t> unknown,
+                              std::span<const std::size_t> disputed) {
+  std::vector<bool> is_lost(robot.links().size());
+  for (const Joint& joint : robot.joints()) {
+    if (!joint.variable) continue;
+    const auto moves = [&](std::size_t variable) {
+      return *joint.variable <= variable && variable < *joint.variable + variables_of(joint.type);
+    };
+    const bool is_disputed = std::ranges::any_of(disputed, moves);
+    if (is_disputed || std::ranges::any_of(unknown, moves)) is_lost[joint.child] = true;
+    const RobotPart* const part = robot.part_of(joint.child);
+    if (is_disputed) is_lost[part == nullptr ? 0 : part->first_link] = true;
+  }
+  return is_lost;
+}
+
+bool add_uncertain_links(const Robot& robot, const std::vector<bool>& is_lost,
+                         std::size_t camera_parent, std::vector<std::size_t>& uncertain) {
+  const std::size_t count = robot.links().size();
+  const auto parent = [&](std::size_t link) { return robot.joints()[link - 1].parent; };
+  std::vector<bool> leads(count), is_uncertain = is_lost;  // leads: to geometry or the camera
+  for (std::size_t link = count; link-- > 0;) {
+    if (robot.report()[link].drawn || link == camera_parent) leads[link] = true;
+    if (link > 0 && leads[link]) leads[parent(link)] = true;
+  }
+  const RobotPart whole{{}, 0, count, 0, robot.variables().size()};
+  const auto parts = robot.parts().empty() ? std::span(&whole, 1) : robot.parts();
+  for (const RobotPart& part : parts) {
+    std::size_t known = 0, lost = 0;
+    for (std::size_t link = std::max<std::size_t>(1, part.first_link); link < part.end_link; ++link)
+      if (leads[link] && robot.joints()[link - 1].type != JointType::fixed)
+        ++(is_lost[link] ? lost : known);
+    if (lost > 0 && known == 0) is_uncertain[part.first_link] = true;
+  }
+  for (std::size_t link = 1; link < count; ++link)  // parents come before children
+    if (is_uncertain[parent(link)]) is_uncertain[link] = true;
+  if (is_uncertain[0] || is_uncertain[camera_parent]) return false;
+  for (std::size_t link = 0; link < count; ++link)
+    if (is_uncertain[link] && std::ranges::find(uncertain, link) == uncertain.end())
+      uncertain.push_back(link);
+  return true;
+}
+
+bool leave_out(std::span<const std::size_t> unknown, const Robot& robot, std::size_t camera_parent,
+               RobotPose& pose) {
+  if (!add_uncertain_links(robot, lost_joints(robot, unknown), camera_parent, pose.uncertain_links))
+    return false;
+  const std::vector<double> rest = robot.rest_positions();
+  for (const std::size_t variable : unknown) pose.positions[variable] = rest[variable];
+  pose.T_root_link.resize(robot.links().size());
+  robot.forward_kinematics(pose.positions, pose.T_root_link);
+  pose.positions.clear();
+  return true;
 }
 
 FrameStatus status_of(JointStatus joints) {

@@ -23,8 +23,8 @@ enum class FrameStatus {
   missing_link,       ///< rendered without a link whose mesh could not be read or whose pose is
                       ///< not known, or without an attached body
   bad_depth,          ///< an unusable depth image, or one without any measurement within the
-                      ///< sensor's range: every robot pixel is unknown
-  missing_depth,      ///< no depth image: every robot pixel is unknown
+                      ///< sensor's range: every pixel is unknown
+  missing_depth,      ///< no depth image: every pixel is unknown
   poses_disagree,     ///< joint states and TF differ, or two publishers of one joint or transform:
                       ///< the robot's pose is unknown
   stale_transform,    ///< a transform has no state near the stamp: the robot's pose is unknown
@@ -54,11 +54,11 @@ inline constexpr std::size_t max_attached = 128;
 struct RobotPose {
   FrameStatus status = FrameStatus::ok;  ///< another one: the pose is unknown
   std::string message = {};              ///< one line that says why; empty if the status is ok
-  /// Order of Robot::variables(), rad and m. Another number of them is `missing_joints`.
+  /// Order of Robot::variables(), rad and m. Another number of them is `missing_joints`. Unused if
+  /// there are poses of links.
   std::vector<double> positions = {};
   std::optional<std::int64_t> age = {};  ///< nanoseconds from the stamp to the farthest state used
-  /// Poses of all links from another source than joints (TF); the root's is the identity. Empty:
-  /// poses follow from `positions`.
+  /// Poses of all links, if they do not follow from `positions` alone; the root's is the identity.
   std::vector<Eigen::Isometry3d> T_root_link = {};
   /// The camera's pose in its parent link; null: the configuration's.
   std::optional<Eigen::Isometry3d> T_parent_camera = {};
@@ -76,10 +76,30 @@ struct RobotPose {
 /// Returns the status of a frame with joints of that status.
 [[nodiscard]] FrameStatus status_of(JointStatus joints);
 
+/// Returns, of each link, whether the joint above it cannot be placed because of unknown variables.
+/// One of a disputed variable takes the whole robot along.
+[[nodiscard]] std::vector<bool> lost_joints(const Robot& robot,
+                                            std::span<const std::size_t> unknown,
+                                            std::span<const std::size_t> disputed = {});
+
+/// Adds the links below lost joints. Of several robots one whose moving joints are all lost is
+/// added as a whole; the only robot has no pose then. Returns false without a change if the frame
+/// has no pose: in that case, and if the link `camera_parent` is below a lost joint. Joints that
+/// move neither geometry nor the camera do not count.
+[[nodiscard]] bool add_uncertain_links(const Robot& robot, const std::vector<bool>& is_lost,
+                                       std::size_t camera_parent,
+                                       std::vector<std::size_t>& uncertain);
+
+/// Makes links uncertain that unknown variables move, as add_uncertain_links; all get the poses
+/// that follow from `positions`, which are then empty. Returns false if there is no pose.
+[[nodiscard]] bool leave_out(std::span<const std::size_t> unknown, const Robot& robot,
+                             std::size_t camera_parent, RobotPose& pose);
+
 /// Returns one line about missing, stale or disputed joints.
 [[nodiscard]] std::string describe(const Robot& robot, const JointAnswer& joints);
 
-/// Returns a pose by joint states; why it is unknown if they are missing, stale or disputed.
+/// Returns a pose by joint states. Links below missing or stale joints are uncertain; it is
+/// unknown, with the reason, if all joints are, or one is disputed.
 [[nodiscard]] RobotPose pose_of(const Robot& robot, const JointAnswer& joints);
 
 /// Returns the links' names and meshes, which refer to the robot, for make_depth_renderer.

@@ -14,6 +14,7 @@
 
 #include <penumbra/cloud/cloud_pipeline.hpp>
 #include <penumbra/mesh/primitives.hpp>
+#include <penumbra/poses/pose_lookup.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -202,6 +203,25 @@ std::vector<Label> labels_of(const CloudReport& report) {
   std::vector<Label> labels;
   for (const std::uint8_t label : report.labels) labels.push_back(static_cast<Label>(label));
   return labels;
+}
+
+/// The block's joint has no states at all: the rest of the cloud is not lost.
+TEST(CloudPipeline, AJointWithoutStatesTakesWhatItMovesAlone) {
+  const Cloud cloud = few_points();
+  CloudPipeline pipeline(bar_robot(), config());
+  const Robot& robot = pipeline.robot();
+  PoseHistory history(robot);
+  const std::string turn[] = {"turn"};
+  const double level[] = {0.0};
+  for (const std::int64_t stamp : {scan_begin - millisecond, scan_begin + millisecond})
+    history.add_joints(stamp, turn, level);
+  PoseLookup lookup(robot, {});
+  const CloudReport& report = pipeline.process(
+      cloud.scan(), [&](std::int64_t stamp, RobotPose& pose) { lookup.at(history, stamp, pose); });
+  using enum Label;
+  EXPECT_EQ(report.status, FrameStatus::missing_link);
+  EXPECT_TRUE(holds(report.message, "'slide'")) << report.message;
+  EXPECT_EQ(labels_of(report), (std::vector{occluded, unknown, unknown, clear}));
 }
 
 TEST(CloudPipeline, WhereALinkCouldBeIsUnknown) {

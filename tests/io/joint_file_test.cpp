@@ -56,11 +56,24 @@ TEST_F(JointFile, RefusesFilesItCannotBeSureOf) {
                        [&](const std::string& text) { read(text); });
 }
 
+TEST_F(JointFile, ABadCellLeavesTheOtherJointsOfItsRowKnown) {
+  const auto rows = read("frame,shoulder,elbow\n0,0.5,\n1,x,0.25\n2,1,2,3\n");
+  ASSERT_EQ(rows.size(), 3U);
+  for (const auto& [row, unknown] :
+       {std::pair(std::size_t{0}, "elbow"), {std::size_t{1}, "shoulder"}}) {
+    EXPECT_EQ(rows[row].unknown, std::vector{variable(unknown)});
+    EXPECT_NE(rows[row].fault.find(unknown), std::string::npos) << rows[row].fault;
+  }
+  EXPECT_EQ(rows[0].positions[variable("shoulder")], 0.5);
+  EXPECT_TRUE(rows[2].unknown.empty() && rows[2].positions.empty()) << "too many cells";
+}
+
 TEST_F(JointFile, SurvivesDamage) {
   test::read_damaged("frame,stamp,shoulder,elbow\n0,10,0.5,-1e-3\n1,20,1,2\n", 5000,
                      [&](const std::string& text) {
                        for (const JointRow& row : read(text)) {
-                         EXPECT_EQ(row.positions.size(), row.fault.empty() ? 2U : 0U);
+                         const bool is_usable = row.fault.empty() || !row.unknown.empty();
+                         EXPECT_EQ(row.positions.size(), is_usable ? 2U : 0U);
                          for (const double p : row.positions) EXPECT_TRUE(std::isfinite(p));
                        }
                      });

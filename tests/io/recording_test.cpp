@@ -266,8 +266,10 @@ TEST_F(RecordingFolder, ReadsSeveralRobots) {
   const FrameReader frames(recording, robot);
   Frame data = frames.read(0, false);
   EXPECT_EQ(data.pose.status, FrameStatus::ok);
-  EXPECT_EQ(data.pose.positions, (std::vector{0.1, 0.2, 0.0, 0.4}));
-  EXPECT_EQ(data.pose.uncertain_links, (std::vector<std::size_t>{6, 7, 8, 9, 10})) << "b's";
+  EXPECT_TRUE(data.pose.positions.empty()) << "not all are known";
+  EXPECT_EQ(data.pose.T_root_link.size(), robot.links().size());
+  EXPECT_EQ(data.pose.uncertain_links, (std::vector<std::size_t>{7, 8, 9, 10}))
+      << "what b's shoulder moves";
   EXPECT_HAS(data.pose.uncertain_reason, "b/shoulder");
   data = frames.read(1, false);
   EXPECT_TRUE(data.pose.uncertain_links.empty());

@@ -164,6 +164,60 @@ TEST_F(PoseLookupTest, JointsThatMoveNothingDrawnMayBeDisputed) {
   EXPECT_EQ(answer_.status, FrameStatus::poses_disagree);
 }
 
+/// Three boxes one after another, each on a joint of its own.
+Robot three_boxes() {
+  std::string urdf = "<robot name=\"r\"><link name=\"l0\"/>";
+  for (const std::string i : {"1", "2", "3"})
+    urdf += "<link name=\"l" + i +
+            "\"><collision><geometry><box size=\"1 1 1\"/></geometry>"
+            "</collision></link><joint name=\"j" +
+            i + "\" type=\"continuous\"><parent link=\"l" + std::to_string(i[0] - '1') +
+            "\"/><child link=\"l" + i + "\"/></joint>";
+  return Robot::parse(urdf + "</robot>", ".");
+}
+
+/// States and transforms of all joints but one.
+struct WithoutOne {
+  explicit WithoutOne(const Robot& robot, std::size_t lacking) : history(robot) {
+    const double position[] = {0.2};
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (i == lacking) continue;
+      history.add_joints(10 * ms, robot.variables().subspan(i, 1), position);
+      history.add_transform(10 * ms, robot.links()[i], robot.links()[i + 1],
+                            Eigen::Isometry3d::Identity());
+    }
+  }
+  PoseHistory history;
+};
+
+TEST_F(PoseLookupTest, OnlyWhatAnUnknownJointMovesIsUncertain) {
+  const Robot robot = three_boxes();
+  using Links = std::vector<std::size_t>;
+  const std::vector<Links> below{{1, 2, 3}, {2, 3}, {3}};
+  for (std::size_t lacking = 0; lacking < 3; ++lacking)
+    for (const PoseSource source : {PoseSource::joints, PoseSource::transforms}) {
+      const WithoutOne known(robot, lacking);
+      PoseLookup lookup(robot, {.source = source});
+      lookup.at(known.history, 10 * ms, answer_);
+      EXPECT_EQ(answer_.status, FrameStatus::ok) << answer_.message;
+      EXPECT_EQ(answer_.uncertain_links, below[lacking]);
+      const std::string name =
+          (source == PoseSource::joints ? "'j" : "'l") + std::to_string(lacking + 1) + "'";
+      EXPECT_NE(answer_.uncertain_reason.find(name), std::string::npos) << answer_.uncertain_reason;
+      EXPECT_TRUE(answer_.positions.empty()) << "not all are known";
+      EXPECT_EQ(answer_.T_root_link.size(), 4U);
+      PoseLookup on_last(robot, {.source = source, .camera_parent = "l3"});
+      on_last.at(known.history, 10 * ms, answer_);
+      EXPECT_FALSE(has_pose(answer_.status)) << "it carries the camera";
+    }
+  const double position[] = {0.2};
+  PoseHistory none(robot);
+  none.add_joints(10 * ms, robot.variables().first(1), position);
+  PoseLookup lookup(robot, {});
+  lookup.at(none, 500 * ms, answer_);
+  expect(FrameStatus::missing_joints, "'j2'");
+}
+
 TEST_F(PoseLookupTest, OfTheCameraInTF) {
   const PoseOptions options{.camera_parent = "slab", .camera_frame = "optical"};
   add_joint(10 * ms, 0.0);
