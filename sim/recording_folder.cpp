@@ -6,6 +6,8 @@
 
 #include <penumbra/base/error.hpp>
 
+#include <io/files/disk_file.hpp>
+#include <io/files/pending_file.hpp>
 #include <io/files/png.hpp>
 #include <sim/numbers.hpp>
 #include <sim/recording_folder.hpp>
@@ -83,7 +85,7 @@ RecordingFolder::RecordingFolder(const fs::path& folder, const Simulation& simul
   write_scene(scene, options);
 }
 
-void RecordingFolder::write_robot() const {
+void RecordingFolder::write_robot() {
   const fs::path description = simulation_.urdf().parent_path();
   const std::string name = description.filename().string();
   std::error_code error;
@@ -102,13 +104,12 @@ void RecordingFolder::write_robot() const {
               numbers({at.x(), at.y(), at.z(), turn.x(), turn.y(), turn.z(), turn.w()}, ", ") +
               "]\n" + robot("    ");
   }
-  write_whole(folder_ / "recording.yaml",
-              "# Simulated by penumbra simulate. Paths are relative to this file.\n" + robots +
-                  "camera:\n  info: camera_info.yaml\n  parent: " +
-                  quoted(simulation_.robot().links().front()) +
-                  "\n  pose: camera_pose.csv\n"
-                  "frames:\n  joints: joint_states.csv\n  depth: depth/%06d.png\n"
-                  "  color: color/%06d.png\n");
+  description_ = "# Simulated by penumbra simulate. Paths are relative to this file.\n" + robots +
+                 "camera:\n  info: camera_info.yaml\n  parent: " +
+                 quoted(simulation_.robot().links().front()) +
+                 "\n  pose: camera_pose.csv\n"
+                 "frames:\n  joints: joint_states.csv\n  depth: depth/%06d.png\n"
+                 "  color: color/%06d.png\n";
 }
 
 void RecordingFolder::write_camera(const std::string& prefix, const Camera& camera,
@@ -166,6 +167,9 @@ void RecordingFolder::finish() {
                               {&true_joints_, "true_joint_states.csv"},
                               {&truth_, "truth.csv"}})
     if (!stream->flush()) refuse_file(folder_ / name, "no space");
+  io::PendingFile file(folder_ / "recording.yaml");  // without it, it is no recording
+  io::write_file(file.part(), description_.data(), description_.size());
+  file.finish();
 }
 
 }  // namespace penumbra::sim

@@ -30,7 +30,7 @@ class RecordingFolder final : public RecordingSink {
   [[nodiscard]] std::string where() const override { return folder_.string(); }
 
  private:
-  void write_robot() const;
+  void write_robot();
   void write_camera(const std::string& prefix, const Camera& camera,
                     const Eigen::Isometry3d& T_base_camera) const;
   void write_scene(const std::string& scene, const SimulationOptions& options) const;
@@ -39,6 +39,7 @@ class RecordingFolder final : public RecordingSink {
   std::filesystem::path folder_;
   const Simulation& simulation_;
   bool second_camera_;
+  std::string description_;  // recording.yaml, written last
   std::ofstream joints_, true_joints_, truth_;
   Image<std::uint16_t> ids_;
 };

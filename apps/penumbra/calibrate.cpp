@@ -122,7 +122,7 @@ int execute(const CalibrateArguments& arguments) {
   }();
   std::vector<std::filesystem::path> used = input.input.made_files;
   if (arguments.initial) used.push_back(*arguments.initial);
-  if (folder) folder->remove_former(used);
+  if (folder) folder->begin(used);
   print_notes(input.notes);
   const Robot& robot = input.input.robot;
   CalibrationOptions options{.camera_parent = input.input.config.camera_parent,

@@ -40,8 +40,8 @@ std::vector<std::string> row_of(const std::string& target, const std::string& ca
 }
 
 void print_motion(const io::LookAheadResult& result, std::size_t motion) {
-  std::cout << result.motions[motion].name << ": "
-            << fixed(result.motions[motion].trajectory.duration(), 2) << " s\n";
+  print_line(result.motions[motion].name + ": " +
+             fixed(result.motions[motion].trajectory.duration(), 2) + " s");
   std::vector<std::vector<std::string>> rows{{"target", "camera", "at first", "hidden in",
                                               "hidden for", "most hidden", "by", "seen again in"}};
   for (const TargetForecast& target : result.forecasts[motion]) {
@@ -76,7 +76,7 @@ int execute(const LookAheadArguments& arguments) {
                                            .report = {"look_ahead.json", io::json_begin},
                                            .others = {{"report.html", io::page_begin}}});
   io::LookAheadInput input = io::read_look_ahead_input(arguments.input, print_line);
-  if (folder) folder->remove_former();
+  if (folder) folder->begin();
   LookAheadConfig config;
   config.threads = arguments.threads.value_or(
       std::max(1, static_cast<int>(std::thread::hardware_concurrency())));

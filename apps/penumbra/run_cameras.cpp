@@ -128,7 +128,7 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
   }
   for_all(tasks, static_cast<std::size_t>(workers),
           [](CameraTask& task, const auto& /*has_fault*/) { open(task); });
-  folder.remove_former();
+  folder.begin();
   catch_interrupts();
   for_all(tasks, static_cast<std::size_t>(workers), [](CameraTask& task, const auto& has_fault) {
     judge(task, [&] {

@@ -132,7 +132,7 @@ int execute(const TuneArguments& arguments) {
           "; tolerances and parts measured before that is mended would hide it (--force "
           "measures them)");
   }
-  folder.remove_former(session.made_files());
+  folder.begin(session.made_files());
   const Tuning tuning = tune(kept.frames, pipeline.intrinsics(), pipeline.robot(), pipeline.rule());
   std::vector<io::WrittenExtra> extras;
   for (const ExtraPart& part : tuning.extras) {

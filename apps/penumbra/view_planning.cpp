@@ -76,7 +76,7 @@ int execute(const ViewPlanningArguments& arguments) {
   } catch (const InputError& fault) {
     throw InputError("--cameras, " + arguments.input.candidates.string() + ": " + fault.what());
   }
-  if (folder) folder->remove_former();
+  if (folder) folder->begin();
   const int threads = arguments.threads.value_or(
       std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
   const std::size_t renders = input.candidates.size() * input.motion.size();

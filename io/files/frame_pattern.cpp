@@ -49,6 +49,25 @@ std::filesystem::path FramePattern::file(std::int64_t index) const {
   return folder_ / (is_video_ ? before_ : before_ + written(index) + after_);
 }
 
+/// Returns the text before the number in the part of the path that has it.
+std::string_view FramePattern::name_before() const {
+  return std::string_view(before_).substr(before_.rfind('/') + 1);  // all of it without a slash
+}
+
+FramePattern FramePattern::moved_to(const std::filesystem::path& folder) const {
+  if (after_.find('/') != std::string::npos)
+    throw InputError(file(0).string() +
+                     ": the number is in the name of a folder; expected it in the file's name");
+  FramePattern moved = *this;
+  moved.folder_ = folder;
+  moved.before_ = name_before();
+  return moved;
+}
+
+bool FramePattern::makes(std::string_view name) const {
+  return index(name, name_before(), after_).has_value();
+}
+
 std::optional<std::int64_t> FramePattern::index(std::string_view name, std::string_view before,
                                                 std::string_view after) const {
   if (name.size() < before.size() + after.size()) return std::nullopt;
@@ -62,10 +81,9 @@ std::optional<std::int64_t> FramePattern::index(std::string_view name, std::stri
 
 std::vector<std::int64_t> FramePattern::existing() const {
   // The number may be in a folder's name: only that part of the path varies.
-  const std::size_t start = before_.rfind('/') + 1;  // 0: no slash
-  const std::string_view before = std::string_view(before_).substr(start);
+  const std::string_view before = name_before();
   const std::string_view after = std::string_view(after_).substr(0, after_.find('/'));
-  std::filesystem::path parent = folder_ / before_.substr(0, start);
+  std::filesystem::path parent = folder_ / before_.substr(0, before_.size() - before.size());
   if (parent.empty()) parent = ".";
   std::vector<std::int64_t> indices;
   std::error_code error;

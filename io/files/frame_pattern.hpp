@@ -24,6 +24,13 @@ class FramePattern {
   /// Returns the file of frame `index` >= 0, or the video.
   [[nodiscard]] std::filesystem::path file(std::int64_t index) const;
 
+  /// Returns the pattern of the same file names in another folder. Throws InputError if the number
+  /// is in the name of a folder.
+  [[nodiscard]] FramePattern moved_to(const std::filesystem::path& folder) const;
+
+  /// Returns whether file() makes a file of this name, which is given without its folder.
+  [[nodiscard]] bool makes(std::string_view name) const;
+
   /// Returns the numbers of frames whose file exists, ascending. Throws InputError if the folder
   /// exists and cannot be listed.
   [[nodiscard]] std::vector<std::int64_t> existing() const;
@@ -34,6 +41,8 @@ class FramePattern {
   /// Returns the number in a name that file() would make.
   [[nodiscard]] std::optional<std::int64_t> index(std::string_view name, std::string_view before,
                                                   std::string_view after) const;
+
+  [[nodiscard]] std::string_view name_before() const;
 
   std::filesystem::path folder_;
   std::string before_, after_;

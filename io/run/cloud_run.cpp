@@ -30,6 +30,8 @@
 namespace penumbra::io {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::size_t most_waiting = 32;         // clouds of a bag, for their poses
 constexpr const char* clouds_folder = "clouds";  // below the output
 
@@ -101,6 +103,8 @@ class RecordedRun {
                                                    .has_distortion = false,
                                                    .beyond_hides = true});
   }
+  [[nodiscard]] bool is_wanted(const JointRow& row) const;
+  [[nodiscard]] ResultFolderOptions results() const;
   void label(const JointRow& row, CloudSummary& summary);
   void label_all(const std::function<bool()>& go_on, CloudRunResult& result);
   [[nodiscard]] RobotPose pose_at(std::int64_t stamp, const JointRow& row);
@@ -113,7 +117,8 @@ class RecordedRun {
   PoseLookup lookup_;
   std::optional<TargetsFile> targets_;
   CloudPipeline pipeline_;
-  std::optional<SensorTuner> tuner_;  // if the rule is measured
+  std::optional<SensorTuner> tuner_;    // if the rule is measured
+  std::optional<ResultFolder> folder_;  // if it writes
   Json clouds_ = Json::array();
 };
 
@@ -129,7 +134,7 @@ RobotPose RecordedRun::pose_at(std::int64_t stamp, const JointRow& row) {
 }
 
 void RecordedRun::label(const JointRow& row, CloudSummary& summary) {
-  const std::filesystem::path file = recording_.clouds.file(row.index);
+  const fs::path file = recording_.clouds.file(row.index);
   StoredCloud stored;
   CloudPoints points;
   std::string fault;
@@ -162,10 +167,10 @@ void RecordedRun::label(const JointRow& row, CloudSummary& summary) {
   const auto index = static_cast<std::uint64_t>(row.index);
   clouds_.push_back(cloud_frame_json(report, index, fault));
   if (options_.on_cloud) options_.on_cloud(0, index, points.points, report, fault);
-  if (!fault.empty() || options_.output.empty()) return;
+  if (!fault.empty() || !folder_) return;
   std::vector<std::byte> data;
   const PointCloud2Message out = cloud_output(stored.cloud, report, options_.how, data);
-  write_cloud(options_.output / clouds_folder / file.filename(), out);
+  write_cloud(folder_->frame_file(0, row.index), out);
 }
 
 void RecordedRun::label_all(const std::function<bool()>& go_on, CloudRunResult& result) {
@@ -173,14 +178,38 @@ void RecordedRun::label_all(const std::function<bool()>& go_on, CloudRunResult& 
   summary.name = recording_.clouds.file(0).parent_path().filename().string();
   if (options_.on_begin) options_.on_begin(robot_, {&summary.name, 1});
   for (const JointRow& row : rows_) {
-    const std::int64_t first = options_.input.frames.first.value_or(0);
-    if (row.index < first || (options_.input.frames.end && row.index >= *options_.input.frames.end))
-      continue;
+    if (!is_wanted(row)) continue;
     label(row, summary);
     result.is_stopped = !go_on();
     if (result.is_stopped) break;
   }
-  if (summary.clouds == 0) throw InputError("--frames: the recording has none of these clouds");
+}
+
+bool RecordedRun::is_wanted(const JointRow& row) const {
+  const auto& [first, end] = options_.input.frames;
+  return row.index >= first.value_or(0) && (!end || row.index < *end);
+}
+
+/// Throws InputError if the folder holds the input, or clouds that the report would not be of.
+ResultFolderOptions RecordedRun::results() const {
+  const fs::path clouds = options_.output / clouds_folder;
+  std::error_code error;
+  if (fs::equivalent(clouds, recording_.clouds.file(0).parent_path(), error))
+    throw InputError("--output: " + clouds.string() + " holds the input; choose another folder");
+  ResultFolderOptions results{
+      .path = options_.output,
+      .report = {"report.json", json_begin},
+      .frames = {{recording_.clouds.moved_to(clouds)}},
+      .force = options_.force,
+      .advice = "choose another folder with -o, or write into this one with --force"};
+  if (options_.force || !fs::is_directory(clouds, error)) return results;
+  for (const auto& entry : fs::directory_iterator(clouds, error)) {
+    const fs::path name = entry.path().filename();
+    if (is_cloud_file(name) && !results.frames[0].pattern.makes(name.string()))
+      throw InputError(entry.path().string() +
+                       ": is no cloud of this recording; move it away, or " + results.advice);
+  }
+  return results;
 }
 
 CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
@@ -188,6 +217,8 @@ CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
   if (!is_cloud_file("x" + ending))
     throw InputError(recording_.file.string() + ": frames.cloud: '" + ending +
                      "' is no file of points; expected .pcd, .ply, .npy or .bin");
+  if (std::none_of(rows_.begin(), rows_.end(), [&](const auto& row) { return is_wanted(row); }))
+    throw InputError("--frames: the recording has none of these clouds");
   CloudRunResult result;
   if (options_.tune) {
     tuner_.emplace(SensorTuner{CloudTuner(changed_rule(recording_.rule, options_))});
@@ -195,28 +226,18 @@ CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
     result.tunings.push_back(tuner_->tuner.result());
     return result;
   }
-  if (options_.output.empty()) {
-    label_all(go_on, result);
-    return result;
+  if (!options_.output.empty()) {
+    folder_.emplace(results());
+    folder_->begin();
   }
-  const std::filesystem::path clouds = options_.output / clouds_folder;
-  std::error_code error;
-  if (std::filesystem::equivalent(clouds, recording_.clouds.file(0).parent_path(), error))
-    throw InputError("--output: " + clouds.string() + " holds the input; choose another folder");
-  ResultFolder folder(
-      {.path = options_.output, .report = {"report.json", json_begin}, .force = options_.force});
-  if (folder.has_former() && std::filesystem::is_directory(clouds, error))
-    for (const auto& former : std::filesystem::directory_iterator(clouds))
-      if (is_cloud_file(former.path())) std::filesystem::remove(former.path(), error);
-  folder.remove_former();
-  std::filesystem::create_directories(clouds, error);
-  if (error) throw InputError(clouds.string() + ": cannot be made (" + error.message() + ")");
   label_all(go_on, result);
+  if (!folder_) return result;
   Json report{{"penumbra", PENUMBRA_VERSION}, {"clouds", std::move(clouds_)}, {"links", Json()}};
   report["links"] = robot_.links();
   report["notes"] = result.sensors[0].notes();
-  folder.add_text("report.json", report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  folder.finish();
+  folder_->add_text("report.json",
+                    report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  folder_->finish();
   return result;
 }
 

@@ -18,6 +18,7 @@
 #include <io/files/image_file.hpp>
 #include <io/files/joint_file.hpp>
 #include <io/files/names.hpp>
+#include <io/files/pending_file.hpp>
 #include <io/files/pose_file.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/video_file.hpp>
@@ -370,7 +371,11 @@ InitResult init_recording(const InitOptions& options) {
       !targets.empty())
     draft.line("targets: " + yaml_text(targets.front().string()));
   const std::string text = draft.text();
-  write_file(result.file, text.data(), text.size());
+  std::error_code error;
+  if (fs::is_symlink(result.file, error)) fs::remove(result.file, error);  // not what it leads to
+  PendingFile pending(result.file);
+  write_file(pending.part(), text.data(), text.size());
+  pending.finish();
   result.lacking = std::move(draft.lacking);
   return result;
 }

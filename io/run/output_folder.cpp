@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <string_view>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -12,7 +10,6 @@
 #include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/cloud/cloud_file.hpp>
-#include <io/files/disk_file.hpp>
 #include <io/files/json-inl.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/overlay_painter.hpp>
@@ -25,23 +22,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+enum class Kind { vdi, labels, links, robot_mask, overlay, filtered, pcd, ply };
+
 struct ImageKind {
-  const char *folder, *ending;
+  const char* pattern;
   bool Saves::*wanted;
 };
-constexpr std::array<ImageKind, 8> image_kinds{{{"vdi", ".npy", &Saves::vdi},
-                                                {"labels", ".png", &Saves::labels},
-                                                {"links", ".png", &Saves::links},
-                                                {"robot_mask", ".png", &Saves::robot_mask},
-                                                {"overlay", ".png", &Saves::overlay},
-                                                {"filtered", ".png", &Saves::filtered},
-                                                {"points", ".pcd", &Saves::points},
-                                                {"points", ".ply", &Saves::points}}};
-
-[[noreturn]] void refuse(const fs::path& path, const std::string& why) {
-  throw InputError(path.string() + ": cannot be used as output folder (" + why +
-                   "); choose another with -o");
-}
+constexpr std::array<ImageKind, 8> image_kinds{{{"vdi/%06d.npy", &Saves::vdi},
+                                                {"labels/%06d.png", &Saves::labels},
+                                                {"links/%06d.png", &Saves::links},
+                                                {"robot_mask/%06d.png", &Saves::robot_mask},
+                                                {"overlay/%06d.png", &Saves::overlay},
+                                                {"filtered/%06d.png", &Saves::filtered},
+                                                {"points/%06d.pcd", &Saves::points},
+                                                {"points/%06d.ply", &Saves::points}}};  // by Kind
 
 constexpr std::size_t most_writers = 16;  // each has images in memory
 
@@ -89,74 +83,31 @@ StoredCloud stored_cloud(const PointCloud& points, ImageView<const Rgb8> color) 
   return stored;
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) refuse(folder, "it is a file");
-  fs::create_directories(folder, error);
-  if (error) refuse(folder, error.message());
-}
-
-/// Returns whether this is a file name of a run: a frame's number.
-bool is_frame_number(const std::string& stem) {
-  return stem.size() >= frame_digits &&
-         std::all_of(stem.begin(), stem.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-/// Returns the images of an earlier run in one of the folders that it writes.
-std::vector<fs::path> images_in(const fs::path& folder, std::string_view ending) {
-  std::error_code error;
-  if (!fs::is_directory(folder, error)) return {};
-  if (fs::is_symlink(folder, error))
-    refuse(folder, "it is a link, and nothing behind a link is removed");
-  std::vector<fs::path> images;
-  std::error_code ignored;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
-    if (is_frame_number(entry->path().stem().string()) && entry->path().extension() == ending &&
-        fs::is_regular_file(entry->path(), ignored))
-      images.push_back(entry->path());
-  if (error) refuse(folder, error.message());
-  return images;
-}
-
-void remove_former(const fs::path& file) {
-  std::error_code error;
-  if (fs::remove(file, error); error)
-    throw InputError(file.string() + ": of an earlier run, cannot be removed (" + error.message() +
-                     "); choose another folder with -o");
+/// Returns the file of a frame for writing.
+fs::path file(ResultFolder& folder, Kind kind, std::size_t index) {
+  return folder.frame_file(static_cast<std::size_t>(kind), static_cast<std::int64_t>(index));
 }
 
 }  // namespace
 
 ResultFolderOptions run_results(const OutputOptions& options) {
-  return {.path = options.path,
-          .report = {"report.json", std::string(report_json_start)},
-          .others = {{"report.html", page_begin, options.report_page},
-                     {"links.json", "{\n", options.saves.links}},
-          .force = options.force,
-          .advice = "choose another folder with -o, or write into this one with --force"};
+  ResultFolderOptions results{
+      .path = options.path,
+      .report = {"report.json", std::string(report_json_start)},
+      .others = {{"report.html", page_begin, options.report_page},
+                 {"links.json", "{\n", options.saves.links}},
+      .force = options.force,
+      .advice = "choose another folder with -o, or write into this one with --force"};
+  for (const ImageKind& kind : image_kinds)
+    results.frames.push_back(
+        {FramePattern(kind.pattern, options.path), options.saves.*kind.wanted});
+  return results;
 }
 
 OutputFolder::OutputFolder(const OutputOptions& options, ResultFolder& folder,
                            const Rectification* rectification)
-    : options_(options), folder_(folder), painter_(rectification) {
-  writers_.emplace(writers_of(options_));
-  if (folder.has_former())
-    for (const ImageKind& kind : image_kinds)
-      for (const fs::path& image : images_in(folder.path() / kind.folder, kind.ending))
-        remove_former(image);
-  folder.remove_former();
-  for (const ImageKind& kind : image_kinds)
-    if (options_.saves.*kind.wanted) make_folder(options_.path / kind.folder);
-}
-
-OutputFolder::~OutputFolder() {
-  if (finished_) return;
-  writers_.reset();
-  std::error_code ignored;
-  for (const std::size_t index : saved_)
-    for (const ImageKind& kind : image_kinds)
-      if (options_.saves.*kind.wanted) fs::remove(file(kind.folder, index, kind.ending), ignored);
+    : options_(options), folder_(folder), painter_(rectification), writers_(writers_of(options_)) {
+  folder.begin();
 }
 
 void OutputFolder::begin(const ReportHead& head) {
@@ -172,11 +123,10 @@ void OutputFolder::begin(const ReportHead& head) {
 }
 
 void OutputFolder::finish(const Statistics& statistics, std::span<const std::string> notes) {
-  writers_->finish();
+  writers_.finish();
   report_->finish(statistics, notes);
   const std::string fault = options_.report_page ? add_page() : std::string();
   folder_.finish();
-  finished_ = true;
   if (!fault.empty()) throw InputError(fault);
 }
 
@@ -196,27 +146,26 @@ std::string OutputFolder::add_page() {
 void OutputFolder::save(const FrameReport& report, const Frame& frame,
                         const ShownTargets& targets) {
   report_->add(report);
-  saved_.push_back(report.index);
   const VirtualDepthView& virtual_depth = report.virtual_depth;
   const std::size_t index = report.index;
   const auto plain_png = [](const auto& to, const auto& image) { write_png(to, image); };
   const auto plain_npy = [](const auto& to, const auto& image) { write_npy(to, image); };
   if (options_.saves.vdi && !virtual_depth.depth.empty())
-    write_later(file("vdi", index, ".npy"), virtual_depth.depth, plain_npy);
+    write_later(file(folder_, Kind::vdi, index), virtual_depth.depth, plain_npy);
   if (options_.saves.links && !virtual_depth.links.empty())
-    write_later(file("links", index, ".png"), virtual_depth.links, plain_png);
+    write_later(file(folder_, Kind::links, index), virtual_depth.links, plain_png);
   if (options_.saves.robot_mask && !virtual_depth.links.empty())
-    writers_->add([to = file("robot_mask", index, ".png"), mask = robot_mask(virtual_depth)] {
+    writers_.add([to = file(folder_, Kind::robot_mask, index), mask = robot_mask(virtual_depth)] {
       write_png(to, mask.view());
     });
   if (options_.saves.labels)
-    write_later(file("labels", index, ".png"), report.labels,
+    write_later(file(folder_, Kind::labels, index), report.labels,
                 [](const auto& to, const auto& image) { write_png(to, image, label_palette()); });
   if (options_.saves.filtered || options_.saves.points)
     save_without_robot(report, frame, targets.camera);
   if (!options_.saves.overlay && !options_.report_page) return;
   const auto overlay = painter_.draw(report, {frame.depth.view, frame.color.view}, targets);
-  if (options_.saves.overlay) write_later(file("overlay", index, ".png"), overlay, plain_png);
+  if (options_.saves.overlay) write_later(file(folder_, Kind::overlay, index), overlay, plain_png);
   if (options_.report_page) key_frames_.add(report, overlay);
 }
 
@@ -224,9 +173,8 @@ void OutputFolder::save_without_robot(const FrameReport& report, const Frame& fr
                                       const Camera& camera) {
   without_robot(report, filtered_);
   if (options_.saves.filtered)
-    writers_->add([to = file("filtered", report.index, ".png"), image = millimetres_of(filtered_)] {
-      write_png(to, image.view());
-    });
+    writers_.add([to = file(folder_, Kind::filtered, report.index),
+                  image = millimetres_of(filtered_)] { write_png(to, image.view()); });
   if (!options_.saves.points) return;
   Eigen::Isometry3d T_frame_camera = Eigen::Isometry3d::Identity();
   if (!options_.points_frame.empty()) {
@@ -237,9 +185,9 @@ void OutputFolder::save_without_robot(const FrameReport& report, const Frame& fr
   if (!cloud_maker_) cloud_maker_.emplace(camera);
   PointCloud cloud;
   cloud_maker_->make(filtered_, cloud, T_frame_camera);
-  writers_->add([pcd = file("points", report.index, ".pcd"),
-                 ply = file("points", report.index, ".ply"), cloud = std::move(cloud),
-                 color = copy_of(painter_.seen_color(frame.color.view))] {
+  writers_.add([pcd = file(folder_, Kind::pcd, report.index),
+                ply = file(folder_, Kind::ply, report.index), cloud = std::move(cloud),
+                color = copy_of(painter_.seen_color(frame.color.view))] {
     const StoredCloud stored = stored_cloud(cloud, color.view());
     write_cloud(pcd, stored.cloud);
     write_cloud(ply, stored.cloud);
@@ -248,14 +196,8 @@ void OutputFolder::save_without_robot(const FrameReport& report, const Frame& fr
 
 template <typename T, typename Write>
 void OutputFolder::write_later(fs::path file, ImageView<const T> image, Write write) {
-  writers_->add(
+  writers_.add(
       [file = std::move(file), copy = copy_of(image), write] { write(file, copy.view()); });
-}
-
-fs::path OutputFolder::file(const char* kind, std::size_t index, const char* ending) const {
-  std::string digits = std::to_string(index);
-  digits.insert(0, frame_digits - std::min(digits.size(), frame_digits), '0');
-  return options_.path / kind / (digits + ending);
 }
 
 }  // namespace penumbra::io

@@ -36,26 +36,18 @@ struct OutputOptions {
   int threads = 0;           ///< for writing images; 0: one per core
 };
 
-/// Digits of a frame's index in file names, at least.
-inline constexpr std::size_t frame_digits = 6;
-
-/// Returns what a run's folder holds besides images.
+/// Returns what a run's folder holds.
 [[nodiscard]] ResultFolderOptions run_results(const OutputOptions& options);
 
 /// The results of `run` in its folder. Images are named by the frame's index: vdi/000000.npy,
 /// labels/000000.png.
 class OutputFolder final : public RunOutput {
  public:
-  /// Makes the folders of the images, and removes an earlier run's report, page and images.
-  /// `rectification` converts recorded images to the geometry of the report's; null if they have it
-  /// already. It must outlive this. Throws InputError if the folder cannot be used.
+  /// Begins `folder`, which is of run_results(`options`). `rectification` converts recorded images
+  /// to the geometry of the report's; null if they have it already. Both must outlive this. Throws
+  /// InputError if the folder cannot be used.
   OutputFolder(const OutputOptions& options, ResultFolder& folder,
                const Rectification* rectification);
-
-  /// Removes this run's images, unless it was finished.
-  ~OutputFolder() override;
-  OutputFolder(const OutputFolder&) = delete;
-  OutputFolder& operator=(const OutputFolder&) = delete;
 
   void begin(const ReportHead& head) override;
 
@@ -69,8 +61,6 @@ class OutputFolder final : public RunOutput {
   template <typename T, typename Write>
   void write_later(std::filesystem::path file, ImageView<const T> image, Write write);
   void save_without_robot(const FrameReport& report, const Frame& frame, const Camera& camera);
-  [[nodiscard]] std::filesystem::path file(const char* kind, std::size_t index,
-                                           const char* ending) const;
 
   OutputOptions options_;
   ResultFolder& folder_;
@@ -78,11 +68,9 @@ class OutputFolder final : public RunOutput {
   std::optional<CloudMaker> cloud_maker_;  // made with the first points
   OverlayPainter painter_;
   KeyFrames key_frames_;
-  std::vector<std::size_t> saved_;  // frames whose images may be written
-  bool finished_ = false;
   std::filesystem::path report_file_;  // unfinished
   std::optional<ReportWriter> report_;
-  std::optional<BackgroundJobs> writers_;
+  BackgroundJobs writers_;  // the first to end
 };
 
 }  // namespace penumbra::io

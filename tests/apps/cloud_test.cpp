@@ -230,6 +230,31 @@ TEST_F(CloudFolder, LosesTheRobot) {
   EXPECT_EQ(io::read_cloud(out() / "clouds/1.pcd").cloud.fields.back().name, "link");
 }
 
+TEST_F(CloudFolder, CloudsOfOthersStay) {
+  ASSERT_EQ(cloud().status, 0);
+  for (const char* const name : {"notes.txt", "scan_0.pcd"})
+    write_file(out() / "clouds" / name, "the user's own");
+  expect_refused(cloud(), {"clouds/scan_0.pcd", "--force"});
+  EXPECT_TRUE(fs::exists(out() / "clouds/0.pcd"));
+  EXPECT_EQ(cloud({"--force"}).status, 0);
+  for (const char* const name : {"notes.txt", "scan_0.pcd"})
+    EXPECT_EQ(read_file(out() / "clouds" / name), "the user's own");
+  fs::remove(out() / "clouds/scan_0.pcd");
+  EXPECT_EQ(cloud().status, 0);
+  expect_refused(cloud({"--frames", "7:9"}), {"--frames"});
+  EXPECT_TRUE(fs::exists(out() / "report.json")) << "until the input is known";
+}
+
+TEST_F(CloudFolder, EachCloudHasAFileOfItsOwn) {
+  for (int i = 0; i < 3; ++i) {
+    const fs::path folder = path("scan_" + std::to_string(i));
+    fs::create_directory(folder);
+    fs::rename(path("scans/" + std::to_string(i) + ".pcd"), folder / "points.pcd");
+  }
+  edit_file(path("clouds.yaml"), "scans/%d.pcd", "scan_%d/points.pcd");
+  expect_refused(cloud(), {"points.pcd", "the file's name"});
+}
+
 TEST_F(CloudFolder, BadFilesAreSaid) {
   write_file(path("scans/0.pcd"), "");
   fs::remove(path("scans/1.pcd"));

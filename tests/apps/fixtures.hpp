@@ -21,7 +21,6 @@ namespace penumbra::test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using Words = std::vector<std::string>;
 
 /// Of an object, in their order.
 inline Words keys(const Json& json) {

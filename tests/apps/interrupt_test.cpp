@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fixtures.hpp"
 
-#include <chrono>
-#include <csignal>
-#include <cstdio>
 #include <sstream>
-#include <thread>
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace penumbra::test {
 namespace {
@@ -29,32 +22,14 @@ void write_long_recording(const std::filesystem::path& folder) {
   edit_file(folder / "recording.yaml", "  color: color_%d.png\n", "");
 }
 
-/// Runs the program and sends it Ctrl-C once `file` is there. Returns wait's status.
-int interrupt_after(const std::filesystem::path& file, const std::filesystem::path& folder,
-                    const std::filesystem::path& out, const std::filesystem::path& err) {
-  const pid_t child = fork();
-  if (child == 0) {
-    if (freopen(err.c_str(), "w", stderr) == nullptr) _exit(127);
-    if (freopen("/dev/null", "w", stdout) == nullptr) _exit(127);
-    execl(PENUMBRA_PROGRAM, PENUMBRA_PROGRAM, "run", folder.c_str(), "-o", out.c_str(), "--save",
-          "labels", nullptr);
-    _exit(127);
-  }
-  int status = 0;
-  while (!std::filesystem::exists(file) && waitpid(child, &status, WNOHANG) == 0)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  kill(child, SIGINT);
-  waitpid(child, &status, 0);
-  return status;
-}
-
 TEST(Interrupt, LeavesTheReportOfTheFramesThatAreDone) {
   const TemporaryFolder folder;
   write_long_recording(folder.path());
-  const std::filesystem::path out = folder.path() / "out", err = folder.path() / "err";
-  const int status = interrupt_after(out / "labels" / "000000.png", folder.path(), out, err);
-  ASSERT_TRUE(WIFEXITED(status));
-  ASSERT_EQ(WEXITSTATUS(status), 130);
+  const std::filesystem::path out = folder.path() / "out";
+  const Outcome outcome = penumbra_interrupted(
+      {"run", folder.path(), "-o", out, "--save", "labels"},
+      [&](const auto&) { return std::filesystem::exists(out / "labels" / "000000.png"); });
+  ASSERT_EQ(outcome.status, 130);
   const Json report = Json::parse(read_file(out / "report.json"));
   const std::size_t done = report["frames"].size();
   EXPECT_GT(done, 0U);
@@ -62,7 +37,7 @@ TEST(Interrupt, LeavesTheReportOfTheFramesThatAreDone) {
   EXPECT_EQ(report["summary"]["frames"], done);
   const std::string note = report["summary"]["notes"].back();
   EXPECT_NE(note.find("stopped after " + std::to_string(done)), std::string::npos) << note;
-  EXPECT_NE(read_file(err).find(note), std::string::npos);
+  EXPECT_NE(outcome.err.find(note), std::string::npos);
   std::size_t images = 0;
   for (const auto& entry : std::filesystem::directory_iterator(out / "labels"))
     images += entry.path().extension() == ".png" ? 1 : 100'000;  // nothing unfinished

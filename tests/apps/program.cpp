@@ -2,12 +2,18 @@
 #include "program.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace penumbra::test {
 namespace {
@@ -18,10 +24,30 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+int status_of(int wait_status) {
+  return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
+}
+
+/// Calls `prepare` in the new process.
+template <typename Prepare>
+pid_t start(const Words& arguments, const std::filesystem::path& out,
+            const std::filesystem::path& err, const Prepare& prepare) {
+  std::vector<char*> words = {const_cast<char*>(PENUMBRA_PROGRAM)};
+  for (const std::string& argument : arguments)
+    words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+  const pid_t child = fork();
+  if (child != 0) return child;
+  dup2(open(out.c_str(), O_WRONLY), STDOUT_FILENO);
+  dup2(open(err.c_str(), O_WRONLY), STDERR_FILENO);
+  prepare();
+  execv(PENUMBRA_PROGRAM, words.data());
+  _exit(127);
+}
+
 }  // namespace
 
-Outcome penumbra(const std::vector<std::string>& arguments,
-                 const std::vector<std::string>& environment) {
+Outcome penumbra(const Words& arguments, const Words& environment) {
   const TemporaryFolder folder;
   std::string command = "env";
   for (const std::string& variable : environment) command += " " + quoted(variable);
@@ -32,6 +58,34 @@ Outcome penumbra(const std::vector<std::string>& arguments,
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder.path() / "out"),
           read_file(folder.path() / "err")};
+}
+
+int penumbra_within(std::size_t bytes, TooLarge what, const Words& arguments) {
+  const pid_t child = start(arguments, "/dev/null", "/dev/null", [&] {
+    const rlimit none{0, 0}, most{bytes, bytes};
+    setrlimit(RLIMIT_CORE, &none);
+    setrlimit(RLIMIT_FSIZE, &most);
+    signal(SIGXFSZ, what == TooLarge::fails ? SIG_IGN : SIG_DFL);
+  });
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status_of(status);
+}
+
+Outcome penumbra_interrupted(const Words& arguments,
+                             const std::function<bool(const Outcome&)>& when) {
+  const TemporaryFolder folder;
+  const auto outcome = [&](int status) -> Outcome {
+    return {status_of(status), read_file(folder.path() / "out"), read_file(folder.path() / "err")};
+  };
+  for (const char* const name : {"out", "err"}) write_file(folder.path() / name, "");
+  const pid_t child = start(arguments, folder.path() / "out", folder.path() / "err", [] {});
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0 && !when(outcome(0)))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(child, SIGINT);
+  waitpid(child, &status, 0);
+  return outcome(status);
 }
 
 std::string read_file(const std::filesystem::path& file) {

@@ -3,11 +3,15 @@
 
 #include "../support/temporary_folder.hpp"
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace penumbra::test {
+
+using Words = std::vector<std::string>;
 
 /// What a program did. A program that is killed or does not end in time has another status than
 /// any of its own.
@@ -19,12 +23,22 @@ struct Outcome {
 
 /// Runs the command line `penumbra` with these arguments, at most 60 s, with NAME=VALUE added to
 /// its environment.
-[[nodiscard]] Outcome penumbra(const std::vector<std::string>& arguments,
-                               const std::vector<std::string>& environment = {});
+[[nodiscard]] Outcome penumbra(const Words& arguments, const Words& environment = {});
+
+/// What happens to a program that makes a file too large: the same as on a full disk, or the same
+/// as kill -9 does.
+enum class TooLarge { fails, kills };
+
+/// Runs it silently. `bytes`: of each file at most. Returns the status, or 128 + the signal's
+/// number.
+[[nodiscard]] int penumbra_within(std::size_t bytes, TooLarge what, const Words& arguments);
+
+/// Runs it and sends it Ctrl-C `when` it has printed enough, or as soon as anything else is so.
+[[nodiscard]] Outcome penumbra_interrupted(const Words& arguments,
+                                           const std::function<bool(const Outcome&)>& when);
 
 /// An environment in which EGL finds no driver.
-inline const std::vector<std::string> no_egl_driver = {
-    "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"};
+inline const Words no_egl_driver = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"};
 
 [[nodiscard]] std::string read_file(const std::filesystem::path& file);
 void write_file(const std::filesystem::path& file, const std::string& content);

@@ -36,6 +36,15 @@ TEST(FramePattern, RefusesEverythingElse) {
     EXPECT_THROW(FramePattern(pattern, "/r"), InputError) << pattern;
 }
 
+TEST(FramePattern, MovesItsNamesToAnotherFolder) {
+  const FramePattern moved = FramePattern("scans/a_%03d.pcd", "/r").moved_to("/out");
+  EXPECT_EQ(moved.file(7), "/out/a_007.pcd");
+  for (const char* name : {"a_007.pcd", "a_1000.pcd"}) EXPECT_TRUE(moved.makes(name)) << name;
+  for (const char* name : {"a_7.pcd", "a_.pcd", "a_007.ply", "b_007.pcd", "scans/a_007.pcd"})
+    EXPECT_FALSE(moved.makes(name)) << name;
+  EXPECT_THROW(static_cast<void>(FramePattern("%d/cloud.pcd", "/r").moved_to("/out")), InputError);
+}
+
 TEST(FramePattern, FindsTheFilesThatExist) {
   using Indices = std::vector<std::int64_t>;
   const test::TemporaryFolder folder;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -27,14 +28,16 @@ class ResultFolderTest : public testing::Test {
   [[nodiscard]] ResultFolderOptions options() const {
     return {.path = out(),
             .report = {"found.json", json_begin},
-            .others = {{"pose.csv"}, {"part_*.stl"}, {"report.html", page_begin}}};
+            .others = {{"pose.csv"}, {"part_*.stl"}, {"report.html", page_begin}},
+            .frames = {{FramePattern("images/%06d.png", out())}}};
   }
   /// As a command that succeeds.
   void write_results() const {
     ResultFolder results(options());
-    results.remove_former();
+    results.begin();
     results.add_text("part_a.stl", "a");
     results.add_text("pose.csv", "pose");
+    write(results.frame_file(0, 7), "image");
     results.add_text("found.json", report_text);
     EXPECT_FALSE(fs::exists(out("pose.csv"))) << "results appear at the end";
     results.finish();
@@ -49,9 +52,14 @@ TEST_F(ResultFolderTest, ReplacesFormerResults) {
   write_results();
   EXPECT_EQ(test::read_bytes(out("pose.csv")), "pose");
   EXPECT_EQ(test::read_bytes(out("found.json")), report_text);
-  write(out("notes.txt"), "mine");
+  const std::vector<const char*> others = {"notes.txt", "images/notes.txt", "images/7.png",
+                                           "images/000008.jpg"};
+  for (const char* const name : others) write(out(name), "mine");
+  write(out("images/000008.png"), "of a former result");
   write_results();
-  EXPECT_EQ(test::read_bytes(out("notes.txt")), "mine");
+  for (const char* const name : others) EXPECT_EQ(test::read_bytes(out(name)), "mine") << name;
+  EXPECT_EQ(test::read_bytes(out("images/000007.png")), "image");
+  EXPECT_FALSE(fs::exists(out("images/000008.png")));
 }
 
 TEST_F(ResultFolderTest, AFailureLeavesNoResult) {
@@ -59,10 +67,22 @@ TEST_F(ResultFolderTest, AFailureLeavesNoResult) {
   {
     ResultFolder results(options());
     EXPECT_TRUE(fs::exists(out("pose.csv"))) << "until the inputs are read";
-    results.remove_former();
+    results.begin();
     results.add_text("pose.csv", "pose");
+    write(results.frame_file(0, 7), "image");
   }
+  EXPECT_TRUE(fs::is_empty(out("images")));
+  fs::remove(out("images"));
   EXPECT_TRUE(fs::is_empty(out()));
+}
+
+TEST_F(ResultFolderTest, AFailureNextToOtherFilesDoesNotBlockTheNext) {
+  write_results();
+  write(out("notes.txt"), "mine");
+  { ResultFolder(options()).begin(); }
+  EXPECT_FALSE(fs::exists(out("found.json")));
+  write_results();
+  EXPECT_EQ(test::read_bytes(out("notes.txt")), "mine");
 }
 
 TEST_F(ResultFolderTest, AnEmptyFolderOfItsOwnGoes) {
@@ -95,7 +115,7 @@ TEST_F(ResultFolderTest, ForcedItTakesAnyFolder) {
   ResultFolderOptions forced = options();
   forced.force = true;
   ResultFolder results(forced);
-  results.remove_former();
+  results.begin();
   results.add_text("found.json", report_text);
   results.finish();
   EXPECT_EQ(test::read_bytes(out("notes.txt")), "mine");
@@ -110,11 +130,34 @@ TEST_F(ResultFolderTest, NothingIsWrittenThroughALink) {
   ResultFolderOptions forced = options();
   forced.force = true;
   ResultFolder results(forced);
-  results.remove_former();
+  results.begin();
   results.add_text("pose.csv", "pose");
   results.finish();
   EXPECT_EQ(test::read_bytes(precious), "mine");
   EXPECT_EQ(test::read_bytes(out("pose.csv")), "pose");
+}
+
+TEST_F(ResultFolderTest, FramesAreNotWrittenThroughALink) {
+  ResultFolderOptions forced = options();
+  forced.force = true;
+  const fs::path precious = folder_.write("precious", "mine");
+  fs::create_directories(out("images"));
+  fs::create_symlink(precious, out("images/000007.png"));
+  write(out("images/000008.png"), "mine");
+  {
+    ResultFolder results(forced);
+    results.begin();
+    EXPECT_TRUE(fs::exists(out("images/000007.png"))) << "no report says that it is a result";
+    write(results.frame_file(0, 7), "image");
+    results.add_text("found.json", report_text);
+    results.finish();
+  }
+  EXPECT_EQ(test::read_bytes(precious), "mine");
+  EXPECT_EQ(test::read_bytes(out("images/000007.png")), "image");
+  EXPECT_EQ(test::read_bytes(out("images/000008.png")), "mine");
+  fs::remove_all(out("images"));
+  fs::create_directory_symlink(folder_.path(), out("images"));
+  expect_refused([&] { ResultFolder results(forced); }, {"images", "link"});
 }
 
 TEST_F(ResultFolderTest, APipeIsRefused) {
@@ -128,7 +171,7 @@ TEST_F(ResultFolderTest, AnInputStaysUntilItIsMadeAgain) {
   write_results();
   ResultFolder results(options());
   const fs::path inputs[] = {folder_.path() / "nowhere", out() / "." / "pose.csv"};
-  results.remove_former(inputs);
+  results.begin(inputs);
   EXPECT_FALSE(fs::exists(out("part_a.stl")));
   EXPECT_EQ(test::read_bytes(out("pose.csv")), "pose");
   results.add_text("pose.csv", "another");
@@ -145,7 +188,10 @@ TEST_F(ResultFolderTest, TakesOverFromAKilledCommand) {
   fs::create_directory(out());
   write(PendingFile::part_of(out("found.json")), "{");
   write(PendingFile::part_of(out("part_a.stl")), "cut");
+  fs::create_directory(out("images"));
+  write(out("images/000008.png"), "cut");
   write_results();
+  EXPECT_FALSE(fs::exists(out("images/000008.png")));
   EXPECT_FALSE(fs::exists(PendingFile::part_of(out("found.json"))));
 }
 

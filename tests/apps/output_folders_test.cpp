@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+// The output folder of every command: a link in each of its places, a kill and a full disk at each
+// of its files.
+#include "fixtures.hpp"
+#include "tiny_clouds.hpp"
+
+#include <csignal>
+#include <map>
+#include <ostream>
+#include <regex>
+#include <set>
+
+#include <io/cloud/cloud_file.hpp>
+#include <io/files/pending_file.hpp>
+
+namespace penumbra::test {
+namespace {
+
+struct Command {
+  std::string name;
+  Words line;  // "@" is the folder of the inputs
+  std::string output = "out";
+  bool has_force = false;
+};
+void PrintTo(const Command& command, std::ostream* out) { *out << command.name; }
+
+/// Files by their names in a folder; a file alone has no name.
+using Files = std::map<std::string, std::string>;
+
+/// Returns what the clock has no part in.
+std::string without_times(const fs::path& file) {
+  static const std::regex times("\"(timing_ms|seconds)\": ?(\\{[^}]*\\}|[0-9.e-]+)");
+  if (file.extension() == ".html") return "a page";
+  const std::string text = read_file(file);
+  return file.extension() == ".json" ? std::regex_replace(text, times, "") : text;
+}
+
+Files files_of(const fs::path& place) {
+  if (fs::is_regular_file(place)) return {{"", without_times(place)}};
+  Files files;
+  if (fs::exists(place))
+    for (const auto& entry : fs::recursive_directory_iterator(place)) {
+      const std::string name =
+          fs::relative(entry.path().parent_path(), place) / entry.path().filename();
+      if (entry.is_symlink())
+        files[name] = "a link";
+      else if (entry.is_regular_file())
+        files[name] = without_times(entry.path());
+    }
+  return files;
+}
+
+class Outputs : public TinyTest, public testing::WithParamInterface<Command> {
+ protected:
+  Outputs() {
+    write_file(path("joint_states.csv"),
+               "frame,stamp,slide\n0,0,0.0\n1,100000000,0.05\n2,200000000,0.1\n");
+    const std::string camera =
+        "    info: camera_info.yaml\n    parent: base\n    pose: camera_pose.csv\n"
+        "    depth: depth_%d.png\n    color: color_%d.png\n";
+    write_file(path("cameras.yaml"), "robot:\n  urdf: tiny.urdf\ncameras:\n  left:\n" + camera +
+                                         "  right:\n" + camera +
+                                         "frames:\n  joints: joint_states.csv\n");
+    write_file(path("targets.yaml"),
+               "targets:\n- {name: hole, point: [0, 0, 2], radius: 0.05, link: base}\n");
+    write_file(path("poses.csv"), "name,x,y,z,qx,qy,qz,qw\nahead,0,0,0,0,0,0,1\n");
+    write_file(path("plan.csv"), "time,slide\n0,0\n1,1\n");
+    write_clouds();
+    TinyBag bag = tiny_bag(path());
+    add_clouds(bag);
+    bag.write_mcap(path("clouds.mcap"));
+  }
+
+  /// Each cloud is larger than the one before.
+  void write_clouds() const {
+    fs::create_directories(path("scans"));
+    std::string rows = "frame,slide\n";
+    for (int i = 0; i < clouds_; ++i) {
+      FourPoints few(0);
+      const std::vector<std::byte> four = few.data;
+      for (int more = 0; more < 20 * i; ++more)
+        few.data.insert(few.data.end(), four.begin(), four.end());
+      few.message.width = static_cast<std::uint32_t>(few.data.size() / few.message.point_step);
+      few.message.row_step = static_cast<std::uint32_t>(few.data.size());
+      few.message.data = few.data;
+      io::write_cloud(path("scans/" + std::to_string(i) + ".pcd"), few.message);
+      rows += std::to_string(i) + ",0\n";
+    }
+    write_file(path("rows.csv"), rows);
+    write_file(path("clouds.yaml"),
+               "robot: {urdf: tiny.urdf}\nsensor: {parent: base, pose: camera_pose.csv, model: "
+               "lidar_2cm}\nframes: {joints: rows.csv, cloud: scans/%d.pcd}\n");
+  }
+
+  [[nodiscard]] fs::path output() const { return path(GetParam().output); }
+  [[nodiscard]] Words line(const fs::path& output, bool force = false) const {
+    Words words;
+    for (std::string word : GetParam().line) {
+      if (word.starts_with('@')) word.replace(0, 1, path().string() + "/");
+      words.push_back(word);
+    }
+    words.insert(words.end(), {"-o", output});
+    if (force) words.emplace_back("--force");
+    return words;
+  }
+
+  /// Returns the results of a command that nothing disturbs.
+  [[nodiscard]] Files results() const {
+    const Outcome outcome = penumbra(line(path("undisturbed" + output().extension().string())));
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return files_of(path("undisturbed" + output().extension().string()));
+  }
+  void expect_results(const Files& wanted, const std::string& after) const {
+    const Outcome outcome = penumbra(line(output()));
+    EXPECT_EQ(outcome.status, 0) << after << ": " << outcome.err;
+    EXPECT_TRUE(files_of(output()) == wanted) << after;
+  }
+
+  const int clouds_ = 32;
+};
+
+class OutputFolders : public Outputs {
+ protected:
+  /// Returns the folders, and a file of each kind in each folder with its part.
+  [[nodiscard]] static std::set<fs::path> places(const Files& results) {
+    std::set<fs::path> found;
+    std::set<std::string> kinds;
+    for (const auto& [name, content] : results) {
+      const fs::path file = fs::path(name).lexically_normal();
+      for (fs::path folder = file.parent_path(); !folder.empty(); folder = folder.parent_path())
+        found.insert(folder);
+      const bool is_numbered =
+          file.stem().string().find_first_not_of("0123456789") == std::string::npos;
+      const std::string kind = file.parent_path() / (is_numbered ? "*" : file.stem());
+      if (!kinds.insert(kind + file.extension().string()).second) continue;
+      found.insert({file, io::PendingFile::part_of(file)});
+    }
+    return found;
+  }
+};
+
+TEST_P(OutputFolders, NothingBehindALinkIsWrittenOrRemoved) {
+  const Files wanted = results();
+  const fs::path precious = path("precious");
+  for (const fs::path& place : places(wanted))
+    for (const bool has_former : {false, true})
+      for (const bool is_dangling : {false, true}) {
+        const std::string where = place.string() + (has_former ? ", former results" : "") +
+                                  (is_dangling ? ", to nothing" : "");
+        fs::remove_all(output());
+        fs::remove_all(precious);
+        fs::create_directories(precious);
+        if (has_former) expect_results(wanted, where);
+        const bool is_folder = fs::is_directory(path("undisturbed") / place);
+        fs::remove_all(output() / place);
+        fs::create_directories((output() / place).parent_path());
+        if (is_folder && !is_dangling) {
+          fs::copy(path("undisturbed") / place, precious / "it", fs::copy_options::recursive);
+        } else if (!is_dangling) {
+          write_file(precious / "it", "the user's own");
+        }
+        fs::create_symlink(precious / "it", output() / place);
+        const Files before = files_of(precious);
+        const Outcome outcome = penumbra(line(output(), GetParam().has_force && !has_former));
+        EXPECT_TRUE(files_of(precious) == before) << where;
+        if (outcome.status == 0)
+          EXPECT_TRUE(files_of(output()) == wanted) << where;
+        else
+          expect_refused(outcome, {GetParam().output});
+      }
+}
+
+/// The folder that the user names may be a link.
+TEST_P(OutputFolders, TheFolderItselfMayBeALink) {
+  const Files wanted = results();
+  fs::create_directory(path("elsewhere"));
+  fs::create_directory_symlink(path("elsewhere"), output());
+  expect_results(wanted, "into a link");
+  expect_results(wanted, "again");
+  fs::remove_all(path("elsewhere"));
+  fs::create_directory(path("elsewhere"));
+  write_file(path("elsewhere/notes.txt"), "the user's own");
+  expect_refused(penumbra(line(output())), {GetParam().output});
+}
+
+/// Every size of a file is a moment.
+TEST_P(Outputs, AKillOrAFullDiskLeavesNoResultAndTheNextIsRight) {
+  const Files wanted = results();
+  std::set<std::size_t> sizes;
+  for (const auto& [name, content] : wanted)
+    sizes.insert(fs::file_size(path("undisturbed" + output().extension().string()) / name));
+  const fs::path notes = output() / "notes.txt";
+  const bool is_folder = output().extension().empty();
+  for (const std::size_t size : sizes)
+    for (const TooLarge what : {TooLarge::fails, TooLarge::kills})
+      for (const bool has_former : {false, true}) {
+        const std::string when = (what == TooLarge::fails ? "full at " : "killed at ") +
+                                 std::to_string(size) + (has_former ? ", former results" : "");
+        fs::remove_all(output());
+        Files all = wanted;
+        if (has_former) expect_results(wanted, when);
+        if (has_former && is_folder) {
+          write_file(notes, "the user's own");
+          all["notes.txt"] = "the user's own";
+        }
+        const int status = penumbra_within(size - 1, what, line(output()));
+        EXPECT_EQ(status, what == TooLarge::fails ? 2 : 128 + SIGXFSZ) << when;
+        Files left = files_of(output());
+        for (const auto& [name, content] : wanted) {
+          const bool is_report = fs::path(name).extension() == ".json" || !is_folder;
+          if (is_folder && (is_report || what == TooLarge::fails))
+            EXPECT_FALSE(left.contains(name)) << when << ": " << name;
+          if (!is_folder && left.contains(name))
+            EXPECT_TRUE(has_former && left[name] == content) << when;
+        }
+        expect_results(all, when);
+      }
+}
+
+using Init = TinyTest;
+
+TEST_F(Init, LeavesNoHalfRecordingAndFollowsNoLink) {
+  const fs::path file = path("recording.yaml");
+  fs::remove(file);
+  const Words line = {"init", path()};
+  constexpr std::size_t too_few = 100;  // bytes
+  for (const TooLarge what : {TooLarge::fails, TooLarge::kills}) {
+    EXPECT_NE(penumbra_within(too_few, what, line), 0);
+    EXPECT_FALSE(fs::exists(file));
+  }
+  ASSERT_EQ(penumbra(line).status, 0);
+  const std::string wanted = read_file(file);
+  write_file(path("precious"), "the user's own");
+  fs::remove(file);
+  fs::create_symlink("precious", file);
+  expect_refused(penumbra(line), {"recording.yaml", "--force"});
+  ASSERT_EQ(penumbra({"init", path(), "--force"}).status, 0);
+  EXPECT_EQ(read_file(file), wanted);
+  EXPECT_EQ(read_file(path("precious")), "the user's own");
+}
+
+const std::vector<Command> folders = {
+    {"run",
+     {"run", "@", "--report", "--save", "vdi,labels,links,robot_mask,overlay,filtered,points"},
+     "out",
+     true},
+    {"cameras", {"run", "@cameras.yaml", "--report", "--save", "labels"}, "out", true},
+    {"cloud", {"cloud", "@clouds.yaml"}, "out", true},
+    {"view_planning",
+     {"view-planning", "@", "--targets", "@targets.yaml", "--candidates", "@poses.csv"}},
+    {"look_ahead", {"look-ahead", "@", "--targets", "@targets.yaml", "--trajectory", "@plan.csv"}},
+};
+const std::vector<Command> files = {
+    {"bag", {"run", "@"}, "out.mcap"},
+    {"clouds", {"cloud", "@clouds.mcap"}, "out.mcap"},
+    {"render",
+     {"render", "--robot", "@tiny.urdf", "--camera", "@camera_info.yaml", "--pose",
+      "@camera_pose.csv"},
+     "vdi.npy"},
+};
+INSTANTIATE_TEST_SUITE_P(Folders, Outputs, testing::ValuesIn(folders), name_of);
+INSTANTIATE_TEST_SUITE_P(SingleFiles, Outputs, testing::ValuesIn(files), name_of);
+INSTANTIATE_TEST_SUITE_P(All, OutputFolders, testing::ValuesIn(folders), name_of);
+
+}  // namespace
+}  // namespace penumbra::test
