@@ -131,7 +131,8 @@ class CloudPages {
     for (const std::string& sensor : sensors) {
       const auto& page =
           pages_.emplace_back(std::make_unique<Page>(robot, input_ + ", " + sensor, options_));
-      std::cout << sensor << ": " << page->server->url() << std::endl;
+      print_line(sensor + ": " + page->server->url());
+      std::cout.flush();
       if (options_.port > 0) ++options_.port;
     }
   }
@@ -207,9 +208,10 @@ int execute(const CloudArguments& arguments) {
          sensor.clouds == 0 ? "-"
                             : fixed(sensor.milliseconds / static_cast<double>(sensor.clouds), 2)});
     labelled += sensor.labelled();
-    if (!sensor.time_note.empty()) std::cout << sensor.name << ": " << sensor.time_note << '\n';
+    if (!sensor.time_note.empty()) print_line(sensor.name + ": " + sensor.time_note);
     if (sensor.parts > 1)
-      std::cout << sensor.name << ": the robot moved: up to " << sensor.parts << " poses a scan\n";
+      print_line(sensor.name + ": the robot moved: up to " + std::to_string(sensor.parts) +
+                 " poses a scan");
     print_notes(sensor.notes());
   }
   print_table(std::move(rows));

@@ -26,7 +26,6 @@
 #include <io/dds/receive_buffers.hpp>
 #include <io/files/disk_file.hpp>
 #include <io/files/pending_file.hpp>
-#include <io/files/printable.hpp>
 #include <io/live/diagnostic_changes.hpp>
 #include <io/live/live_summary.hpp>
 #include <io/ros/message_encoder.hpp>
@@ -84,7 +83,7 @@ class Diagnostics {
     io::encode(message, payload_);
     static_cast<void>(publication_->write(payload_));
     pages_.publish(message);
-    for (const std::string& line : changes_.update(message)) std::cerr << line << '\n';
+    for (const std::string& line : changes_.update(message)) print_error(line, "");
   }
 
   void tell_waiting(const std::string& why) {
@@ -304,17 +303,16 @@ class Live {
 void print_topics(const io::LiveOptions& options, int domain) {
   std::cout << "live on domain " << domain << ", until Ctrl-C\n";
   for (const std::string& topic : options.description_topics)
-    if (!options.robot.given) std::cout << "robot: " << topic << '\n';
+    if (!options.robot.given) print_line("robot: " + topic);
   for (const std::string& name : options.joint_topics)
-    if (options.poses != PoseSource::transforms) std::cout << "joints: " << name << '\n';
+    if (options.poses != PoseSource::transforms) print_line("joints: " + name);
   for (const io::CameraInputOptions& camera : options.cameras) {
-    std::cout << (camera.name.empty() ? "depth: " : camera.name + ": depth: ")
-              << io::printable(camera.depth_topic) << ", camera_info " << camera.info_topic;
-    if (!camera.color_topic.empty()) std::cout << ", color " << camera.color_topic;
-    std::cout << '\n';
+    std::string line = camera.name.empty() ? "" : camera.name + ": ";
+    line += "depth: " + camera.depth_topic + ", camera_info " + camera.info_topic;
+    if (!camera.color_topic.empty()) line += ", color " + camera.color_topic;
+    print_line(line);
   }
-  for (const io::CloudInputOptions& cloud : options.clouds)
-    std::cout << "cloud: " << io::printable(cloud.topic) << '\n';
+  for (const io::CloudInputOptions& cloud : options.clouds) print_line("cloud: " + cloud.topic);
   std::cout << "poses: from " << to_string(options.poses) << '\n' << std::flush;
 }
 
@@ -368,7 +366,7 @@ int execute(const LiveArguments& arguments) {
   }
   if (live.fault()) std::rethrow_exception(live.fault());
   if (stopped || live.judged() > 0) return 0;
-  std::cerr << "penumbra: nothing was judged\n";
+  print_error("nothing was judged");
   return 2;
 }
 

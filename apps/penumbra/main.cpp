@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -11,16 +10,15 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/commands.hpp>
-#include <io/files/printable.hpp>
+#include <apps/penumbra/text.hpp>
 
 namespace {
 
 constexpr int our_fault = 1;
 constexpr int users_fault = 2;
 
-int fail(int status, std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  std::cerr << "penumbra: " << penumbra::io::without_controls(message) << '\n';
+int fail(int status, const std::string& message) {
+  penumbra::app::print_error(message);
   return status;
 }
 

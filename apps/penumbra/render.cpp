@@ -111,7 +111,7 @@ class RenderedImages {
       : depth_(arguments.output) {
     if (!has_pose(report.status)) throw InputError("--joint or --pose: " + report.message);
     if (report.status == FrameStatus::missing_link)
-      std::cerr << "penumbra: " << to_string(report.status) << ": " << report.message << '\n';
+      print_error(std::string(to_string(report.status)) + ": " + report.message);
     io::write_npy(depth_.part(), report.virtual_depth.depth);
     if (!arguments.links) return;
     links_.emplace(*arguments.links);

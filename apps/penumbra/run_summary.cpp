@@ -17,6 +17,10 @@ std::string more_reasons(const io::Fault& fault) {
   return " (other frames for other reasons, see the report)";
 }
 
+std::string first_in(std::size_t frame) {
+  return ", first in frame " + std::to_string(frame) + ": ";
+}
+
 std::string percent(std::size_t part, std::size_t whole) {
   return whole == 0
              ? "-"
@@ -48,20 +52,20 @@ void print_faults(const io::RunResult& result) {
     return std::to_string(n) + " of " + std::to_string(statistics.frames()) + " frames";
   };
   for (const io::Fault& fault : statistics.faults())
-    std::cerr << "penumbra: " << to_string(fault.status) << " in " << frames(fault.frames)
-              << ", first in frame " << fault.reasons.front().first << ": "
-              << fault.reasons.front().message << more_reasons(fault) << '\n';
+    print_error(std::string(to_string(fault.status)) + " in " + frames(fault.frames) +
+                first_in(fault.reasons.front().first) + fault.reasons.front().message +
+                more_reasons(fault));
   std::size_t unknown = 0;
   for (const io::TargetStatistics& target : judged_targets(statistics))
     if (target.frames(Verdict::unknown) > 0 && ++unknown <= most_targets)
-      std::cerr << "penumbra: target '" << target.name << "' unknown in "
-                << frames(target.frames(Verdict::unknown)) << ", first in frame "
-                << target.first_unknown << ": " << target.reason << '\n';
+      print_error("target '" + target.name + "' unknown in " +
+                  frames(target.frames(Verdict::unknown)) + first_in(target.first_unknown) +
+                  target.reason);
   if (unknown > most_targets)
-    std::cerr << "penumbra: " << unknown - most_targets << " more targets unknown in some frames\n";
+    print_error(std::to_string(unknown - most_targets) + " more targets unknown in some frames");
   if (result.frames_without_color > 0)
-    std::cerr << "penumbra: no colour in the overlay of " << frames(result.frames_without_color)
-              << ", first: " << result.first_without_color << '\n';
+    print_error("no colour in the overlay of " + frames(result.frames_without_color) +
+                ", first: " + result.first_without_color);
 }
 
 void print_summary(const io::Statistics& statistics, const std::string& where) {

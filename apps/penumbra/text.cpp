@@ -45,9 +45,13 @@ void print_table(std::vector<std::vector<std::string>> rows) {
 
 void print_line(const std::string& line) { std::cout << io::without_controls(line) << '\n'; }
 
+void print_error(std::string message, std::string_view from) {
+  std::ranges::replace(message, '\n', ' ');
+  std::cerr << from << io::without_controls(message) << '\n';
+}
+
 void print_notes(std::span<const std::string> notes) {
-  for (const std::string& note : notes)
-    std::cerr << "penumbra: note: " << io::without_controls(note) << '\n';
+  for (const std::string& note : notes) print_error("note: " + note);
 }
 
 }  // namespace penumbra::app

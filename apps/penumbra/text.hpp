@@ -26,6 +26,9 @@ void print_table(std::vector<std::vector<std::string>> rows);
 /// Prints a line on stdout.
 void print_line(const std::string& line);
 
+/// Prints one line on stderr, without control characters: foreign texts come as they are.
+void print_error(std::string message, std::string_view from = "penumbra: ");
+
 /// Prints notes on stderr, a line each.
 void print_notes(std::span<const std::string> notes);
 

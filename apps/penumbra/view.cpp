@@ -192,7 +192,7 @@ void ViewSource::judge() {
 
 void ViewSource::print() {
   if (folder_) {
-    for (const std::string& line : folder_->missing()) std::cerr << "penumbra: " << line << '\n';
+    for (const std::string& line : folder_->missing()) print_error(line);
     return;
   }
   if (error_) std::rethrow_exception(error_);

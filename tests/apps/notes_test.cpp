@@ -37,6 +37,25 @@ class NotesTest : public TinyTest {
   }
 };
 
+TEST_F(NotesTest, TextsOfFilesControlNoTerminal) {
+  const std::string type = "\033[31m\r\302\233K\177";  // C0, C1 and DEL
+  const std::string header =
+      "{'descr': '" + type + "', 'fortran_order': False, 'shape': (48, 64)}\n";
+  std::string npy = std::string("\x93NUMPY\1\0", 8);
+  npy += {static_cast<char>(header.size()), '\0'};
+  for (int i = 0; i < 3; ++i) write_file(path("depth_" + std::to_string(i) + ".npy"), npy + header);
+  edit_file(path("recording.yaml"), "depth_%d.png", "depth_%d.npy");
+  const auto expect_plain = [](const Outcome& outcome) {
+    expect_has(outcome.err, {"depth_0.npy", "[31m"});
+    for (const char c : std::string("\033\r\233\177"))
+      EXPECT_EQ(outcome.err.find(c), std::string::npos) << outcome.err;
+  };
+  expect_plain(run());
+  expect_plain(penumbra_interrupted({"view", path(), "--port", "0"}, [](const Outcome& printed) {
+    return printed.err.find(".npy") != std::string::npos;
+  }));
+}
+
 TEST_F(NotesTest, ARobotThatIsNeverInView) {
   const auto camera_at = [&](const std::string& z) {
     write_file(path("camera_pose.csv"), "1,0,0,0\n0,1,0,0\n0,0,1," + z + "\n0,0,0,1\n");
