@@ -12,6 +12,7 @@ import collections
 import contextlib
 import csv
 import ctypes
+import errno
 import fcntl
 import glob
 import hashlib
@@ -140,6 +141,7 @@ def _alone_in(output: pathlib.Path) -> Iterator[None]:
             descriptor = os.open(output, os.O_DIRECTORY)
             at_end.callback(os.close, descriptor)
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            _check_summary(output)
             _remove_parts(output)
             (output / part_name).mkdir()
         except BlockingIOError:
@@ -221,7 +223,7 @@ def _read_regular(file: pathlib.Path) -> bytes:
     guards = os.O_NOFOLLOW | os.O_NONBLOCK
     with open(file, "rb", opener=lambda path, flags: os.open(path, flags | guards)) as opened:
         if not stat.S_ISREG(os.fstat(opened.fileno()).st_mode):
-            raise OSError
+            raise OSError(errno.EINVAL, f"{file.name} is no regular file")
         return opened.read(most_record_bytes)
 
 
@@ -262,6 +264,16 @@ def _inputs(
     if not found:
         raise InputError("no input is given")
     return [(path, [*options, *own]) for path, own in found.items()]
+
+
+def _check_summary(output: pathlib.Path) -> None:
+    """It is replaced at the end, as a link is, but not the user's own."""
+    summary = output / summary_name
+    start = ",".join(columns[:3]).encode()
+    if summary.is_symlink() or not summary.exists():
+        return
+    if not _read_regular(summary).startswith(start):
+        raise OSError(errno.EEXIST, f"{summary_name} is not of penumbra; choose another folder")
 
 
 def _write_summary(output: pathlib.Path, records: Sequence[dict[str, Any]]) -> None:
@@ -330,7 +342,9 @@ def calibrate(
     records = run_work(_penumbra_calibrate, given, _files_of, output, **where)
     poses = camera_poses.of(record for record in records if record["status"] == "done")
     text = json.dumps(poses, indent=1) + "\n"
-    pathlib.Path(output, "cameras.json").write_text(text, encoding="utf-8")
+    part = pathlib.Path(output, f"cameras.json-{uuid.uuid4().hex}{part_name}")
+    part.write_text(text, encoding="utf-8")
+    part.replace(part.with_name("cameras.json"))
     return records, poses
 
 

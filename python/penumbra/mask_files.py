@@ -338,6 +338,38 @@ WRITERS: dict[str, Any] = {
 }
 
 
+FILES = (
+    "masks.json", "masks.npz", "robot_mask", "links.json", "links.mkv", "links.mp4",
+    "prompts.json", "clouds.npz",
+)  # fmt: skip
+
+
+def _begin(folder: pathlib.Path) -> pathlib.Path:
+    """Removes earlier results; returns the part of the report, which a killed program leaves.
+
+    Nothing is removed that is not of write(), and nothing behind a link.
+    """
+    report = folder / "report.json"
+    part = folder / "report.json.penumbra.part"
+    own = [file for name in FILES if os.path.lexists(file := folder / name)]
+    is_former = os.path.lexists(part)
+    if os.path.lexists(report):
+        own.insert(0, report)  # goes first: it says that the others are whole
+        is_former |= report.read_bytes().startswith(b'{\n "penumbra": ')
+    if own and not is_former:
+        raise InputError(f"{own[0]}: is not of penumbra; choose another folder")
+    masks = folder / "robot_mask"
+    if masks.is_symlink():
+        raise InputError(f"{masks}: is a link, and nothing is written behind one")
+    part.unlink(missing_ok=True)
+    part.touch()
+    images = [image for image in masks.glob("*.png") if image.stem.isdecimal()]
+    for file in [*own, *images]:
+        if file != masks:
+            file.unlink()
+    return part
+
+
 def check(save: Sequence[str]) -> None:
     for name in save:
         if name not in WRITERS:
@@ -352,7 +384,8 @@ def write(
 ) -> dict[str, Any]:
     """Writes an episode's files into a folder, report.json last; returns its contents.
 
-    save: of rle, npz, png, video, h264, prompts, clouds. Raises InputError.
+    save: of rle, npz, png, video, h264, prompts, clouds. Files of an earlier call are replaced.
+    Raises InputError, also if the folder has other files of these names.
     """
     check(save)
     links = dataset.robot.links
@@ -363,6 +396,7 @@ def write(
         )
     out = pathlib.Path(folder)
     out.mkdir(parents=True, exist_ok=True)
+    part = _begin(out)
     pixels = []
     with contextlib.ExitStack() as at_end:
         writers = [WRITERS[name](out, dataset, episode) for name in save]
@@ -380,5 +414,6 @@ def write(
         "frames": len(pixels),
         "robot_pixels": pixels,
     }
-    (out / "report.json").write_text(json.dumps(contents, indent=1), encoding="utf-8")
+    part.write_text(json.dumps(contents, indent=1), encoding="utf-8")
+    part.replace(out / "report.json")
     return contents

@@ -314,6 +314,10 @@ def test_nothing_is_written_through_a_link(tmp_path, scheduler):
     assert [path.name for path in others.iterdir()] == ["file"]
     assert (others / "file").read_text() == "mine"
     assert len(rows_of(out)) == 1
+    (out / "summary.csv").write_text("mine")
+    with pytest.raises(penumbra.InputError, match="summary.csv"):
+        judge(out, scheduler)
+    assert (out / "summary.csv").read_text() == "mine"
 
 
 def test_one_batch_at_a_time_writes_into_a_folder(tmp_path, scheduler):

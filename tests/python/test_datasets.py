@@ -406,6 +406,42 @@ def test_groups_of_one_file_are_episodes_of_a_batch(arm, joints, tmp_path):
     assert records[0]["frames"] == 5 and records[0]["pixels_robot"] > 50_000
 
 
+def test_write_replaces_its_own_files_and_no_others(arm, joints, tmp_path):
+    dataset = datasets.Dataset(arm.robot, arm.camera, arm.config)
+    out, precious = tmp_path / "out", tmp_path / "precious"
+    precious.write_text("mine")
+
+    def write(*save):
+        datasets.write(dataset, dataset.episode("mine", joints[:2]), out, save)
+        return {file.relative_to(out).as_posix() for file in out.rglob("*") if file.is_file()}
+
+    assert write("rle", "png") == {
+        "report.json", "masks.json", "robot_mask/000000.png", "robot_mask/000001.png"}
+    (out / "notes.txt").write_text("mine")
+    (out / "report.json").rename(out / "report.json.penumbra.part")  # as a killed program leaves it
+    (out / "robot_mask" / "000007.png").touch()
+    assert write("npz") == {"report.json", "masks.npz", "notes.txt"}
+    (out / "masks.npz").unlink()
+    (out / "masks.npz").symlink_to(precious)
+    write("npz")
+    assert not (out / "masks.npz").is_symlink()
+    (out / "robot_mask").rmdir()
+    (out / "robot_mask").symlink_to(tmp_path)
+    with pytest.raises(penumbra.InputError, match="robot_mask: is a link"):
+        write("png")
+    (out / "robot_mask").unlink()
+    (out / "report.json").unlink()
+    (out / "report.json").symlink_to(precious)
+    for file in (out / "report.json", out / "masks.npz"):
+        with pytest.raises(penumbra.InputError, match="choose another folder"):
+            write("rle")
+        file.unlink()
+    (out / "masks.json").write_text("mine")
+    with pytest.raises(penumbra.InputError, match="masks.json"):
+        write("rle")
+    assert precious.read_text() == (out / "masks.json").read_text() == "mine"
+
+
 def test_files_without_episodes_or_with_few_images_are_faults(joints, tmp_path):
     file = write_h5(tmp_path / "it.hdf5", {"qpos": recorded(joints), "depth": np.ones((3, HEIGHT, WIDTH), np.uint16)})
     dataset = datasets.Dataset.load(describe(tmp_path, layout="robomimic"))
