@@ -3,6 +3,7 @@
 import importlib.util
 import pathlib
 import sys
+import tempfile
 import types
 from types import SimpleNamespace as Context
 
@@ -57,6 +58,7 @@ def launch_file(path, warnings):
     stand_in("launch", LaunchDescription=lambda entities: entities,
              logging=sys.modules["launch.logging"])
     stand_in("launch.actions", TimerAction=Action, OpaqueFunction=Action, ExecuteProcess=Action,
+             GroupAction=lambda actions, forwarding: actions[0] if not forwarding else None,
              IncludeLaunchDescription=lambda path, launch_arguments: (path, dict(launch_arguments)),
              DeclareLaunchArgument=lambda name, **arguments: Action(name=name, **arguments))
     stand_in("launch.substitutions", LaunchConfiguration=Configuration,
@@ -74,9 +76,9 @@ def launch_file(path, warnings):
 def refuses(function, *arguments):
     try:
         function(*arguments)
-    except RuntimeError:
-        return True
-    return False
+    except RuntimeError as error:
+        return str(error)
+    return ""
 
 
 def main(package):
@@ -95,11 +97,7 @@ def main(package):
     [process_of_defaults] = start.function(context())
     assert process_of_defaults.parameters == [
         {"depth_topic": "/camera/camera/depth/image_rect_raw"}], process_of_defaults.parameters
-    [of_file] = start.function(context(params_file="cell.yaml"))
-    assert of_file.parameters == ["cell.yaml"], "a default overrides the file"
-    [both] = start.function(context(params_file="cell.yaml", use_sim_time="False", camera="/c"))
-    assert both.parameters == [
-        "cell.yaml", {"depth_topic": "/c/depth/image_rect_raw", "use_sim_time": False}], both
+    check_files(start, context, warnings, str(package / "config/penumbra.yaml"))
 
     start.function(context(robot_ip="192.168.1.10", camera_name="front", ur_type="ur5e"))
     assert not warnings, f"arguments of a launch file that includes this one: {warnings}"
@@ -124,6 +122,34 @@ def main(package):
     for file in ("config/penumbra.yaml", "rviz/penumbra.rviz"):
         assert yaml.safe_load((package / file).read_text())
     check_cell(package.parent / "penumbra_examples", set(defaults))
+
+
+def check_files(start, context, warnings, file):
+    """A params_file overrides defaults; one without our parameters is named, as is a missing one."""
+    [of_file] = start.function(context(params_file=file))
+    assert of_file.parameters == [file], "a default overrides the file"
+    [both] = start.function(context(params_file=file, use_sim_time="False", camera="/c"))
+    assert both.parameters == [
+        file, {"depth_topic": "/c/depth/image_rect_raw", "use_sim_time": False}], both
+    missing = file + ".none"
+    assert missing in refuses(start.function, context(params_file=missing))
+    with tempfile.NamedTemporaryFile("w", suffix=".yaml") as other:
+        for names, given, is_ours in [
+                (["amcl", "bt_navigator"], {}, False), (["penumbra"], {}, True), ([], {}, False),
+                (["penumbra"], {"name": "eyes"}, False), (["amcl", "eyes"], {"name": "eyes"}, True),
+                (["penumbra"], {"namespace": "cell"}, False),
+                (["/cell/penumbra"], {"namespace": "cell"}, True),
+                (["/*/penumbra"], {"ros_namespace": "/cell"}, True),
+                (["/**"], {"namespace": "/a/b"}, True)]:
+            other.seek(0)
+            other.truncate()
+            yaml.safe_dump({name: {"ros__parameters": {"queue": 4}} for name in names}, other)
+            other.flush()
+            warnings.clear()
+            start.function(context(params_file=other.name, **given))
+            assert [other.name in line for line in warnings] == ([] if is_ours else [True]), (
+                names, given, warnings)
+    warnings.clear()
 
 
 def check_cell(package, arguments):

@@ -7,8 +7,8 @@ ros2 launch penumbra_examples cell.launch.py bag:=recorded moveit:=false      # 
 Copy it and change what your cell has of its own.
 """
 from launch import LaunchDescription
-from launch.actions import (DeclareLaunchArgument, ExecuteProcess, IncludeLaunchDescription,
-                            OpaqueFunction)
+from launch.actions import (DeclareLaunchArgument, ExecuteProcess, GroupAction,
+                            IncludeLaunchDescription, OpaqueFunction)
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
 from launch_ros.substitutions import FindPackageShare
@@ -27,8 +27,10 @@ ARGUMENTS = {
 
 
 def included(package, file, **arguments):
+    """Includes a launch file that gets these arguments only, not those of others by their names."""
     path = PathJoinSubstitution([FindPackageShare(package), "launch", file])
-    return IncludeLaunchDescription(path, launch_arguments=arguments.items())
+    return GroupAction([IncludeLaunchDescription(path, launch_arguments=arguments.items())],
+                       forwarding=False)
 
 
 def arm_and_camera(value):

@@ -10,8 +10,10 @@ own, which is started again 2 s after a failure, except for one of its parameter
 """
 import difflib
 import pathlib
+import re
 
 import launch.logging
+import yaml
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, TimerAction
 from launch.substitutions import LaunchConfiguration
@@ -21,6 +23,7 @@ from launch_ros.descriptions import ComposableNode
 RESTART_DELAY = 2.0  # seconds
 USERS_FAULT = 2  # exit status: trying again does not help
 CAMERA = "/camera/camera"  # realsense2_camera's namespace
+PUSHED = "ros_namespace"  # launch_ros keeps here what PushRosNamespace pushed
 LIKE_OURS = 0.8  # similarity of a misspelt name; camera_name, which is another's, has 0.7 of camera
 
 ARGUMENTS = {
@@ -89,13 +92,45 @@ def rviz_of(value):
                 + [("robot_description", value["robot_description_topic"])])
 
 
+def nodes_of(parameters, path=""):
+    """The patterns of the nodes that a file has parameters of."""
+    for name, value in parameters.items() if isinstance(parameters, dict) else ():
+        if name == "ros__parameters":
+            yield path
+        else:
+            yield from nodes_of(value, f"{path}/{str(name).strip('/')}")
+
+
+def fault_of_file(file, node):
+    """Why a params_file has no parameters of a node; empty: it has some."""
+    with open(file) as parameters:
+        nodes = list(nodes_of(yaml.safe_load(parameters)))
+    wildcards = {"/**": r"(/\w+)*", "*": r"\w+"}  # as rclcpp reads them
+    for of in nodes:
+        if re.fullmatch(re.sub(r"/\*\*|\*", lambda found: wildcards[found[0]], of), node):
+            return ""
+    return (f"params_file:={file} has no parameters of {node}"
+            + (", but of " + ", ".join(nodes) if nodes else "")
+            + ". Is it the params_file of a launch file that includes this one? Then include this "
+              "one in a GroupAction with forwarding=False.")
+
+
 def start(context):
+    logger = launch.logging.get_logger("penumbra")
     # A launch file that includes this one has arguments of its own.
-    for name in set(context.launch_configurations) - set(ARGUMENTS):
+    for name in set(context.launch_configurations) - {*ARGUMENTS, PUSHED}:
         for ours in difflib.get_close_matches(name, ARGUMENTS, n=1, cutoff=LIKE_OURS):
-            launch.logging.get_logger("penumbra").warning(
-                f"there is no argument '{name}'; did you mean '{ours}'?")
+            logger.warning(f"there is no argument '{name}'; did you mean '{ours}'?")
     value = {name: LaunchConfiguration(name).perform(context) for name in ARGUMENTS}
+    if value["params_file"]:
+        if not pathlib.Path(value["params_file"]).is_file():
+            raise RuntimeError(f"params_file:={value['params_file']}: there is no such file")
+        pushed = context.launch_configurations.get(PUSHED, "")
+        space = value["namespace"] if value["namespace"].startswith("/") else \
+            f"{pushed}/{value['namespace']}"
+        node = re.sub("/+", "/", f"/{space}/{value['name']}")
+        if fault := fault_of_file(value["params_file"], node):
+            logger.warning(fault)
     settings = settings_of(value)
     others = [rviz_of(value)] if value["rviz"].lower() == "true" else []
     if not value["container"]:
