@@ -360,13 +360,13 @@ struct BlameMessage {
 struct TargetMessage {
   static constexpr std::string_view ros_type = "penumbra_msgs/Target";
   static auto layout(auto& m) {
-    return fields_of(m.name, m.has_stamp, as<TimeWire>(m.stamp), m.verdict, m.reason, m.judged,
-                     m.covered, m.inside, m.occluded_fraction, m.front_fraction, m.clear_fraction,
-                     m.unknown_fraction, m.hidden_by_other_fraction, m.measured_fraction,
-                     m.seen_past_fraction, m.blame, as<PointWire>(m.point), m.point_pixels,
-                     m.point_spread, m.source, m.age, m.pose, m.sigma, m.forecast_seconds,
-                     m.hidden_in, m.hidden_for, m.lost_in, m.hidden_by, m.forecast_reason,
-                     m.estimate);
+    return fields_of(m.name, m.has_stamp, as<TimeWire>(m.stamp), m.verdict, m.verdict_name,
+                     m.reason, m.judged, m.covered, m.inside, m.occluded_fraction, m.front_fraction,
+                     m.clear_fraction, m.unknown_fraction, m.hidden_by_other_fraction,
+                     m.measured_fraction, m.seen_past_fraction, m.blame, as<PointWire>(m.point),
+                     m.point_pixels, m.point_spread, m.source, m.age, m.pose, m.sigma,
+                     m.forecast_seconds, m.hidden_in, m.hidden_for, m.lost_in, m.hidden_by,
+                     m.forecast_reason, m.estimate);
   }
 
   enum VerdictValue : std::uint8_t { unknown, visible, partial, hidden, out_of_view, held_by_link };
@@ -385,6 +385,7 @@ struct TargetMessage {
   bool has_stamp = false;
   std::int64_t stamp = 0;
   std::uint8_t verdict = unknown;
+  std::string verdict_name = "unknown";
   std::string reason = {};
   bool judged = false;
   std::uint64_t covered = 0;
@@ -393,21 +394,21 @@ struct TargetMessage {
   double front_fraction = none;
   double clear_fraction = none;
   double unknown_fraction = none;
-  double hidden_by_other_fraction = none;
-  double measured_fraction = none;
-  double seen_past_fraction = none;
+  double hidden_by_other_fraction = 0;
+  double measured_fraction = 0;
+  double seen_past_fraction = 0;
   std::vector<BlameMessage> blame = {};
   Eigen::Vector3d point = Eigen::Vector3d::Constant(none);
   std::uint64_t point_pixels = 0;
-  double point_spread = none;
+  double point_spread = 0;
   std::uint8_t source = not_handled;
-  double age = none;
+  double age = 0;
   LoosePose pose = {};
-  double sigma = none;
-  double forecast_seconds = none;
+  double sigma = 0;
+  double forecast_seconds = 0;
   double hidden_in = none;
   double hidden_for = none;
-  double lost_in = none;
+  double lost_in = std::numeric_limits<double>::infinity();
   std::string hidden_by = {};
   std::string forecast_reason = {};
   std::uint8_t estimate = no_estimate;
@@ -430,8 +431,8 @@ struct TargetsMessage {
 struct CameraViewMessage {
   static constexpr std::string_view ros_type = "penumbra_msgs/CameraView";
   static auto layout(auto& m) {
-    return fields_of(m.camera, m.has_stamp, as<TimeWire>(m.stamp), m.verdict, m.reason,
-                     m.visible_fraction, as<PointWire>(m.point), m.distance, m.angle);
+    return fields_of(m.camera, m.has_stamp, as<TimeWire>(m.stamp), m.verdict, m.verdict_name,
+                     m.reason, m.visible_fraction, as<PointWire>(m.point), m.distance, m.angle);
   }
 
   static constexpr double none = LoosePose::none;
@@ -440,33 +441,35 @@ struct CameraViewMessage {
   bool has_stamp = false;
   std::int64_t stamp = 0;
   std::uint8_t verdict = TargetMessage::unknown;
+  std::string verdict_name = "unknown";
   std::string reason = {};
-  double visible_fraction = none;
+  double visible_fraction = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Constant(none);
-  double distance = none;
-  double angle = none;
+  double distance = 0;
+  double angle = 0;
 };
 
 /// The .msg file explains the fields.
 struct TargetViewMessage {
   static constexpr std::string_view ros_type = "penumbra_msgs/TargetView";
   static auto layout(auto& m) {
-    return fields_of(m.name, m.verdict, m.reason, m.best, as<PointWire>(m.point), m.covariance,
-                     m.contradicting, m.contradiction_distance, m.contradiction_chi_square,
-                     m.views);
+    return fields_of(m.name, m.verdict, m.verdict_name, m.reason, m.best, as<PointWire>(m.point),
+                     m.covariance, m.contradicting, m.contradiction_distance,
+                     m.contradiction_chi_square, m.views);
   }
 
   static constexpr double none = LoosePose::none;
 
   std::string name = {};
   std::uint8_t verdict = TargetMessage::unknown;
+  std::string verdict_name = "unknown";
   std::string reason = {};
   std::string best = {};
   Eigen::Vector3d point = Eigen::Vector3d::Constant(none);
   std::array<double, 9> covariance = {none, none, none, none, none, none, none, none, none};
   std::vector<std::string> contradicting = {};
-  double contradiction_distance = none;
-  double contradiction_chi_square = none;
+  double contradiction_distance = 0;
+  double contradiction_chi_square = 0;
   std::vector<CameraViewMessage> views = {};
 };
 

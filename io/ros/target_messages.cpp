@@ -18,9 +18,19 @@ constexpr std::array<std::uint8_t, 5> estimate_values{
     TargetMessage::accepted, TargetMessage::refused_verdict, TargetMessage::refused_gate,
     TargetMessage::refused_late, TargetMessage::refused_invalid};
 
+constexpr double never = std::numeric_limits<double>::infinity();
+
 template <typename Enum, std::size_t count>
 std::uint8_t value_of(Enum value, const std::array<std::uint8_t, count>& values) {
   return values.at(static_cast<std::size_t>(value));
+}
+
+/// `M`: TargetMessage, TargetViewMessage or CameraViewMessage.
+template <typename M>
+void put_verdict(Verdict verdict, const std::string& reason, M& message) {
+  message.verdict = value_of(verdict, verdict_values);
+  message.verdict_name = to_string(verdict);
+  message.reason = reason;
 }
 
 void put_judgement(const Judgement& judged, TargetMessage& message) {
@@ -33,16 +43,16 @@ void put_judgement(const Judgement& judged, TargetMessage& message) {
   message.front_fraction = judged.front;
   message.clear_fraction = judged.clear;
   message.unknown_fraction = judged.unknown;
-  message.hidden_by_other_fraction = judged.hidden_by_other.value_or(TargetMessage::none);
-  message.measured_fraction = judged.measured.value_or(TargetMessage::none);
-  message.seen_past_fraction = judged.seen_past.value_or(TargetMessage::none);
+  message.hidden_by_other_fraction = judged.hidden_by_other.value_or(0.0);
+  message.measured_fraction = judged.measured.value_or(0.0);
+  message.seen_past_fraction = judged.seen_past.value_or(0.0);
 }
 
 void put_handled(const HandledTarget& handled, TargetMessage& message) {
   message.source = value_of(handled.source, source_values);
   message.age = handled.age;
   message.sigma = handled.sigma;
-  message.lost_in = handled.lost_in.value_or(TargetMessage::none);
+  message.lost_in = handled.lost_in.value_or(never);
   if (handled.position) message.pose.position = *handled.position;
   if (handled.orientation) message.pose.orientation = handled.orientation->coeffs();
 }
@@ -53,7 +63,6 @@ void put_forecast(std::span<const VerdictInterval> forecast, TargetMessage& mess
   message.forecast_seconds = forecast.back().end;
   if (unknown != forecast.end()) message.forecast_reason = unknown->reason;
   if (unknown < hidden) return;  // it may be hidden before
-  constexpr double never = std::numeric_limits<double>::infinity();
   const bool is_hidden = hidden != forecast.end();
   message.hidden_in = is_hidden ? hidden->begin : never;
   message.hidden_for =
@@ -65,8 +74,7 @@ TargetMessage target_message(const TargetReport& target) {
   TargetMessage message{.name = target.name};
   message.has_stamp = target.stamp.has_value();
   message.stamp = target.stamp.value_or(0);
-  message.verdict = value_of(target.verdict, verdict_values);
-  message.reason = target.reason;
+  put_verdict(target.verdict, target.reason, message);
   if (target.judgement) put_judgement(*target.judgement, message);
   if (target.point) {
     message.point = *target.point;
@@ -85,9 +93,8 @@ TargetMessage target_message(const TargetReport& target) {
 
 TargetViewMessage target_view_message(const FusedTarget& target,
                                       std::span<const ViewCamera> cameras) {
-  TargetViewMessage message{.name = target.name,
-                            .verdict = value_of(target.verdict, verdict_values),
-                            .reason = target.reason};
+  TargetViewMessage message{.name = target.name};
+  put_verdict(target.verdict, target.reason, message);
   if (target.best) message.best = cameras[*target.best].name;
   if (target.point) {
     message.point = *target.point;
@@ -101,8 +108,7 @@ TargetViewMessage target_view_message(const FusedTarget& target,
   for (const CameraView& view : target.views) {
     CameraViewMessage& sent = message.views.emplace_back();
     sent.camera = cameras[view.camera].name;
-    sent.verdict = value_of(view.verdict, verdict_values);
-    sent.reason = view.reason;
+    put_verdict(view.verdict, view.reason, sent);
     if (view.stamp) {
       sent.has_stamp = true;
       sent.stamp = *view.stamp;

@@ -62,7 +62,7 @@ TEST(LivePlan, IsForecastOnTheGraph) {
     io::TargetsMessage message;
     while (heard->take(sample))
       if (!decoder.decode(sample.data, message) && !message.targets.empty() &&
-          !std::isnan(message.targets[0].forecast_seconds))
+          message.targets[0].forecast_seconds > 0)
         forecast = message.targets[0];
     return forecast.has_value();
   })) << read_file(folder.path() / "live.log");

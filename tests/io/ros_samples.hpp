@@ -131,6 +131,7 @@ inline io::TargetsMessage sample() {
   target.has_stamp = true;
   target.stamp = 5'000'000'001;
   target.verdict = io::TargetMessage::partial;
+  target.verdict_name = "partial";
   target.judged = true;
   target.covered = 5'000'000'000;
   target.inside = 120;
@@ -161,6 +162,7 @@ template <>
 inline io::TargetViewsMessage sample() {
   io::TargetViewMessage part{.name = "part"};
   part.verdict = io::TargetMessage::visible;
+  part.verdict_name = "visible";
   part.best = "left";
   part.point = {1, 2, 3};
   part.covariance = {1, 0.5, 0.25, 0.5, 2, 0.125, 0.25, 0.125, 3};
@@ -168,6 +170,7 @@ inline io::TargetViewsMessage sample() {
   part.views[0].has_stamp = true;
   part.views[0].stamp = 5'000'000'001;
   part.views[0].verdict = io::TargetMessage::visible;
+  part.views[0].verdict_name = "visible";
   part.views[0].visible_fraction = 0.75;
   part.views[0].point = {1.5, 2, 3};
   part.views[0].distance = 0.5;

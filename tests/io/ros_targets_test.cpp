@@ -41,7 +41,6 @@ TEST(RosTargets, AReportsTargetsArrive) {
   EXPECT_EQ(told.stamp, 77);
   EXPECT_EQ(told.covered, 200U);
   EXPECT_EQ(told.occluded_fraction, 0.375);
-  EXPECT_TRUE(std::isnan(told.hidden_by_other_fraction));
   ASSERT_EQ(told.blame.size(), 2U);
   EXPECT_EQ(told.blame[0].link, "tool");
   EXPECT_EQ(told.point, Eigen::Vector3d(1, 2, 3));
@@ -51,6 +50,35 @@ TEST(RosTargets, AReportsTargetsArrive) {
   EXPECT_EQ(second.reason, "not found");
   EXPECT_FALSE(second.has_stamp || second.judged);
   EXPECT_TRUE(second.point.array().isNaN().all());
+}
+
+/// The number of NaN among a target's numbers, without its pose.
+int nans_of(const TargetMessage& m) {
+  int nans = 0;
+  for (const double number :
+       {m.occluded_fraction, m.front_fraction, m.clear_fraction, m.unknown_fraction,
+        m.hidden_by_other_fraction, m.measured_fraction, m.seen_past_fraction, m.point.x(),
+        m.point.y(), m.point.z(), m.point_spread, m.age, m.sigma, m.forecast_seconds, m.hidden_in,
+        m.hidden_for, m.lost_in})
+    nans += std::isnan(number);
+  return nans;
+}
+
+TEST(RosTargets, OnlyWhatIsNotKnownIsNaN) {
+  TargetReport target{};
+  FrameReport report;
+  report.targets = std::span(&target, 1);
+  const auto sent = [&] { return targets_message(report, "c", "r").targets[0]; };
+  EXPECT_TRUE(std::isnan(sent().occluded_fraction)) << "0 would look visible";
+  EXPECT_EQ(nans_of(sent()), 4 + 3 + 2);
+  target.judgement.emplace();
+  target.judgement->inside = target.judgement->covered = 100;
+  EXPECT_EQ(nans_of(sent()), 3 + 2) << "the point and the forecast";
+  target.point = Eigen::Vector3d(1, 2, 3);
+  target.handled = HandledTarget{};
+  target.forecast = {{.begin = 0, .end = 2, .verdict = Verdict::visible}};
+  EXPECT_EQ(nans_of(sent()), 0);
+  EXPECT_TRUE(std::isnan(sent().pose.position.x())) << "it is lost";
 }
 
 TEST(RosTargets, EachValueHasItsOwn) {
@@ -71,6 +99,7 @@ TEST(RosTargets, EachValueHasItsOwn) {
   for (const auto& [verdict, value] : verdicts) {
     target.verdict = verdict;
     EXPECT_EQ(sent().verdict, value);
+    EXPECT_EQ(sent().verdict_name, to_string(verdict));
   }
   const std::vector<std::pair<Source, int>> sources = {
       {Source::measured, TargetMessage::measured},

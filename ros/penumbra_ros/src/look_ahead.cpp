@@ -56,6 +56,7 @@ penumbra_msgs::msg::TargetForecast to_message(const penumbra::TargetForecast& fo
     interval.begin = each.begin;
     interval.end = each.end;
     interval.verdict = to_message(each.verdict);
+    interval.verdict_name = to_string(each.verdict);
     interval.by = each.by;
     interval.reason = each.reason;
   }
