@@ -71,8 +71,7 @@ LiveSubscriptions::LiveSubscriptions(io::Participant& graph, io::LiveRunner& run
     return std::vector<io::InputTopic>(inbox.topics().begin(), inbox.topics().end());
   });
   subscriptions_.resize(topics_.size());
-  other_types_.resize(topics_.size());
-  former_.resize(topics_.size());
+  known_.resize(topics_.size());
 }
 
 std::string LiveSubscriptions::type_on_graph(const std::string& topic,
@@ -90,13 +89,16 @@ void LiveSubscriptions::open(std::size_t topic) {
 void LiveSubscriptions::close(std::size_t topic) {
   if (!subscriptions_[topic]) return;
   const io::SubscriptionStatus status = subscriptions_[topic]->status();
-  former_[topic].lost += status.lost;
-  former_[topic].overwritten += status.overwritten;
+  known_[topic].lost += status.lost;
+  known_[topic].overwritten += status.overwritten;
   subscriptions_[topic].reset();
 }
 
 void LiveSubscriptions::follow(bool with_color) {
   const std::vector<io::GraphTopic> all = graph_.graph();
+  const auto is_published = [&](const std::string& name) {
+    return !type_on_graph(name, all).empty();
+  };
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     io::InputTopic& topic = topics_[i];
@@ -115,7 +117,8 @@ void LiveSubscriptions::follow(bool with_color) {
         !topic.type.empty() && (topic.role != io::TopicRole::color || with_color);
     if (is_wanted && !subscriptions_[i]) open(i);
     if (!is_wanted) close(i);
-    other_types_[i] = type == topic.type ? "" : type;
+    known_[i].other_type = type == topic.type ? "" : type;
+    known_[i].other_topic = type.empty() ? io::other_topic(topic, is_published) : "";
   }
 }
 
@@ -133,8 +136,7 @@ std::vector<io::LiveLink> LiveSubscriptions::links() const {
   const std::lock_guard lock(mutex_);
   std::vector<io::LiveLink> links(subscriptions_.size());
   for (std::size_t i = 0; i < subscriptions_.size(); ++i) {
-    links[i] = former_[i];
-    links[i].other_type = other_types_[i];
+    links[i] = known_[i];
     if (!subscriptions_[i]) continue;
     const io::SubscriptionStatus status = subscriptions_[i]->status();
     links[i].is_open = true;

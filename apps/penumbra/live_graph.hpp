@@ -87,8 +87,7 @@ class LiveSubscriptions {
   std::vector<io::InputTopic> topics_;
   mutable std::mutex mutex_;  // guards the members below; lock it before the runner's
   std::vector<std::unique_ptr<io::Subscription>> subscriptions_;  // null: not subscribed to
-  std::vector<std::string> other_types_;
-  std::vector<io::LiveLink> former_;  // losses of closed subscriptions
+  std::vector<io::LiveLink> known_;  // losses of closed subscriptions, and other types and topics
 };
 
 }  // namespace penumbra::app

@@ -21,12 +21,14 @@ struct ImageCounts {
   std::size_t waiting = 0;
   std::size_t in_work = 0;
   std::array<std::size_t, drop_reasons> dropped{};
+  std::optional<DropReason> last_dropped = {};  ///< why the last of the dropped was
 
   [[nodiscard]] std::size_t of(DropReason reason) const {
     return dropped[static_cast<std::size_t>(reason)];
   }
   void drop(DropReason reason, std::size_t images = 1) {
     dropped[static_cast<std::size_t>(reason)] += images;
+    if (images > 0) last_dropped = reason;
   }
 };
 

@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <regex>
 #include <utility>
+
+#include <penumbra/time/source_tracks.hpp>
 
 #include <io/files/json-inl.hpp>
 #include <io/files/printable.hpp>
@@ -14,63 +17,10 @@ namespace {
 
 using Status = DiagnosticStatusMessage;
 
-/// A stream has stopped after this time without a message, in nanoseconds. Images are also given
-/// this number of their own periods.
-constexpr std::int64_t silence = 1'000'000'000;
-constexpr std::int64_t periods_awaited = 2;
-
-/// Fewer consecutive images without camera_info are not reported: one may be lost.
-constexpr std::size_t least_without_info = 3;
-
 std::string decimal(double value, const char* unit) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%.1f%s", value, unit);
   return text.data();
-}
-
-std::string seconds_since(std::int64_t then, std::int64_t now) {
-  return decimal(static_cast<double>(now - then) * 1e-9, " s");
-}
-
-/// Returns why a topic has no messages, or an empty text if the transport gives no reason.
-std::string silence_of(const LiveLink& link, const InputTopic& topic) {
-  const std::string name = printable(topic.name);
-  if (!link.other_type.empty())
-    return name + " is of type " + printable(link.other_type) + "; expected " +
-           (topic.type.empty() ? "PointCloud2, LaserScan or CustomMsg" : topic.type);
-  if (!link.is_open) return name + " is not subscribed to: nobody publishes it yet";
-  if (link.publishers > 0) return {};
-  if (!link.refused_because.empty())
-    return "the publisher of " + name + " offers another QoS (" + link.refused_because +
-           ") than requested" +
-           (link.refused_because == "reliability" ? "; leave --reliable out" : "");
-  return "no publisher of " + name;
-}
-
-/// Calls `call` with the index of each topic of a role and camera.
-template <typename F>
-void for_each_topic(const LiveInbox& inbox, TopicRole role, std::size_t camera, const F& call) {
-  for (std::size_t i = 0; i < inbox.topics().size(); ++i)
-    if (inbox.topics()[i].role == role && inbox.topics()[i].camera == camera) call(i);
-}
-
-std::string why_silent(const LiveInbox& inbox, TopicRole role, std::size_t camera,
-                       std::span<const LiveLink> links) {
-  std::string why;
-  for_each_topic(inbox, role, camera, [&](std::size_t i) {
-    const std::string one = silence_of(links[i], inbox.topics()[i]);
-    if (!one.empty()) why += (why.empty() ? "" : "; ") + one;
-    const MessageFaults& faults = inbox.faults();
-    const auto fault = faults.all().find(inbox.topics()[i].name);
-    if (one.empty() && fault != faults.all().end())
-      why += (why.empty() ? "" : "; ") + std::to_string(fault->second.messages) +
-             " messages cannot be read: " + fault->second.what;
-  });
-  return why.empty() ? "its publisher sends nothing" : why;
-}
-
-std::string since(const std::optional<std::int64_t>& last, std::int64_t now) {
-  return last ? " for " + seconds_since(*last, now) : " yet";
 }
 
 void add(Status& status, const std::string& key, const std::string& value) {
@@ -148,95 +98,23 @@ std::string name_of(const CameraInput& camera) {
 
 }  // namespace
 
-LiveFault robot_fault(const LiveInbox& inbox, std::span<const LiveLink> links, std::int64_t now) {
-  const RobotInput& robot = inbox.robot();
-  if (!robot.fault().empty()) return {Status::error, robot.fault()};
-  if (robot.is_being_made())
-    return {Status::stale, "the robot of the robot_description is being made: its meshes are read"};
-  if (!robot.posed())
-    return {Status::stale,
-            "no robot_description yet: " + why_silent(inbox, TopicRole::description, 0, links)};
-  const bool by_joints = inbox.options().poses != PoseSource::transforms;
-  if (by_joints && robot.posed()->robot.variables().empty()) return {};
-  const auto& last = by_joints ? robot.last_joints() : robot.last_transforms();
-  if (!last || now - *last > silence)
-    return {Status::stale,
-            std::string(by_joints ? "no joint states" : "no tf") + since(last, now) + ": " +
-                why_silent(inbox, by_joints ? TopicRole::joints : TopicRole::transforms, 0, links)};
-  const auto& used = robot.last_used_joints();
-  if (by_joints && (!used || now - *used > silence))
-    return {Status::error, "no joint states of the robot" + since(used, now) + ": " +
-                               (robot.unused_joints().empty() ? "none came since the robot is known"
-                                                              : robot.unused_joints())};
-  return {};
-}
-
-namespace {
-
-std::int64_t patience_of(const Arrivals& arrivals) {
-  return silence + periods_awaited * arrivals.period().value_or(0);
-}
-
-bool is_silent(const Arrivals& arrivals, std::int64_t now) {
-  return !arrivals.last() || now - *arrivals.last() > patience_of(arrivals);
-}
-
-/// Returns why messages that arrive give no result, or what is wrong with the results.
-LiveFault result_fault(const LiveInbox& inbox, const LiveTally& tally,
-                       const std::vector<std::string>& warnings, const Arrivals& arrivals,
-                       std::span<const LiveLink> links, std::int64_t now) {
-  if (!inbox.robot().posed()) {
-    const LiveFault robot = robot_fault(inbox, links, now);
-    return {Status::error, "nothing can be judged: " + robot.why};
+/// Replaces names of options by those of parameters.
+std::string LiveDiagnostics::in_own_words(const std::string& text) const {
+  static const std::regex option("--([a-z]+(-[a-z]+)*)");
+  std::string words;
+  auto end = text.begin();
+  for (auto found = std::sregex_iterator(text.begin(), text.end(), option);
+       found != std::sregex_iterator(); ++found) {
+    std::string name = (*found)[1];
+    std::ranges::replace(name, '-', '_');
+    words.append(end, (*found)[0].first);
+    if (!source_.parameters.contains(name)) name += 's';  // as packages for --package
+    words += source_.parameters.contains(name) ? name : std::string((*found)[0]);
+    end = (*found)[0].second;
   }
-  if (!tally.last.fault.empty()) return {Status::error, tally.last.fault};
-  if (!tally.last_published) return {Status::stale, "nothing was judged yet"};
-  if (now - *tally.last_published > patience_of(arrivals))
-    return {Status::error,
-            "nothing was published for " + seconds_since(*tally.last_published, now)};
-  if (tally.last.status == FrameStatus::ok)
-    return warnings.empty() ? LiveFault() : LiveFault{Status::warn, warnings.front()};
-  const std::uint8_t level = has_pose(tally.last.status) ? Status::warn : Status::error;
-  return {level, std::string(to_string(tally.last.status)) + ": " + tally.last.message};
-}
-
-}  // namespace
-
-LiveFault camera_fault(const LiveInbox& inbox, std::size_t number, std::span<const LiveLink> links,
-                       std::int64_t now) {
-  const CameraInput& camera = inbox.camera(number);
-  const LiveTally& tally = inbox.tally(number);
-  if (is_silent(camera.arrivals(), now))
-    return {Status::stale, "no depth images" + since(camera.arrivals().last(), now) + ": " +
-                               why_silent(inbox, TopicRole::depth, number, links)};
-  if (!camera.has_info())
-    return {Status::error,
-            "no camera_info yet: " + why_silent(inbox, TopicRole::camera_info, number, links)};
-  if (camera.lacks_color_info())
-    return {Status::error, "no camera_info of the color images yet: " +
-                               why_silent(inbox, TopicRole::color_info, number, links)};
-  if (!camera.setup_fault().empty()) return {Status::error, camera.setup_fault()};
-  if (camera.without_info() >= least_without_info)
-    return {Status::error,
-            std::to_string(camera.without_info()) +
-                " images are not judged: they have no camera_info of their stamp. It is late or "
-                "lost, or they are another camera's: " +
-                why_silent(inbox, TopicRole::camera_info, number, links)};
-  return result_fault(inbox, tally, inbox.warnings(number), camera.arrivals(), links, now);
-}
-
-LiveFault cloud_fault(const LiveInbox& inbox, std::size_t number, std::span<const LiveLink> links,
-                      std::int64_t now) {
-  const CloudInput& cloud = inbox.cloud(number);
-  const CloudTally& tally = inbox.cloud_tally(number);
-  if (is_silent(cloud.arrivals(), now))
-    return {Status::stale, "no clouds" + since(cloud.arrivals().last(), now) + ": " +
-                               why_silent(inbox, TopicRole::cloud, number, links)};
-  if (!cloud.setup_fault().empty()) return {Status::error, cloud.setup_fault()};
-  const auto unreadable = inbox.faults().all().find(cloud.options().topic);
-  if (!tally.last_published && unreadable != inbox.faults().all().end())
-    return {Status::error, unreadable->second.what};
-  return result_fault(inbox, tally, tally.warnings, cloud.arrivals(), links, now);
+  words.append(end, text.end());
+  if (words.find(others_unused) != std::string::npos) words += "; " + source_.how_to_forget;
+  return words;
 }
 
 DiagnosticStatusMessage LiveDiagnostics::make_status(const std::string& subject,
@@ -250,12 +128,17 @@ DiagnosticStatusMessage LiveDiagnostics::make_status(const std::string& subject,
 
 DiagnosticStatusMessage LiveDiagnostics::robot_status(const LiveInbox& inbox,
                                                       std::span<const LiveLink> links,
-                                                      const Period& period) const {
-  const LiveFault current = robot_fault(inbox, links, period.now);
+                                                      const Period& period) {
+  LiveFault current = robot_fault(inbox, links, period.now);
+  const auto& posed = inbox.robot().posed();
+  const std::size_t jumps = posed ? posed->history.clock_jumps() : 0;
+  if (current.why.empty() && jumps > jumps_) current = {Status::warn, posed->history.last_jump()};
+  jumps_ = jumps;
   Status status = make_status("robot", current);
-  if (const auto& posed = inbox.robot().posed()) {
+  if (posed) {
     if (status.message.empty()) status.message = posed->robot.name() + ", its pose is known";
     for (const std::string& line : posed->refusals()) add(status, "note", line);
+    if (posed->history.transforms().refused() > 0) add(status, "note", source_.how_to_forget);
     for (const std::string& line : posed->robot.notes()) add(status, "note", line);
   }
   add_count(status, "robots received", inbox.robot().robots());
@@ -318,9 +201,9 @@ DiagnosticStatusMessage LiveDiagnostics::cloud_status(const LiveInbox& inbox, st
   if (cloud.late_targets() > 0)
     add_count(status, "targets not judged: no cloud has their stamp", cloud.late_targets());
   add_tally(status, tally);
-  for_each_topic(inbox, TopicRole::cloud, number, [&](std::size_t i) {
-    add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));
-  });
+  for (std::size_t i = 0; i < inbox.topics().size(); ++i)
+    if (inbox.topics()[i].role == TopicRole::cloud && inbox.topics()[i].camera == number)
+      add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));
   return status;
 }
 
@@ -348,6 +231,10 @@ DiagnosticArrayMessage LiveDiagnostics::report(const LiveInbox& inbox,
   }
   received_.assign(inbox.received().begin(), inbox.received().end());
   before_ = moment.now;
+  for (Status& status : array.status) {
+    status.message = in_own_words(status.message);
+    for (auto& [key, value] : status.values) value = in_own_words(value);
+  }
   return array;
 }
 

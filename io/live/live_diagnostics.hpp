@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -22,6 +24,7 @@ struct LiveLink {
   std::uint64_t overwritten = 0;     ///< replaced by newer messages before they were read
   std::string refused_because = {};  ///< the incompatible QoS policy; empty: none
   std::string other_type = {};       ///< the published type if it is not the expected one
+  std::string other_topic = {};      ///< published with the images that this topic lacks
 };
 
 /// The time of a report.
@@ -36,10 +39,18 @@ struct LiveFault {
   std::string why;
 };
 
+/// Returns the topic that has a topic's images with or without compression, or an empty name.
+/// `is_published`: whether a topic has a publisher.
+[[nodiscard]] std::string other_topic(const InputTopic& topic,
+                                      const std::function<bool(const std::string&)>& is_published);
+
 /// Names the sender of diagnostics, because one graph may have several.
 struct DiagnosticSource {
   std::string name = "penumbra";  ///< the prefix of each status name
   std::string hardware_id = {};   ///< the name of the machine
+  std::string how_to_forget = "start Penumbra again to forget the former";
+  /// Names that replace those of options: time_offset for --time-offset.
+  std::set<std::string> parameters = {};
 };
 
 /// Makes diagnostic_msgs: one status of the robot, one of each camera, then one of each sensor of
@@ -63,7 +74,7 @@ class LiveDiagnostics {
   };
   [[nodiscard]] DiagnosticStatusMessage robot_status(const LiveInbox& inbox,
                                                      std::span<const LiveLink> links,
-                                                     const Period& period) const;
+                                                     const Period& period);
   [[nodiscard]] DiagnosticStatusMessage camera_status(const LiveInbox& inbox, std::size_t number,
                                                       std::span<const LiveLink> links,
                                                       const Period& period) const;
@@ -73,6 +84,7 @@ class LiveDiagnostics {
   [[nodiscard]] double rate_of(const LiveInbox& inbox, std::size_t topic,
                                const Period& period) const;
 
+  [[nodiscard]] std::string in_own_words(const std::string& text) const;
   [[nodiscard]] DiagnosticStatusMessage make_status(const std::string& subject,
                                                     const LiveFault& fault) const;
 
@@ -80,6 +92,7 @@ class LiveDiagnostics {
   std::vector<std::size_t> judged_;    // of each camera, at the last report
   std::vector<std::size_t> labelled_;  // of each sensor of clouds, at the last report
   std::vector<std::size_t> received_;  // of each topic, at the last report
+  std::size_t jumps_ = 0;              // of the clock, at the last report
   DiagnosticSource source_;
 };
 

@@ -119,6 +119,10 @@ void LiveInbox::count(LiveTally& tally, const LiveOutcome& outcome, std::int64_t
   if (!outcome.is_published) return;
   tally.last_published = now;
   ++tally.statuses[std::string(to_string(outcome.status))];
+  const bool is_ok = outcome.status == FrameStatus::ok;
+  if (!is_ok) tally.last_trouble = std::string(to_string(outcome.status)) + ": " + outcome.message;
+  tally.recent.emplace_back(now, is_ok);
+  while (tally.recent.front().first < now - LiveTally::recent_time) tally.recent.pop_front();
   tally.processing.add(static_cast<double>(now - outcome.arrived) * 1e-6);
   const std::int64_t latency = system_now - outcome.stamp;
   if (latency >= 0 && latency < longest_latency)

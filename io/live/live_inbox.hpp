@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <penumbra/calibration/watch.hpp>
@@ -68,11 +70,16 @@ struct LiveOutcome {
 
 /// The results of a camera's images or of a sensor's clouds.
 struct LiveTally {
+  static constexpr std::int64_t recent_time = 10'000'000'000;  ///< nanoseconds
+
   std::map<std::string, std::size_t, std::less<>> statuses;  ///< frames by status
   LatencyHistogram latency;      ///< from stamp to published, ms of the system's clock
   LatencyHistogram processing;   ///< from arrival to published, ms
   std::size_t beyond_clock = 0;  ///< images with stamps of another clock; no latency
   LiveOutcome last;
+  /// When the frames of the last `recent_time` were published, and whether they were ok.
+  std::deque<std::pair<std::int64_t, bool>> recent;
+  std::string last_trouble;           ///< status and message of the last frame that was not ok
   std::vector<std::string> warnings;  ///< about the setup `warned`, a line each
   std::weak_ptr<const CameraSetup> warned;
   std::optional<RendererInfo> renderer;        ///< the last one; nothing if no image was judged yet

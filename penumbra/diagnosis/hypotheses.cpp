@@ -192,7 +192,7 @@ class Mistakes {
         if (j > i)
           with_joints(Cause::joint_order,
                       "the positions of joints " + name(i) + " and " + name(j) +
-                          " look exchanged: check the order of the columns",
+                          " look exchanged: check the order of the joints",
                       [&](auto& joints) { std::swap(joints[i], joints[j]); });
     }
   }
@@ -229,7 +229,7 @@ class Mistakes {
       hypothesis.message =
           "the joint positions of a frame fit the image of " + std::to_string(std::abs(by)) +
           (std::abs(by) == 1 ? " frame " : " frames ") + (by > 0 ? "before" : "after") +
-          ": are rows of the joint file missing or shifted?";
+          ": are joint positions missing or shifted?";
       found_.push_back(std::move(hypothesis));
     }
   }

@@ -114,6 +114,103 @@ TEST_F(LiveDiagnosticsTest, SaysWhyJointStatesDoNotTellThePose) {
   expect_says(robot(), Status::error, "a, b, c, ...");
 }
 
+TEST_F(LiveDiagnosticsTest, NamesImagesWhoseStampsAreZeroOrFrozen) {
+  bench_.tell_all();
+  for (int i = 0; i < 30; ++i) {
+    bench_.now += 100 * milliseconds;
+    bench_.tell_joints(bench_.now);
+    bench_.tell_depth(0);
+    bench_.work();
+  }
+  expect_says(camera(), Status::stale, "stamps are 0");
+  const std::int64_t frozen = bench_.now;
+  for (int i = 0; i < 30; ++i) {
+    bench_.now += 100 * milliseconds;
+    bench_.tell_joints(bench_.now);
+    bench_.tell_depth(frozen);
+    bench_.work();
+  }
+  expect_says(camera(), Status::error, "frozen");
+}
+
+TEST_F(LiveDiagnosticsTest, SaysThatAClockWasSetBack) {
+  bench_.tell_all();
+  judge();
+  expect_says(robot(), Status::ok, "tiny");
+  for (int i = 0; i < 30; ++i) {  // the camera's alone
+    bench_.now += 100 * milliseconds;
+    bench_.tell_joints(bench_.now);
+    bench_.tell_depth(bench_.now - 20 * seconds);
+    bench_.work();
+    bench_.now += 250 * milliseconds;
+    bench_.work();
+  }
+  expect_says(camera(), Status::error,
+              "20.0 s later than those of the images: a clock was set back");
+  bench_.tell_joints(bench_.now - 60 * seconds);
+  expect_says(robot(), Status::warn, "the clock jumped back by");
+  expect_says(robot(), Status::ok, "tiny");
+}
+
+TEST_F(LiveDiagnosticsTest, AJointThatWasNeverSeenIsTheRobotsFault) {
+  const std::string more =
+      R"(<link name="flap"><collision><geometry><box size="0.1 0.1 0.1"/></geometry>
+    </collision></link><joint name="fold" type="continuous"><parent link="board"/>
+    <child link="flap"/><axis xyz="0 0 1"/></joint>
+    <link name="marker"/><joint name="wave" type="continuous"><parent link="board"/>
+    <child link="marker"/><axis xyz="0 0 1"/></joint></robot>)";
+  std::string urdf = live_urdf;
+  urdf.replace(urdf.find("</robot>"), urdf.size(), more);
+  bench_.tell_robot(urdf);
+  bench_.tell_joints(bench_.now);
+  const Status status = robot();
+  expect_says(status, Status::error, "'fold'");
+  EXPECT_EQ(status.message.find("wave"), std::string::npos) << "it moves nothing that is drawn";
+}
+
+TEST_F(LiveDiagnosticsTest, OffersTheTopicWithTheSameImages) {
+  const io::InputTopic& depth = bench_.inbox.topics().back();
+  const auto offered = [&](const std::string& published) {
+    return io::other_topic(depth, [&](const std::string& name) { return name == published; });
+  };
+  EXPECT_EQ(offered(depth.name + "/compressedDepth"), depth.name + "/compressedDepth");
+  EXPECT_EQ(offered(depth.name + "/compressed"), depth.name + "/compressed");
+  EXPECT_EQ(offered(depth.name), "") << "that is the topic itself";
+  EXPECT_EQ(offered("/other"), "");
+  link(io::TopicRole::depth) = {.is_open = true, .other_topic = "/camera/depth/compressedDepth"};
+  expect_says(camera(), Status::stale, "/camera/depth/compressedDepth");
+}
+
+TEST_F(LiveDiagnosticsTest, SaysWhichShareOfTheFramesIsOk) {
+  bench_.tell_all();
+  for (int i = 0; i < 20; ++i) {
+    bench_.now += 250 * milliseconds;
+    if (i % 4 == 3) {  // no joint state comes for this one
+      bench_.tell_depth(bench_.now);
+      bench_.now += 250 * milliseconds;
+      bench_.work();
+    }
+    judge();
+  }
+  expect_says(camera(), Status::warn, "stale_joints");
+  expect_says(camera(), Status::warn, "ok in 80 %");
+  for (int i = 0; i < 50; ++i) {
+    bench_.now += 250 * milliseconds;
+    judge();
+  }
+  EXPECT_EQ(camera().message.find("ok in"), std::string::npos) << "that is long ago";
+}
+
+TEST_F(LiveDiagnosticsTest, OptionsHaveTheNamesOfParameters) {
+  std::string urdf = live_urdf;
+  const std::string box = R"(<box size="0.4 0.2 0.1"/>)";
+  urdf.replace(urdf.find(box), box.size(), R"(<mesh filename="package://none/board.stl"/>)");
+  bench_.tell_robot(urdf);
+  expect_says(robot(), Status::error, " --package none=DIR");
+  diagnostics_ = io::LiveDiagnostics(bench_.now, {.parameters = {"packages"}});
+  expect_says(robot(), Status::error, " packages none=DIR");
+}
+
 TEST_F(LiveDiagnosticsTest, ASlowCameraIsNotCalledSilent) {
   bench_.tell_all();
   for (int i = 0; i < 3; ++i) {
@@ -142,6 +239,7 @@ TEST_F(LiveDiagnosticsTest, WarnsOfAWrongSetupUntilItIsAnother) {
     bench_.work();
   }
   EXPECT_FALSE(bench_.inbox.warnings(0).empty());
+  bench_.now += 2 * io::LiveTally::recent_time;
   bench_.tell_info(bench_.now, 70.0);
   judge();
   expect_says(camera(), Status::ok, "frames/s");
