@@ -84,13 +84,32 @@ void print_pose(const Calibration& found, const std::string& parent, const std::
   std::cout << "\n4x4, optical frame in " << parent << ", metres:\n";
   for (int row = 0; row < 4; ++row)
     std::cout << "  " << joined(T.matrix().row(row), 6, ", ") << '\n';
-  std::cout << "xyz: " << xyz << "\nquaternion xyzw: " << joined(q.coeffs(), 6, " ")
-            << "\nROS 2: ros2 run tf2_ros static_transform_publisher --x " << fixed(T(0, 3), 5)
+  std::cout << "xyz: " << xyz << "\nquaternion xyzw: " << joined(q.coeffs(), 6, " ") << '\n';
+  if (frame == parent) {
+    std::cout << "URDF: multiply the origin of this link's joint by the pose\n";
+    return;
+  }
+  std::cout << "ROS 2: ros2 run tf2_ros static_transform_publisher --x " << fixed(T(0, 3), 5)
             << " --y " << fixed(T(1, 3), 5) << " --z " << fixed(T(2, 3), 5) << " --qx "
             << fixed(q.x(), 6) << " --qy " << fixed(q.y(), 6) << " --qz " << fixed(q.z(), 6)
             << " --qw " << fixed(q.w(), 6) << " --frame-id " << io::for_shell(parent)
             << " --child-frame-id "
-            << (frame.empty() ? "camera_optical_frame" : io::for_shell(frame)) << '\n';
+            << (frame.empty() ? "camera_optical_frame" : io::for_shell(frame))
+            << "\n  (in place of the transforms that lead to this frame now)\n";
+}
+
+/// Prints how other commands take the pose's file.
+void print_use(const CalibrateArguments& arguments, bool is_bag, const std::string& parent) {
+  const std::filesystem::path& of = arguments.input.input.path;
+  const std::filesystem::path file = arguments.output / "camera_pose.csv";
+  if (is_bag) {
+    std::cout << "with this bag, in place of tf: --pose " << io::for_shell(file.string())
+              << " --parent " << io::for_shell(parent) << '\n';
+    return;
+  }
+  const auto own = std::filesystem::is_directory(of) ? of : of.parent_path();
+  std::cout << "in the recording.yaml, below 'camera:':\n  parent: " << parent
+            << "\n  pose: " << std::filesystem::proximate(file, own).string() << '\n';
 }
 
 /// Returns what is wrong with the input other than the camera's pose; empty: nothing known.
@@ -161,13 +180,7 @@ int execute(const CalibrateArguments& arguments) {
   const std::string parent =
       options.camera_parent.empty() ? robot.links().front() : options.camera_parent;
   print_pose(found, parent, input.input.camera.frame_id);
-  if (!folder) return 0;
-  const std::filesystem::path& of = arguments.input.input.path;
-  const auto file =
-      std::filesystem::proximate(arguments.output / "camera_pose.csv",
-                                 std::filesystem::is_directory(of) ? of : of.parent_path());
-  std::cout << "in the recording.yaml, below 'camera:':\n  parent: " << parent
-            << "\n  pose: " << file.string() << '\n';
+  if (folder) print_use(arguments, input.input.bag.has_value(), parent);
   return 0;
 }
 

@@ -303,8 +303,6 @@ PoseSource choose_poses(const Chooser& chooser, const BagOptions& options,
   if (poses == PoseSource::transforms)
     chooser.refuse("has neither joint states nor tf: the robot's poses are not known");
   if (poses == PoseSource::both) chooser.refuse("has no tf, which --poses both asks for");
-  if (!options.pose && !options.clouds)
-    chooser.refuse("has no tf, which would say where the camera is; give --pose and --parent");
   return poses;
 }
 

@@ -36,10 +36,13 @@ Robot load_robot(const InputOptions& options, const BagSceneReader& reader,
   }
 }
 
-[[noreturn]] void refuse_mount(const InputOptions& options, const BagScene& scene,
+[[noreturn]] void refuse_mount(const InputOptions& options, const BagSceneReader& reader,
                                const std::string& frame) {
   std::string known;
-  if (!scene.frames.has_parent(frame)) known = ", which tf does not know";
+  if (reader.topics().transforms.empty())
+    known = ": the bag has no tf";
+  else if (!reader.scene().frames.has_parent(frame))
+    known = ", which tf does not know";
   const bool clouds = options.bag.clouds;
   throw InputError(
       options.path.string() + ": tf does not say where the " + (clouds ? "sensor" : "camera") +
@@ -62,13 +65,14 @@ CameraMount mount_in_bag(const InputOptions& options, BagSceneReader& reader, co
     mount = find_mount(robot, wanted, scene.frames, frame_of_images);
     return mount.has_value();
   });
+  if (!options.needs_camera_pose)
+    return {"", mount ? mount->parent : robot.links().front(), Eigen::Isometry3d::Identity(),
+            mount ? mount->source : "nothing yet"};
   if (mount) return *mount;
   // The camera is not on the robot, but both are below one frame.
   const std::string frame = mounted_frame(wanted, frame_of_images);
-  if (!options.needs_camera_pose)
-    return {"", robot.links().front(), Eigen::Isometry3d::Identity(), "nothing yet"};
   if (!reader.scene().frames.connects(frame, options.bag.frame_prefix + robot.links().front()))
-    refuse_mount(options, reader.scene(), frame);
+    refuse_mount(options, reader, frame);
   return mount_by_root(robot, wanted, frame_of_images);
 }
 

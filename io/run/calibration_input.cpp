@@ -18,6 +18,7 @@ namespace {
 
 constexpr double still = 0.01;   // metres per second of any link's origin
 constexpr double moving = 0.05;  // the same, at least, to tell the time offset
+constexpr double fixed = 0.002;  // metres and rad that a fixed camera may move on its link
 
 /// The fastest link's speed since the frame before, m/s; none without stamps.
 class Speed {
@@ -46,6 +47,19 @@ Image<T> rectified_copy(const std::optional<Rectification>& lens, const Image<T>
   return copy_of(rectified(lens ? &*lens : nullptr, raw.view(), image));
 }
 
+/// Takes the camera's pose in tf as the input's. Throws InputError if it is not that of `known`.
+void take_camera_pose(const Eigen::Isometry3d& T_parent_camera,
+                      std::optional<Eigen::Isometry3d>& known, const std::string& frame,
+                      PipelineConfig& config) {
+  if (!known) known = config.T_parent_camera = T_parent_camera;
+  const Eigen::Isometry3d motion = known->inverse() * T_parent_camera;
+  if (motion.translation().norm() > fixed ||
+      std::abs(Eigen::AngleAxisd(motion.linear()).angle()) > fixed)
+    throw InputError(frame + ": tf moves the camera on link '" + config.camera_parent +
+                     "', and only a camera that is fixed to a link is calibrated; choose frames "
+                     "with --frames, or its link with --parent and --initial");
+}
+
 }  // namespace
 
 CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
@@ -70,6 +84,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   Speed speed;
   std::size_t seen = 0, faulty = 0, unmasked = 0;
   std::string fault, no_mask;
+  std::optional<Eigen::Isometry3d> in_tf;
   while (source->next(frame)) {
     ++seen;
     step();
@@ -93,6 +108,9 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
                 (why.empty() ? "no joints or no depth" : why);
       continue;
     }
+    if (pose.T_parent_camera)
+      take_camera_pose(*pose.T_parent_camera, in_tf,
+                       path.string() + ": frame " + std::to_string(kept.index), input.config);
     kept.T_root_link = pose.T_root_link;
     if (kept.T_root_link.empty()) {
       kept.joints = pose.positions;

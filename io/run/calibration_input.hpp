@@ -25,7 +25,7 @@ struct CalibrationInputOptions {
 
 /// The chosen frames of an input.
 struct CalibrationInput {
-  RunInput input;
+  RunInput input;     ///< its config has the camera's pose, also if it was by tf
   Intrinsics camera;  ///< of the frames' images, which are free of distortion
   std::vector<CalibrationFrame> frames;
   std::size_t seen = 0;            ///< frames of the input

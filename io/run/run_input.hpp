@@ -54,7 +54,7 @@ struct RunInput {
   Robot robot;
   Camera camera;
   std::filesystem::path camera_info;  ///< named in errors of the camera
-  PipelineConfig config;              ///< with what the input gives: camera's pose, tolerance
+  PipelineConfig config;  ///< with what the input gives: camera's pose if not by tf, tolerance
   std::optional<BeyondMeans> beyond;
   std::optional<std::filesystem::path> targets;  ///< the input's own
   std::vector<std::int64_t> frame_numbers = {};  ///< of a recording; empty: not known
