@@ -21,7 +21,6 @@
 #include <apps/penumbra/run_summary.hpp>
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/bag/bag_reader.hpp>
 #include <io/files/camera_views.hpp>
 #include <io/run/input_session.hpp>
 #include <io/web/cameras_view.hpp>
@@ -38,18 +37,6 @@ using namespace std::chrono_literals;
 
 constexpr const char* report_name = "report.json";
 constexpr const char* views_name = "views.json";
-
-void check_is_something(const fs::path& input) {
-  std::error_code error;
-  if (!fs::is_directory(input, error)) return;
-  for (const char* const name : {"recording.yaml", report_name, views_name})
-    if (fs::exists(input / name, error)) return;
-  if (io::is_bag_folder(input)) return;
-  throw InputError(
-      input.string() +
-      ": holds neither a recording (recording.yaml), nor a bag (metadata.yaml, *.mcap, "
-      "*.db3), nor the results of a run (report.json)");
-}
 
 /// Returns whether a run of several cameras wrote this folder.
 bool has_views(const fs::path& input) {
@@ -126,7 +113,6 @@ ViewSource::ViewSource(const ViewArguments& arguments, std::vector<std::string> 
     }
     own.session.renderer.threads = 1;
   }
-  check_is_something(input.path);
   if (is_run_folder(input.path))
     open_run(own);
   else

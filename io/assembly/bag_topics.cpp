@@ -168,9 +168,13 @@ TopicUse choose_depth(const Chooser& chooser, const BagOptions& options) {
   if (!candidates.empty())
     return chooser.only_image("depth", "--depth-topic", candidates, "the only images called depth");
   const auto images = chooser.of(types);
-  if (images.empty()) chooser.refuse("has no images; depth images are needed");
-  chooser.refuse("no images are called depth; there are " + names_of(images) +
-                 "; choose one with --depth-topic, or judge colour images alone with --no-depth");
+  if (images.empty())
+    chooser.refuse(std::string("has no images; depth images are needed") +
+                   (chooser.of(cloud_types).empty() ? "" : "; `penumbra cloud` takes its clouds"));
+  chooser.refuse(
+      "no images are called depth; there are " + names_of(images) +
+      "; choose one with --depth-topic; all commands but tune take colour images alone with "
+      "--no-depth");
 }
 
 std::vector<TopicUse> choose_clouds(const Chooser& chooser, const BagOptions& options) {
@@ -180,7 +184,8 @@ std::vector<TopicUse> choose_clouds(const Chooser& chooser, const BagOptions& op
   if (options.cloud_topics.empty())
     for (const BagTopic* topic : chooser.of(cloud_types))
       uses.push_back(Chooser::use("cloud", *topic, "by its type"));
-  if (uses.empty()) chooser.refuse("has no clouds (" + one_of(cloud_types) + ")");
+  if (uses.empty())
+    chooser.refuse("has no clouds (" + one_of(cloud_types) + "); `penumbra run` judges images");
   return uses;
 }
 

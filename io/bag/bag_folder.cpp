@@ -132,8 +132,7 @@ class BagFolder final : public BagReader {
     if (fault) throw InputError(folder.string() + ": cannot be read: " + fault.message());
     if (files.empty())
       throw InputError(folder.string() +
-                       ": holds no recording: neither metadata.yaml nor *.mcap "
-                       "nor *.db3");
+                       ": holds no bag: neither metadata.yaml nor *.mcap nor *.db3");
     std::sort(files.begin(), files.end());
     faults_.push_back(metadata_file.string() +
                       ": is missing (was the recorder killed?); all bags "

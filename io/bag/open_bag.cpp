@@ -37,12 +37,14 @@ bool is_bag_file(const std::filesystem::path& file) {
 }
 
 std::unique_ptr<BagReader> open_bag_file(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_empty(file, error))
+    throw InputError(file.string() + ": is empty: nothing was recorded");
   if (file.extension() == ".mcap") return open_mcap_bag(file);
   if (file.extension() == ".db3") return open_sqlite_bag(file);
   if (file.extension() == ".zstd")
     throw InputError(file.string() +
                      ": is compressed as a whole; 'zstd -d --rm' makes it readable");
-  std::error_code error;
   if (!std::filesystem::exists(file, error))
     throw InputError(file.string() + ": cannot be read: No such file or directory");
   throw InputError(file.string() +

@@ -138,7 +138,7 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
   BagSceneReader reader(options.path, options.bag, options.with_color);
   print_topics(reader.topics(), options.with_color, print);
   if (options.needs_depth && !reader.topics().has_depth)
-    throw InputError("--no-depth: this compares depth images with the robot; leave it out");
+    throw InputError(options.path.string() + ": --no-depth: " + needs_depth_images);
   reader.read_robot_and_camera();
   JudgedCameras cameras = cameras_of(options, reader.topics(), reader.scene());
   RobotOptions robot_options;

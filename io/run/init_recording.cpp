@@ -17,7 +17,6 @@
 #include <io/files/frame_pattern.hpp>
 #include <io/files/image_file.hpp>
 #include <io/files/joint_file.hpp>
-#include <io/files/names.hpp>
 #include <io/files/pending_file.hpp>
 #include <io/files/pose_file.hpp>
 #include <io/files/printable.hpp>
@@ -237,10 +236,15 @@ fs::path robot_file(const InitOptions& options, const std::vector<fs::path>& fil
   return robots.front();
 }
 
+constexpr const char* is_a_bag =
+    ": is a bag, which needs no recording.yaml: `penumbra run` judges its images, `penumbra cloud` "
+    "its clouds";
+
 void check_folder(const InitOptions& options) {
   std::error_code error;
   if (!fs::is_directory(options.folder, error))
-    throw InputError(options.folder.string() + ": is no folder");
+    throw InputError(options.folder.string() +
+                     (is_bag_file(options.folder) ? is_a_bag : ": is no folder of images"));
   if (!options.force && fs::exists(fs::symlink_status(options.folder / "recording.yaml", error)))
     throw InputError((options.folder / "recording.yaml").string() +
                      ": exists; replace it by --force");
@@ -341,8 +345,7 @@ InitResult init_recording(const InitOptions& options) {
   if (depth == nullptr && color == nullptr)
     throw InputError(options.folder.string() +
                      (is_bag_folder(options.folder)
-                          ? ": is a bag, which needs no recording.yaml: penumbra run " +
-                                for_shell(options.folder.string()) + " -o out"
+                          ? is_a_bag
                           : ": holds no images with a number in their names, and no video"));
   const fs::path urdf = robot_file(options, files);
   RobotOptions robot_options;

@@ -102,8 +102,7 @@ RunInput open_recording_input(const InputOptions& options) {
   check_no_bag_option(options);
   if (options.needs_depth && !recording.frames.depth)
     throw InputError(recording.file.string() +
-                     ": frames: key 'depth' is missing; this compares depth images with the robot "
-                     "(calibrate --masks does without)");
+                     ": frames: key 'depth' is missing: " + needs_depth_images);
   if (!options.needs_camera_pose && !recording.camera.T_parent_camera)
     recording.camera.T_parent_camera = Eigen::Isometry3d::Identity();
   for (RecordedRobot& robot : recording.robots) options.apply_to(robot.options, robot.name);
@@ -157,11 +156,14 @@ void check_is_recording(const std::filesystem::path& input) {
         input.string() +
         ": is neither a recording (a folder, or its recording.yaml) nor a bag (*.mcap, "
         "*.db3)");
-  if (std::filesystem::is_directory(input, ignored) &&
-      !std::filesystem::exists(input / "recording.yaml", ignored))
+  const auto has = [&](const char* file) { return std::filesystem::exists(input / file, ignored); };
+  if (!std::filesystem::is_directory(input, ignored) || has("recording.yaml")) return;
+  if (has("report.json") || has("views.json"))
     throw InputError(input.string() +
-                     ": holds neither a recording (recording.yaml) nor a bag (metadata.yaml, "
-                     "*.mcap, *.db3)");
+                     ": holds results, which `penumbra view` shows; give what they were made from");
+  throw InputError(input.string() +
+                   ": holds neither a recording (recording.yaml, which `penumbra init` writes) nor "
+                   "a bag (metadata.yaml, *.mcap, *.db3)");
 }
 
 void check_no_bag_option(const InputOptions& options) {

@@ -67,6 +67,10 @@ struct RunInput {
   std::function<std::unique_ptr<FrameSource>(const Robot&)> frames;
 };
 
+/// Says why an input without depth is refused where InputOptions::needs_depth is set.
+inline constexpr const char* needs_depth_images =
+    "this compares depth images with the robot; only `penumbra calibrate` does without, by --masks";
+
 /// Returns whether an input is a bag, by its name or, of a folder, its files.
 [[nodiscard]] bool is_bag(const std::filesystem::path& input);
 /// Throws InputError for an input that is neither a bag nor a recording.

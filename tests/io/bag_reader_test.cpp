@@ -170,7 +170,7 @@ TEST_F(Bags, AMissingOrBrokenFileCostsItsPart) {
 }
 
 TEST_F(Bags, RefusesWhatItCannotRead) {
-  EXPECT_HAS(refusal(folder_.path()), "holds no recording: neither metadata.yaml nor *.mcap");
+  EXPECT_HAS(refusal(folder_.path()), "holds no bag: neither metadata.yaml nor *.mcap");
   EXPECT_HAS(refusal(path("a.bag")), "a.bag: cannot be read: No such file");
   folder_.write("a.bag", "#ROSBAG V2.0\n");
   EXPECT_HAS(refusal(path("a.bag")), "*.mcap, *.db3 and folders");

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each command with each kind of input: it works, or refuses in one line that names the remedy.
+#include "../web/viewer_process.hpp"
+#include "fixtures.hpp"
+#include "recording_bag.hpp"
+#include "tiny_clouds.hpp"
+
+#include <functional>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include <io/bag/bag_reader.hpp>
+#include <io/cloud/cloud_file.hpp>
+#include <io/dds/participant.hpp>
+#include <io/files/pose_file.hpp>
+
+namespace penumbra::test {
+namespace {
+
+constexpr std::size_t example_frames = 12;
+constexpr double near = 0.003;  // metres; docs/calibration.md
+const fs::path example = fs::path(PENUMBRA_SOURCE_DIR) / "examples/arm_over_table";
+
+/// Inputs by name, and the options that a command needs to take them.
+const std::vector<std::pair<std::string, Words>> kinds = {
+    {"recording", {}},
+    {"without_depth", {}},
+    {"clouds", {}},
+    {"tf.mcap", {"--package"}},
+    {"no_pose.mcap", {"--package", "--pose"}},
+    {"no_depth.mcap", {"--package", "--no-depth"}},
+    {"of_clouds/clouds.mcap", {}},
+    {"results", {}},
+    {"images", {}},
+    {"recording/arm_description/arm.urdf", {}},
+    {"notes.txt", {}},
+    {"empty.mcap", {}},
+    {"empty", {}},
+    {"nowhere", {}},
+};
+
+constexpr std::size_t no_pose = 4;  // of them
+
+const std::string works;
+/// By command: what it makes of each of `kinds`; a word of the remedy where it refuses the input.
+const std::map<std::string, Words> table = {
+    // recording, without depth, clouds; bag: tf, no pose, no depth, clouds; results, images, URDF;
+    // text, empty file, empty folder, nothing
+    {"run",
+     {works, works, "penumbra cloud", works, works, works, "penumbra cloud", "penumbra view",
+      "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml", "No such file"}},
+    {"view",
+     {works, works, "penumbra cloud", works, works, works, "penumbra cloud", works, "penumbra init",
+      "*.mcap", "*.mcap", "is empty", "recording.yaml", "No such file"}},
+    {"tune",
+     {works, "calibrate", "penumbra cloud", works, works, "calibrate", "penumbra cloud",
+      "penumbra view", "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml",
+      "No such file"}},
+    {"calibrate",
+     {works, works, "penumbra cloud", works, works, works, "penumbra cloud", "penumbra view",
+      "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml", "No such file"}},
+    {"view-planning",
+     {works, works, "penumbra cloud", works, works, works, "penumbra cloud", "penumbra view",
+      "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml", "No such file"}},
+    {"look-ahead",
+     {works, works, "penumbra cloud", works, works, works, "penumbra cloud", "penumbra view",
+      "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml", "No such file"}},
+    {"cloud",
+     {"penumbra run", "penumbra run", works, "penumbra run", "penumbra run", "penumbra run", works,
+      "penumbra view", "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml",
+      "No such file"}},
+    {"play",
+     {"*.mcap", "*.mcap", "*.mcap", works, works, works, works, "*.mcap", "*.mcap", "*.mcap",
+      "*.mcap", "is empty", "*.mcap", "No such file"}},
+    {"init",
+     {"--force", "--force", "--force", "penumbra run", "penumbra run", "penumbra run",
+      "penumbra cloud", "images", works, "images", "images", "is a bag", "images", "images"}},
+    {"inspect",
+     {"name a file", "name a file", "name a file", "right file", "XML", "XML", "XML", "name a file",
+      "name a file", works, "XML", "XML", "name a file", "No such file"}},
+};
+
+class InputsTest : public testing::TestWithParam<std::string> {
+ protected:
+  InputsTest() {
+    fs::copy(example, path("recording"), fs::copy_options::recursive);
+    fs::copy(example, path("without_depth"), fs::copy_options::recursive);
+    edit_file(path("without_depth/recording.yaml"), "  depth: depth/%d.png", "  #");
+    fs::copy(example, path("images"), fs::copy_options::recursive);
+    fs::remove(path("images/recording.yaml"));
+    write_clouds();
+    write_bags();
+    EXPECT_EQ(penumbra({"run", path("recording"), "-o", path("results")}).status, 0);
+    write_file(path("notes.txt"), "a text\n");
+    write_file(path("empty.mcap"), "");
+    fs::create_directory(path("empty"));
+  }
+
+  void write_clouds() {
+    for (const char* folder : {"clouds/scans", "of_clouds"}) fs::create_directories(path(folder));
+    for (const char* folder : {"clouds", "of_clouds"}) write_tiny_recording(path(folder));
+    TinyBag bag = tiny_bag(path("of_clouds"));
+    add_clouds(bag);
+    for (const char* images : {"/camera/depth/image_rect_raw", "/camera/depth/camera_info",
+                               "/camera/color/image_raw/compressed"})
+      bag.remove(images);
+    bag.write_mcap(path("of_clouds/clouds.mcap"));
+    for (int i = 0; i < 3; ++i)
+      io::write_cloud(path("clouds/scans/" + std::to_string(i) + ".pcd"), FourPoints(i).message);
+    write_file(path("clouds/recording.yaml"),
+               "robot: {urdf: tiny.urdf}\nsensor: {parent: base, pose: camera_pose.csv}\n"
+               "frames: {joints: joint_states.csv, cloud: scans/%d.pcd}\n");
+  }
+
+  void write_bags() {
+    TinyBag bag = recording_bag(path("recording"), truth_);
+    bag.write_mcap(path("tf.mcap"));
+    TinyBag color = bag;
+    color.remove("/camera/depth/image");
+    color.rename("/camera/depth/camera_info", "/camera/color/camera_info");
+    color.write_mcap(path("no_depth.mcap"));
+    bag.remove("/camera/color/image");
+    bag.remove("/tf_static");
+    bag.write_mcap(path("no_pose.mcap"));
+  }
+
+  [[nodiscard]] fs::path path(const std::string& name) const { return folder_.path() / name; }
+  [[nodiscard]] bool is_bag(const std::string& kind) const { return kind.ends_with(".mcap"); }
+  /// Returns a new place for the results.
+  [[nodiscard]] fs::path out(const std::string& kind) const {
+    const bool is_file = GetParam() == "cloud" && is_bag(kind);
+    return path("out_" + fs::path(kind).stem().string() + (is_file ? ".mcap" : ""));
+  }
+
+  /// Returns the command line for an input.
+  [[nodiscard]] Words line(const std::string& kind, const Words& needed) const {
+    const std::string& command = GetParam();
+    Words words{command, path(kind)};
+    const auto add = [&](const Words& more) {
+      words.insert(words.end(), more.begin(), more.end());
+    };
+    if (command == "init" || command == "inspect") {
+      const fs::path description = path("images/arm_description");
+      if (kind != "results") add({"--package", "arm_description=" + description.string()});
+      return words;
+    }
+    if (command == "play") {
+      add({"--rate", "100", "--delay", "0"});
+      return words;
+    }
+    if (command != "view") add({"-o", out(kind)});
+    if (command == "calibrate" && kind == "without_depth") add({"--masks", "truth/%d.png"});
+    if (command == "calibrate" && kind == "no_depth.mcap")
+      add({"--masks", "recording/truth/%d.png"});
+    const fs::path targets = example / "../view_planning/targets.yaml";
+    if (command == "view-planning")
+      add({"--targets", targets, "--candidates", example / "../view_planning/candidates.csv"});
+    if (command == "look-ahead")
+      add({"--targets", targets, "--trajectory", example / "../look_ahead/sweep_left.csv"});
+    const std::map<std::string, Words> options = {
+        {"--package",
+         {"--package", "arm_description=" + path("recording/arm_description").string()}},
+        {"--pose", {"--pose", example / "camera_pose.csv", "--parent", "base_link"}},
+        {"--no-depth", {"--no-depth"}}};
+    for (const std::string& option : needed)
+      if (command != "cloud" || option != "--no-depth") add(options.at(option));
+    return words;
+  }
+
+  void expect_works(const std::string& kind, const Words& words) {
+    if (GetParam() == "view") return expect_view(kind, words);
+    const Outcome outcome = penumbra(words, {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const std::map<std::string, std::function<void()>> checks = {
+        {"run", [&] { expect_run(kind); }},
+        {"tune", [&] { expect_same("tune.json", "fringe", kind); }},
+        {"calibrate", [&] { expect_pose(kind); }},
+        {"view-planning", [&] { expect_same("view_planning.json", "candidates", kind); }},
+        {"look-ahead", [&] { expect_same("look_ahead.json", "motions", kind); }},
+        {"cloud", [&] { expect_clouds(kind); }},
+        {"play", [&] { expect_has(outcome.out, {"/joint_states"}); }},
+        {"init", [&] { EXPECT_TRUE(fs::exists(path(kind) / "recording.yaml")); }},
+        {"inspect", [&] { expect_has(outcome.out, {"forearm"}); }}};
+    checks.at(GetParam())();
+  }
+
+  void expect_run(const std::string& kind) {
+    const Json report = Json::parse(read_file(out(kind) / "report.json"));
+    const Json wanted = Json::parse(read_file(path("results/report.json")));
+    ASSERT_EQ(report["frames"].size(), example_frames);
+    for (std::size_t i = 0; i < example_frames; ++i) {
+      EXPECT_EQ(report["frames"][i]["status"], "ok");
+      EXPECT_EQ(report["frames"][i]["pixels"]["robot"], wanted["frames"][i]["pixels"]["robot"]);
+    }
+  }
+  /// A key of the report is that of the recording.
+  void expect_same(const std::string& file, const std::string& key, const std::string& kind) {
+    const Json found = Json::parse(read_file(out(kind) / file));
+    ASSERT_TRUE(found.contains(key)) << found;
+    if (first_.is_null()) first_ = found[key];
+    EXPECT_EQ(found[key], first_);
+  }
+  void expect_pose(const std::string& kind) {
+    const Eigen::Isometry3d found = io::read_pose_csv(out(kind) / "camera_pose.csv");
+    EXPECT_LT((found.translation() - truth_.translation()).norm(), near);
+  }
+  void expect_clouds(const std::string& kind) {
+    if (!is_bag(kind)) {
+      const io::StoredCloud read = io::read_cloud(out(kind) / "clouds/0.pcd");
+      EXPECT_EQ(numbers_of(read.cloud), (std::vector{1, 2}));
+      return;
+    }
+    std::map<std::string, int> messages;
+    const auto bag = io::open_bag(out(kind));
+    for (io::BagMessage message; bag->next(message);) ++messages[bag->topics()[message.topic].name];
+    EXPECT_EQ(messages["/penumbra/points"], 3);
+  }
+  void expect_view(const std::string& kind, const Words& words) {
+    const ViewerProcess viewer({words.begin() + 1, words.end()});
+    ASSERT_NE(viewer.port(), 0) << kind;
+    EXPECT_EQ(viewer.complete_session()["frames"], example_frames);
+  }
+
+  const Eigen::Isometry3d truth_ = io::read_pose_csv(example / "camera_pose.csv");
+  Json first_;
+  TemporaryFolder folder_;
+};
+
+TEST_P(InputsTest, WorkOrAreRefusedWithARemedy) {
+  const Words& row = table.at(GetParam());
+  ASSERT_EQ(row.size(), kinds.size()) << "an empty cell";
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const auto& [kind, options] = kinds[i];
+    SCOPED_TRACE(GetParam() + " " + kind);
+    const Words words = line(kind, options);
+    if (row[i] == works)
+      expect_works(kind, words);
+    else
+      expect_refused(penumbra(words), {path(kind).filename().string(), row[i]});
+  }
+  if (row[no_pose] != works || GetParam() == "play") return;
+  expect_refused(penumbra(line(kinds[no_pose].first, {"--package"})),
+                 {"no_pose.mcap", "no tf", "--pose and --parent"});
+  expect_refused(penumbra(line(kinds[no_pose + 1].first, {"--package"})),
+                 {"no_depth.mcap", "--no-depth", "but tune"});
+}
+
+INSTANTIATE_TEST_SUITE_P(Command, InputsTest, testing::ValuesIn([] {
+                           Words commands;
+                           for (const auto& [command, row] : table) commands.push_back(command);
+                           return commands;
+                         }()),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(Inputs, EveryCommandThatTakesOneIsInTheTable) {
+  std::set<std::string> known{"render", "doctor", "simulate", "topics", "live"};  // take none
+  for (const auto& [command, row] : table) known.insert(command);
+  const std::string help = penumbra({"--help"}).out;
+  std::istringstream lines(help.substr(help.find("ubcommands")));
+  std::size_t found = 0;
+  for (std::string line; std::getline(lines, line) && line.find("xamples") == std::string::npos;) {
+    if (!line.starts_with("  ") || line[2] == ' ') continue;
+    const std::string command = line.substr(2, line.find(' ', 2) - 2);
+    EXPECT_TRUE(known.contains(command)) << command;
+    ++found;
+  }
+  EXPECT_EQ(found, known.size()) << help;
+}
+
+}  // namespace
+}  // namespace penumbra::test
