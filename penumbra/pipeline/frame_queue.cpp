@@ -119,9 +119,9 @@ bool FrameQueue::is_over(const Waiting& waiting, std::int64_t max_wait) const {
          stamp_distance(waiting.arrived, now_) >= static_cast<std::uint64_t>(max_wait);
 }
 
-/// Whether states of an uncertain robot may still come in time. A robot that has been silent for
+/// Whether states of uncertain links may still come in time. What has been silent for
 /// max_wait does not delay the others.
-bool FrameQueue::awaits_robot(std::int64_t at) const {
+bool FrameQueue::awaits_links(std::int64_t at) const {
   const auto since = lookup_.late_since();
   return since &&
          stamp_distance(std::max(*since, *first_), at) <= static_cast<std::uint64_t>(max_wait_);
@@ -143,7 +143,7 @@ void FrameQueue::find_pose(Waiting& waiting) {
   RobotPose& pose = waiting.frame->pose;
   lookup_.at(history_, at, pose);
   waiting.has_result = over || pose.status == FrameStatus::poses_disagree ||
-                       (has_pose(pose.status) && !awaits_robot(at));
+                       (has_pose(pose.status) && !awaits_links(at));
 }
 
 std::optional<std::int64_t> FrameQueue::wake_at() const {

@@ -57,9 +57,9 @@ enum class Companions {
 };
 
 /// Holds depth images until the joint states or transforms around their stamps have arrived. Never
-/// extrapolates: a frame is returned with its pose, or after max_wait with the status. A robot
-/// (Robot::join) that is uncertain is awaited as well, unless its last state is older than the
-/// image by more than max_wait.
+/// extrapolates: a frame is returned with its pose, or after max_wait with the status. Links that
+/// are uncertain are awaited as well, unless their last state is older than the image by more than
+/// max_wait.
 ///
 /// Each frame comes back once: from next(), or by OnDrop. It may be of a class derived from Frame.
 /// Times `now` are nanoseconds of any clock (log times of a bag, a steady clock); if it goes back,
@@ -116,7 +116,7 @@ class FrameQueue {
   [[nodiscard]] Companions decide(Waiting& waiting);
   void find_pose(Waiting& waiting);
   [[nodiscard]] bool is_over(const Waiting& waiting, std::int64_t max_wait) const;
-  [[nodiscard]] bool awaits_robot(std::int64_t at) const;
+  [[nodiscard]] bool awaits_links(std::int64_t at) const;
 
   PoseHistory& history_;
   FrameQueueOptions options_;
