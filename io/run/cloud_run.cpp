@@ -196,16 +196,17 @@ ResultFolderOptions RecordedRun::results() const {
   std::error_code error;
   if (fs::equivalent(clouds, recording_.clouds.file(0).parent_path(), error))
     throw InputError("--output: " + clouds.string() + " holds the input; choose another folder");
+  const FramePattern own = recording_.clouds.moved_to(clouds);
   ResultFolderOptions results{
       .path = options_.output,
       .report = {"report.json", json_begin},
-      .frames = {{recording_.clouds.moved_to(clouds)}},
+      .frames = {{own}},
       .force = options_.force,
       .advice = "choose another folder with -o, or write into this one with --force"};
   if (options_.force || !fs::is_directory(clouds, error)) return results;
   for (const auto& entry : fs::directory_iterator(clouds, error)) {
     const fs::path name = entry.path().filename();
-    if (is_cloud_file(name) && !results.frames[0].pattern.makes(name.string()))
+    if (is_cloud_file(name) && !own.makes(name.string()))
       throw InputError(entry.path().string() +
                        ": is no cloud of this recording; move it away, or " + results.advice);
   }

