@@ -150,6 +150,7 @@ class RobotInput {
   /// Return when the last joint state and transform arrived, on the caller's clock.
   [[nodiscard]] std::optional<std::int64_t> last_joints() const { return last_joints_; }
   [[nodiscard]] std::optional<std::int64_t> last_transforms() const { return last_transforms_; }
+  [[nodiscard]] std::int64_t last_stamp() const { return last_stamp_; }  ///< of its states
   /// Returns when the last joint state arrived that had a position of this robot.
   [[nodiscard]] std::optional<std::int64_t> last_used_joints() const { return last_used_joints_; }
   /// Returns why the last unused joint state was not used.

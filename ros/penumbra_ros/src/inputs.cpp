@@ -66,7 +66,8 @@ Inputs::Inputs(rclcpp_lifecycle::LifecycleNode& node, penumbra::io::LiveRunner& 
     : node_(node), runner_(runner) {
   runner.with_inbox([&](const penumbra::io::LiveInbox& inbox) {
     for (const penumbra::io::InputTopic& topic : inbox.topics())
-      links_.push_back({.topic = topic, .subscription = nullptr, .scene = nullptr, .state = {}});
+      links_.push_back(
+          {.topic = topic, .subscription = nullptr, .scene = nullptr, .question = {}, .state = {}});
     return true;
   });
   for (Link& link : links_) {
@@ -76,39 +77,34 @@ Inputs::Inputs(rclcpp_lifecycle::LifecycleNode& node, penumbra::io::LiveRunner& 
   }
 }
 
-/// Returns the number of messages of what is attached.
-std::size_t Inputs::attached_received() {
-  return runner_.with_inbox([&](const penumbra::io::LiveInbox& inbox) {
-    std::size_t received = 0;
-    for (std::size_t i = 0; i < links_.size(); ++i)
-      if (links_[i].topic.role == TopicRole::attached) received += inbox.received()[i];
-    return received;
-  });
-}
-
 void Inputs::ask_for_scene(std::size_t topic) {
   Link& link = links_[topic];
-  if (!link.scene->service_is_ready()) link.is_asked = false;
+  const auto last_stamp = [this] {
+    return runner_.with_inbox(
+        [](const penumbra::io::LiveInbox& inbox) { return inbox.robot().last_stamp(); });
+  };
   const bool has_robot = runner_.with_inbox(
       [](const penumbra::io::LiveInbox& inbox) { return inbox.robot().posed() != nullptr; });
-  if (link.is_asked || !has_robot || !link.scene->service_is_ready()) return;
-  link.is_asked = true;
+  const std::int64_t now = penumbra::io::LiveRunner::steady_now();
+  if (!has_robot || !link.question.is_due(now)) return;
+  link.scene->prune_pending_requests();  // an answer that comes late is of another question
+  link.question.ask(now, last_stamp());
   using Components = moveit_msgs::msg::PlanningSceneComponents;
   const auto request = std::make_shared<GetPlanningScene::Request>();
   request->components.components = Components::ROBOT_STATE |
                                    Components::ROBOT_STATE_ATTACHED_OBJECTS |
                                    Components::WORLD_OBJECT_GEOMETRY;
-  const auto take = [this, topic, before = attached_received()](
-                        rclcpp::Client<GetPlanningScene>::SharedFuture answer) {
-    if (attached_received() != before) {  // the answer may be older than what came meanwhile
-      links_[topic].is_asked = false;
-      return;
-    }
+  const auto take = [this, topic,
+                     last_stamp](rclcpp::Client<GetPlanningScene>::SharedFuture answer) {
+    const auto from = links_[topic].question.answer(last_stamp());
+    if (!from) return;
+    moveit_msgs::msg::PlanningScene& scene = answer.get()->scene;
+    scene.robot_state.joint_state.header.stamp = rclcpp::Time(*from);
+    for (auto& attached : scene.robot_state.attached_collision_objects)
+      attached.object.header.stamp = rclcpp::Time(*from);
     const auto bytes = std::make_shared<rclcpp::SerializedMessage>();
-    rclcpp::Serialization<moveit_msgs::msg::PlanningScene>().serialize_message(&answer.get()->scene,
-                                                                               bytes.get());
+    rclcpp::Serialization<moveit_msgs::msg::PlanningScene>().serialize_message(&scene, bytes.get());
     runner_.receive(topic, {bytes_of(*bytes), bytes, 0});
-    links_[topic].is_answered = true;
   };
   link.scene->async_send_request(request, take);
 }
@@ -124,6 +120,7 @@ void Inputs::find_publishers(std::size_t topic) {
   if (!publishers.empty() && is_reliable != link.is_reliable) {
     link.is_reliable = is_reliable;
     link.subscription.reset();
+    link.state.refused_because.clear();
   }
   const auto types = penumbra::io::LiveInbox::types_of(link.topic.role);
   if (link.topic.type.empty() && std::find(types.begin(), types.end(), published) != types.end()) {
@@ -135,18 +132,33 @@ void Inputs::find_publishers(std::size_t topic) {
   }
   link.has_publisher = !publishers.empty();
   link.state.other_type = published == link.topic.type ? "" : published;
+  link.state.other_topic =
+      link.has_publisher ? "" : penumbra::io::other_topic(link.topic, [&](const std::string& name) {
+        return node_.count_publishers(name) > 0;
+      });
 }
 
 bool Inputs::waits_for_scene() const {
   return std::any_of(links_.begin(), links_.end(), [](const Link& link) {
-    return link.scene && !link.is_answered && link.scene->service_is_ready();
+    return link.scene && link.question.waits(link.scene->service_is_ready());
   });
 }
 
+/// Images that come between a service and the next follow() are not taken, either.
+bool Inputs::takes(std::size_t topic) const {
+  return !is_image(links_[topic].topic.role) || !waits_for_scene();
+}
+
 void Inputs::follow(bool with_color, bool enabled) {
-  const bool takes_images = enabled && !waits_for_scene();
   for (std::size_t i = 0; i < links_.size(); ++i) {
     find_publishers(i);
+    Link& link = links_[i];
+    if (link.scene)
+      link.question.follow(link.scene->service_is_ready(), link.has_publisher,
+                           penumbra::io::LiveRunner::steady_now());
+  }
+  const bool takes_images = enabled && !waits_for_scene();
+  for (std::size_t i = 0; i < links_.size(); ++i) {
     Link& link = links_[i];
     const TopicRole role = link.topic.role;
     const bool is_known = !is_generic(role) || link.has_publisher;
@@ -200,7 +212,7 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_serialised(std::size_t top
       links_[topic].topic.name, qos_of(topic),
       [this, topic](std::shared_ptr<const rclcpp::SerializedMessage> message,
                     const rclcpp::MessageInfo& info) {
-        runner_.receive(topic, {bytes_of(*message), message, publisher_of(info)});
+        if (takes(topic)) runner_.receive(topic, {bytes_of(*message), message, publisher_of(info)});
       },
       options);
 }
@@ -230,7 +242,7 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_generic(std::size_t topic)
     return node_.create_generic_subscription(
         of.name, of.type, qos_of(topic),
         [this, topic](std::shared_ptr<const rclcpp::SerializedMessage> message) {
-          runner_.receive(topic, {bytes_of(*message), message, 0});
+          if (takes(topic)) runner_.receive(topic, {bytes_of(*message), message, 0});
         });
   } catch (const std::exception& error) {
     RCLCPP_WARN_ONCE(node_.get_logger(), "its messages are not known: %s: %s", of.name.c_str(),
@@ -244,7 +256,7 @@ rclcpp::SubscriptionBase::SharedPtr Inputs::subscribe_images(std::size_t topic) 
   return node_.create_subscription<Image>(
       links_[topic].topic.name, qos_of(topic),
       [this, topic](Image::ConstSharedPtr image) {
-        runner_.receive(topic, image_message(*image), image);
+        if (takes(topic)) runner_.receive(topic, image_message(*image), image);
       },
       options_of(topic));
 }

@@ -10,6 +10,7 @@
 
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/live_runner.hpp>
+#include <io/live/scene_question.hpp>
 
 namespace penumbra_ros {
 
@@ -21,8 +22,7 @@ class Inputs {
 
   /// Subscribes to what is needed now: target topics once their type is known, colour images if
   /// `with_color`, depth images and clouds if `enabled`. Reliable where all publishers offer that:
-  /// of large images most are lost otherwise. Asks MoveIt for its planning scene when its
-  /// service appears, because MoveIt publishes changes only; images wait for the first answer.
+  /// of large images most are lost otherwise. Asks MoveIt for its planning scene (SceneQuestion).
   void follow(bool with_color, bool enabled);
   /// Returns whether MoveIt has not said yet what is attached.
   [[nodiscard]] bool waits_for_scene() const;
@@ -37,14 +37,13 @@ class Inputs {
     bool is_reliable = false;                          // all of its publishers are
     bool has_publisher = false;
     rclcpp::Client<moveit_msgs::srv::GetPlanningScene>::SharedPtr scene;  // of planning scenes
-    bool is_asked = false;                                                // the scene's service
-    bool is_answered = false;                                             // once
+    penumbra::io::SceneQuestion question;                                 // likewise
     penumbra::io::LiveLink state;
   };
 
   void find_publishers(std::size_t topic);
   void ask_for_scene(std::size_t topic);
-  [[nodiscard]] std::size_t attached_received();
+  [[nodiscard]] bool takes(std::size_t topic) const;
   [[nodiscard]] rclcpp::SubscriptionBase::SharedPtr subscribe(std::size_t topic);
   template <typename M>
   rclcpp::SubscriptionBase::SharedPtr subscribe_latched(std::size_t topic);

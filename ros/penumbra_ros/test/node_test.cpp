@@ -361,6 +361,15 @@ TEST_F(NodeTest, WhatWasAttachedBeforeIsAskedForWheneverMoveItComes) {
   EXPECT_TRUE(spin_until([&] { return robot_pixels() == arm; })) << next.asked;
 }
 
+TEST_F(NodeTest, MoveItIsAskedAgainIfItsAnswerIsLostAndMayPublishMeanwhile) {
+  MoveIt moveit(true);
+  moveit.lost = 1;
+  moveit.is_busy = true;
+  executor_->add_node(moveit.node);
+  start();
+  EXPECT_EQ(moveit.asked, 2);
+}
+
 TEST_F(NodeTest, NothingIsJudgedBeforeMoveItSaysWhatIsAttached) {
   MoveIt moveit(true);
   executor_->add_node(moveit.node);
