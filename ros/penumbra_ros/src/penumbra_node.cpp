@@ -2,11 +2,15 @@
 #include "penumbra_node.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 
 #include <lifecycle_msgs/msg/state.hpp>
 #include <rclcpp_components/register_node_macro.hpp>
+
+#include <penumbra/base/error.hpp>
 
 namespace penumbra_ros {
 namespace {
@@ -25,17 +29,24 @@ const DiagnosticStatusMessage* subject_of(const penumbra::io::DiagnosticArrayMes
   return nullptr;
 }
 
+/// Returns the names without those of cameras before them.
+std::set<std::string> last_parts_of(const std::map<std::string, bool>& parameters) {
+  std::set<std::string> names;
+  for (const auto& [name, can_change] : parameters) names.insert(name.substr(name.rfind('.') + 1));
+  return names;
+}
+
 }  // namespace
 
 PenumbraNode::PenumbraNode(const rclcpp::NodeOptions& options)
-    : LifecycleNode("penumbra", options), settings_(declare_settings(*this)), updater_(this) {
+    : LifecycleNode("penumbra", options), settings_(read_settings(*this)), updater_(this) {
   updater_.setHardwareID(get_fully_qualified_name());
   add_diagnostics();
   on_change_ = add_on_set_parameters_callback(
       [this](const std::vector<rclcpp::Parameter>& changes) { return change(changes); });
   warn_of_unknown_parameters();
   if (settings_.autostart) {
-    configure();  // logs an exception, and goes on
+    configure();  // logs a fault, and goes on
     if (activate().id() != lifecycle_msgs::msg::State::PRIMARY_STATE_ACTIVE)
       throw std::runtime_error("the node could not be configured: see the message above");
   }
@@ -51,10 +62,20 @@ PenumbraNode::~PenumbraNode() {
 }
 
 PenumbraNode::CallbackReturn PenumbraNode::on_configure(const rclcpp_lifecycle::State& /*former*/) {
+  try {
+    settings_ = read_settings(*this);
+  } catch (const std::exception& error) {
+    RCLCPP_ERROR(get_logger(), "%s", error.what());
+    return CallbackReturn::FAILURE;
+  }
+  add_diagnostics();
   make_outputs();
   inputs_ = std::make_unique<Inputs>(*this, *runner_);
-  diagnostics_.emplace(LiveRunner::steady_now(),
-                       penumbra::io::DiagnosticSource{.name = get_name()});
+  diagnostics_.emplace(
+      LiveRunner::steady_now(),
+      penumbra::io::DiagnosticSource{.name = get_name(),
+                                     .how_to_forget = "call ~/reset to forget the former",
+                                     .parameters = last_parts_of(settings_.parameters)});
   reset_ = create_service<Trigger>(
       "~/reset", [this](const Trigger::Request::SharedPtr, Trigger::Response::SharedPtr response) {
         runner_->forget();
@@ -149,13 +170,17 @@ void PenumbraNode::fuse() {
   runner_->fuse(*fusion_);
 }
 
-/// Adds the robot, the cameras and the clouds, in the order of LiveDiagnostics.
+/// Adds the robot, the cameras and the clouds, in the order of LiveDiagnostics, in place of former
+/// ones.
 void PenumbraNode::add_diagnostics() {
   std::vector<std::string> names{"robot"};
   for (const penumbra::io::CameraInputOptions& camera : settings_.live.cameras)
     names.push_back(camera.name.empty() ? "camera" : "camera " + camera.name);
   for (const penumbra::io::CloudInputOptions& cloud : settings_.live.clouds)
     names.push_back("cloud " + cloud.topic);
+  if (names == subjects_) return;
+  for (const std::string& former : subjects_) updater_.removeByName(former);
+  subjects_ = names;
   for (std::size_t i = 0; i < names.size(); ++i)
     updater_.add(names[i], [this, i](auto& status) { report(status, i); });
 }
@@ -180,6 +205,12 @@ void PenumbraNode::warn_of_unknown_parameters() {
 rcl_interfaces::msg::SetParametersResult PenumbraNode::change(const Changes& changes) {
   rcl_interfaces::msg::SetParametersResult result;
   try {
+    for (const rclcpp::Parameter& parameter : changes) {
+      const auto found = settings_.parameters.find(parameter.get_name());
+      if (runner_ && found != settings_.parameters.end() && !found->second)
+        throw penumbra::InputError("parameter '" + found->first +
+                                   "' is read when the node is configured: clean it up before");
+    }
     const penumbra::LabelRule rule = read_rule(*this, changes);
     settings_.publish = read_publish(*this, changes);
     settings_.pipeline.rule = rule;  // both are kept, or none

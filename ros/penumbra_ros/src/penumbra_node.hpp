@@ -22,8 +22,8 @@
 
 namespace penumbra_ros {
 
-/// Labels the depth images of cameras, and the clouds of other sensors. Configured, it loads the
-/// robot and follows its pose; active, it takes images and clouds.
+/// Labels the depth images of cameras, and the clouds of other sensors. Configured, it has read its
+/// parameters, loads the robot and follows its pose; active, it takes images and clouds.
 class PenumbraNode final : public rclcpp_lifecycle::LifecycleNode {
  public:
   /// Configures and activates itself, unless the parameter `autostart` is false. Throws an
@@ -53,6 +53,7 @@ class PenumbraNode final : public rclcpp_lifecycle::LifecycleNode {
   void add_diagnostics();
 
   Settings settings_;
+  std::vector<std::string> subjects_;  // of the diagnostics
   // While configured:
   rclcpp::Node::SharedPtr images_;
   std::vector<std::unique_ptr<Outputs>> outputs_;      // of each camera

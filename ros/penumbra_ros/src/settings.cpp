@@ -27,22 +27,23 @@ using Texts = std::vector<std::string>;
 
 constexpr bool changeable = true;
 
-/// Declares parameters. They are read-only if they are not declared as `changeable`.
+/// Reads parameters and declares those that are not declared. While the node is configured, only
+/// those that are declared as `changeable` can change.
 class Declaration {
  public:
   /// `before`: of the names.
-  explicit Declaration(rclcpp_lifecycle::LifecycleNode& node, std::string before = "")
-      : node_(node), before_(std::move(before)) {}
+  Declaration(rclcpp_lifecycle::LifecycleNode& node, Settings& settings, std::string before = "")
+      : node_(node), settings_(settings), before_(std::move(before)) {}
 
   template <typename T>
   T operator()(const std::string& name, const T& value, const std::string& description,
                bool can_change = false) {
-    return node_.declare_parameter(before_ + name, value, descriptor(description, can_change));
+    return read(name, value, descriptor(description), can_change);
   }
   template <typename T>
   T number(const std::string& name, T value, T least, T most, const std::string& description,
            bool can_change = false) {
-    ParameterDescriptor described = descriptor(description, can_change);
+    ParameterDescriptor described = descriptor(description);
     const auto limit = [&](auto& ranges) {
       ranges.resize(1);
       ranges[0].from_value = least;
@@ -52,16 +53,16 @@ class Declaration {
       limit(described.integer_range);
     else
       limit(described.floating_point_range);
-    return node_.declare_parameter(before_ + name, value, described);
+    return read(name, value, described, can_change);
   }
   template <typename T>
   T choice(const std::string& name, const std::string& value, const std::map<std::string, T>& of,
            const std::string& description) {
-    ParameterDescriptor described = descriptor(description, false);
+    ParameterDescriptor described = descriptor(description);
     for (const auto& [text, meaning] : of)
       described.additional_constraints +=
           (described.additional_constraints.empty() ? "one of " : ", ") + text;
-    const auto text = node_.declare_parameter(before_ + name, value, described);
+    const auto text = read(name, value, described, false);
     const auto found = of.find(text);
     if (found == of.end())
       throw InputError("parameter '" + before_ + name + "' is '" + text + "'; it must be " +
@@ -82,14 +83,22 @@ class Declaration {
   }
 
  private:
-  static ParameterDescriptor descriptor(const std::string& description, bool can_change) {
+  static ParameterDescriptor descriptor(const std::string& description) {
     ParameterDescriptor described;
     described.description = description;
-    described.read_only = !can_change;
     return described;
+  }
+  template <typename T>
+  T read(const std::string& name, const T& value, const ParameterDescriptor& described,
+         bool can_change) {
+    settings_.parameters[before_ + name] = can_change;
+    if (!node_.has_parameter(before_ + name))
+      return node_.declare_parameter(before_ + name, value, described);
+    return node_.get_parameter(before_ + name).get_value<T>();
   }
 
   rclcpp_lifecycle::LifecycleNode& node_;
+  Settings& settings_;
   std::string before_;
 };
 
@@ -255,20 +264,20 @@ bool declare_camera(rclcpp_lifecycle::LifecycleNode& node, Declaration& declare,
 }
 
 void declare_cameras(rclcpp_lifecycle::LifecycleNode& node,
-                     const penumbra::io::CameraInputOptions& common,
-                     std::vector<penumbra::io::CameraInputOptions>& cameras, bool has_clouds) {
+                     const penumbra::io::CameraInputOptions& common, Settings& settings) {
+  auto& cameras = settings.live.cameras;
   const std::set<std::string> names = cameras_of(node);
   for (const std::string& name : names) {
-    Declaration declare(node, "cameras." + name + ".");
+    Declaration declare(node, settings, "cameras." + name + ".");
     cameras.push_back(common);
     cameras.back().name = name;
     if (!declare_camera(node, declare, "", cameras.back()))
       throw InputError("parameter 'cameras." + name + ".depth_topic' is missing");
   }
   if (!names.empty()) return;
-  Declaration declare(node);
+  Declaration declare(node, settings);
   penumbra::io::CameraInputOptions camera = common;
-  if (declare_camera(node, declare, has_clouds ? "" : "depth/image", camera))
+  if (declare_camera(node, declare, settings.live.clouds.empty() ? "depth/image" : "", camera))
     cameras.push_back(camera);
 }
 
@@ -362,14 +371,14 @@ std::set<std::string> read_publish(const rclcpp_lifecycle::LifecycleNode& node,
   return {names.begin(), names.end()};
 }
 
-Settings declare_settings(rclcpp_lifecycle::LifecycleNode& node) {
-  Declaration declare(node);
+Settings read_settings(rclcpp_lifecycle::LifecycleNode& node) {
   Settings settings;
+  Declaration declare(node, settings);
   settings.live.robot.robot = declare_robot(declare);
   declare_topics(node, declare, settings.live);
   const penumbra::io::CameraInputOptions common = declare_poses(declare, settings.live);
   declare_clouds(node, declare, common, settings);
-  declare_cameras(node, common, settings.live.cameras, !settings.live.clouds.empty());
+  declare_cameras(node, common, settings);
   check_names(node, settings);
   const auto urdf = declare("robot", std::string(), "URDF file, in place of robot_description");
   if (!urdf.empty())

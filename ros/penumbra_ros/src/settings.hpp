@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -21,10 +22,13 @@ struct Settings {
   std::set<std::string> publish;  ///< names of results
   bool target_frames = false;     ///< publishes targets in TF
   bool autostart = true;          ///< the node configures and activates itself
+  /// Names of all, and whether they can change while the node is configured.
+  std::map<std::string, bool> parameters;
 };
 
-/// Declares the parameters and reads them. Throws an exception whose message names the parameter.
-[[nodiscard]] Settings declare_settings(rclcpp_lifecycle::LifecycleNode& node);
+/// Reads the parameters; declares those that are not declared. Throws an exception whose message
+/// names the parameter.
+[[nodiscard]] Settings read_settings(rclcpp_lifecycle::LifecycleNode& node);
 
 /// Return these parameters with the values of `changes`, or the node's for those that are not in
 /// it. Throw penumbra::InputError for invalid values.

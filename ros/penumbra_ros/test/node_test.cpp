@@ -160,7 +160,7 @@ TEST_F(NodeTest, RuleAndResultsChangeWhileItRuns) {
   EXPECT_FALSE(node_->set_parameter({"tolerance", std::vector<double>{0.2}}).successful);
   EXPECT_FALSE(node_->set_parameter({"front_min_width", 1000}).successful);
   EXPECT_FALSE(node_->set_parameter({"sensor", "eye"}).successful);
-  EXPECT_FALSE(node_->set_parameter({"geometry", "visual"}).successful) << "read-only";
+  EXPECT_FALSE(node_->set_parameter({"geometry", "visual"}).successful) << "it is configured";
   EXPECT_FALSE(node_
                    ->set_parameters_atomically({{"tolerance", std::vector<double>{0.01, 0, 0}},
                                                 {"publish", std::vector<std::string>{"label"}}})
@@ -200,6 +200,22 @@ TEST_F(NodeTest, HasALifecycle) {
 
   const PenumbraNode waiting(options({{"autostart", false}}));
   EXPECT_EQ(waiting.get_current_state().id(), State::PRIMARY_STATE_UNCONFIGURED);
+}
+
+TEST_F(NodeTest, ReadsItsParametersWhenItIsConfigured) {
+  using lifecycle_msgs::msg::State;
+  start();
+  EXPECT_FALSE(node_->set_parameter({"depth_topic", "/other"}).successful);
+  node_->deactivate();
+  EXPECT_FALSE(node_->set_parameter({"depth_topic", "/other"}).successful);
+  node_->cleanup();
+  EXPECT_TRUE(node_->set_parameter({"depth_topic", "/other"}).successful);
+  EXPECT_TRUE(node_->set_parameter({"poses", "none"}).successful);
+  EXPECT_EQ(node_->configure().id(), State::PRIMARY_STATE_UNCONFIGURED) << "there is no such value";
+  EXPECT_TRUE(node_->set_parameter({"poses", "joints"}).successful);
+  EXPECT_EQ(node_->configure().id(), State::PRIMARY_STATE_INACTIVE);
+  EXPECT_EQ(node_->activate().id(), State::PRIMARY_STATE_ACTIVE);
+  EXPECT_TRUE(spin_until([&] { return player_->node->count_subscribers("/other") == 1; }));
 }
 
 /// Moves the arm's first joint to an angle in two seconds.
@@ -317,7 +333,7 @@ class AddressWatcher final : public penumbra::io::FrameWatcher, public penumbra:
 TEST_F(NodeTest, DepthOfTheSameProcessIsNotCopied) {
   Player player(example, true);
   const auto node = std::make_shared<rclcpp_lifecycle::LifecycleNode>("penumbra", options());
-  const Settings settings = declare_settings(*node);
+  const Settings settings = read_settings(*node);
   AddressWatcher watcher;
   penumbra::io::LiveRunner runner(settings.live, settings.pipeline, {&watcher});
   runner.watch(0, watcher);
