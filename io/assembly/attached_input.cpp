@@ -101,13 +101,6 @@ void detach(std::int64_t stamp, std::int64_t now, const std::string& name, Attac
   to.detach(is_early ? std::max(now, *last) : stamp, name);
 }
 
-/// Attaches a body. One that was removed after the stamp is attached again from `now` on.
-void attach(std::int64_t stamp, std::int64_t now, const AttachedBody& body, Attachments& to) {
-  to.attach(stamp, body);
-  const std::int64_t last = *to.last_change(body.name);
-  if (!find_attached(to, last, body.name)) to.attach(std::max(now, last), body);
-}
-
 /// Returns T_link_frame. A frame may be a link of the same robot or the root of all.
 Eigen::Isometry3d pose_of_frame(const std::string& frame, const std::string& link,
                                 const std::string& prefix, std::int64_t stamp,
@@ -156,9 +149,24 @@ void AttachedInput::follow_world(const CollisionObjectMessage& object, const std
     world_[prefix + object.id] = object;
 }
 
+/// One that was removed after the message's stamp is attached again from `now` on.
 std::string AttachedInput::take(const AttachedObjectMessage& message, std::int64_t now,
                                 Attachments& to, const std::string& robot,
                                 const PosedRobot* posed) {
+  std::string fault = change(message, now, to, robot, posed);
+  const CollisionObjectMessage& object = message.object;
+  const std::string name = (robot.empty() ? "" : robot + "/") + object.id;
+  const auto last = to.last_change(name);
+  if (object.operation != CollisionObjectMessage::add || !last || find_attached(to, *last, name))
+    return fault;
+  AttachedObjectMessage again = message;
+  again.object.header.stamp = std::max(now, *last);
+  return change(again, now, to, robot, posed);
+}
+
+std::string AttachedInput::change(const AttachedObjectMessage& message, std::int64_t now,
+                                  Attachments& to, const std::string& robot,
+                                  const PosedRobot* posed) {
   const std::string prefix = robot.empty() ? "" : robot + "/";
   const CollisionObjectMessage& object = message.object;
   const std::int64_t stamp = object.header.stamp > 0 ? object.header.stamp : now;
@@ -194,7 +202,7 @@ std::string AttachedInput::take(const AttachedObjectMessage& message, std::int64
   const std::string fault =
       body.reason.empty() ? ""
                           : "object '" + printable(object.id) + "' is not drawn: " + body.reason;
-  attach(stamp, now, body, to);
+  to.attach(stamp, std::move(body));
   return fault;
 }
 
@@ -211,7 +219,7 @@ std::string AttachedInput::take(const PlanningSceneMessage& message, std::int64_
     for (const auto& body : attached_to(prefix, {}, stamp, to)) to.detach(stamp, body.name);
   std::string fault;
   for (const AttachedObjectMessage& attached : state.attached)
-    if (std::string one = take(attached, stamp, to, robot, posed); !one.empty())
+    if (std::string one = change(attached, stamp, to, robot, posed); !one.empty())
       fault = std::move(one);
   for (const CollisionObjectMessage& object : message.world.objects) follow_world(object, prefix);
   return fault;

@@ -17,7 +17,8 @@ namespace penumbra::io {
 struct PosedRobot;
 
 /// Reads what MoveIt attaches to a robot. A message holds from the stamp of its object on, else of
-/// the robot's state in it, else from `now`, the last stamp received.
+/// the robot's state in it, else from `now`, the last stamp received. Something attached or removed
+/// with a stamp before its last change is so from `now` on.
 ///
 /// A message may name an object without its shape. Then the object keeps the shape with which it is
 /// attached, else it has that of the world's object of that name, else that of the next message.
@@ -38,6 +39,8 @@ class AttachedInput {
                    const std::string& robot = {}, const PosedRobot* posed = nullptr);
 
  private:
+  std::string change(const AttachedObjectMessage& message, std::int64_t now, Attachments& to,
+                     const std::string& robot, const PosedRobot* posed);
   [[nodiscard]] std::shared_ptr<const PreparedMesh> prepared(TriangleMesh mesh);
   void follow_world(const CollisionObjectMessage& object, const std::string& prefix);
 

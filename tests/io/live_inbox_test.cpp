@@ -391,6 +391,13 @@ TEST_F(LiveInboxTest, WhatIsDetachedAndAttachedWithOldStampsHoldsFromNowOn) {
     publish(now + milliseconds, Object::remove, "part");
     EXPECT_LT(next(), bare + least);
   }
+  // A scene that is late, as the answer to a question, says what was attached then.
+  io::PlanningSceneMessage scene;
+  scene.robot_state.joints.header.stamp = start;
+  scene.robot_state.joints.names = {"spin"};
+  scene.robot_state.attached = {part};
+  bench_.publish("/monitored_planning_scene", encoded(scene));
+  EXPECT_LT(next(), bare + least);
 }
 
 TEST_F(LiveInboxTest, ImagesOfAnotherSizeAreBadDepth) {
