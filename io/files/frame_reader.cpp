@@ -134,6 +134,7 @@ RobotPose pose_of(const JointRow& row, const Robot& robot, std::size_t camera_pa
   if (row.fault.empty()) return pose;
   if (row.unknown.empty() || !leave_out(row.unknown, robot, camera_parent, pose)) {
     pose.positions.clear();
+    pose.age.reset();
     pose.status = FrameStatus::missing_joints;
     pose.message = row.fault;
   }

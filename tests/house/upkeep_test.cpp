@@ -13,9 +13,6 @@
 namespace penumbra::test {
 namespace {
 
-constexpr std::size_t long_file = 400;      // lines: worth a look
-constexpr std::size_t too_long_file = 500;  // lines: wants splitting
-
 const std::vector<std::string>& code_folders() {
   static const std::vector<std::string> folders{
       "penumbra", "io",      "sim",   "apps", "research", "examples", "tests",
@@ -43,16 +40,6 @@ TEST(Upkeep, EveryFileNamesItsLicence) {
     const std::string& line = file.lines[script ? 1 : 0];
     const std::string mark = file.is_cpp() || file.ends_with(".hpp.in") ? "//" : "#";
     EXPECT_EQ(line, mark + " SPDX-License-Identifier: Apache-2.0") << file.path;
-  }
-}
-
-TEST(Upkeep, FilesAreShort) {
-  for (const auto& file : source_files(code_folders(), {".cpp", ".hpp", ".sh", ".py"})) {
-    const auto lines = file.lines.size();
-    if (lines > long_file) std::cout << file.path << ": " << lines << " lines\n";
-    // A kernel is one source, compiled once for each SIMD target.
-    const bool kernel = file.ends_with("/kernel.cpp");
-    EXPECT_LE(lines, kernel ? 2 * too_long_file : too_long_file) << file.path;
   }
 }
 
