@@ -21,8 +21,8 @@ namespace penumbra {
 using DepthImage = std::variant<Image<std::uint16_t>, Image<float>>;
 
 /// Copies the report's depth without the robot. Pixels that are not labelled clear or front become
-/// 0 (uint16) or NaN (float32), and so do all pixels of a frame without depth. `out` gets the size of the labels and the type of the depth; without depth it
-/// keeps its type.
+/// 0 (uint16) or NaN (float32), and so do all pixels of a frame without depth. `out` gets the size
+/// of the labels and the type of the depth; without depth it keeps its type.
 void without_robot(const FrameReport& report, DepthImage& out);
 
 /// Points, metres, in the order of their pixels.
