@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The node between a player of the shipped recording and subscribers.
-#include "move_group.hpp"
-#include "penumbra_node.hpp"
-#include "player.hpp"
+#include "node_fixture.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -22,89 +20,6 @@
 
 namespace penumbra_ros::test {
 namespace {
-
-using namespace std::chrono_literals;
-
-const std::string example = PENUMBRA_EXAMPLE;
-
-using Parameters = std::vector<rclcpp::Parameter>;
-
-rclcpp::NodeOptions options(const Parameters& more = {}) {
-  std::vector<rclcpp::Parameter> parameters{
-      {"packages", std::vector<std::string>{"arm_description=" + example + "/arm_description"}}};
-  parameters.insert(parameters.end(), more.begin(), more.end());
-  return rclcpp::NodeOptions().parameter_overrides(parameters).use_intra_process_comms(true);
-}
-
-class NodeTest : public testing::Test {
- protected:
-  NodeTest() {
-    rclcpp::init(0, nullptr);
-    executor_ = std::make_unique<rclcpp::executors::SingleThreadedExecutor>();
-  }
-  ~NodeTest() override {
-    executor_.reset();
-    rclcpp::shutdown();
-  }
-
-  /// Spins until `done`. Returns whether it is.
-  template <typename F>
-  bool spin_until(const F& done, std::chrono::seconds at_most = 20s) {
-    const auto end = std::chrono::steady_clock::now() + at_most;
-    while (!done() && std::chrono::steady_clock::now() < end) executor_->spin_once(10ms);
-    return done();
-  }
-
-  /// Starts a node and a player, and plays frames until the first labels arrive.
-  void start(const std::vector<rclcpp::Parameter>& parameters = {}) {
-    player_ = std::make_unique<Player>(example, true);
-    node_ = std::make_shared<PenumbraNode>(options(parameters));
-    executor_->add_node(player_->node);
-    executor_->add_node(node_->get_node_base_interface());
-    labels_ = player_->node->create_subscription<Image>(
-        "/penumbra/labels", 10,
-        [this](Image::ConstSharedPtr image) { received_[stamp_of(image->header)] = image; });
-    ASSERT_TRUE(
-        spin_until([&] { return player_->is_heard() && labels_->get_publisher_count() > 0; }));
-    ASSERT_TRUE(spin_until([&] {
-      later_ += 1'000'000'000;
-      player_->play(0, later_);
-      return spin_until([&] { return !received_.empty(); }, 1s);
-    })) << "no labels";
-  }
-
-  /// Plays a frame and returns its labels, or null.
-  Image::ConstSharedPtr labels_of(std::size_t index) {
-    later_ += 1'000'000'000;
-    const penumbra::Frame data = player_->reader.read(index, false);
-    const std::int64_t stamp = *data.stamp + later_;
-    player_->play(index, later_);
-    spin_until([&] { return received_.count(stamp) > 0; }, 5s);
-    return received_.count(stamp) > 0 ? received_[stamp] : nullptr;
-  }
-
-  static std::int64_t stamp_of(const std_msgs::msg::Header& header) {
-    return rclcpp::Time(header.stamp).nanoseconds();
-  }
-
-  template <typename S>
-  typename S::Response::SharedPtr call(const std::string& name,
-                                       const typename S::Request::SharedPtr& request) {
-    auto client = player_->node->create_client<S>("/penumbra/" + name);
-    if (!spin_until([&] { return client->service_is_ready(); })) return nullptr;
-    auto answer = client->async_send_request(request);
-    if (!spin_until([&] { return answer.wait_for(0s) == std::future_status::ready; }))
-      return nullptr;
-    return answer.get();
-  }
-
-  std::unique_ptr<rclcpp::executors::SingleThreadedExecutor> executor_;
-  std::unique_ptr<Player> player_;
-  std::shared_ptr<PenumbraNode> node_;
-  rclcpp::Subscription<Image>::SharedPtr labels_;
-  std::map<std::int64_t, Image::ConstSharedPtr> received_;  // by stamp
-  std::int64_t later_ = 0;
-};
 
 TEST_F(NodeTest, LabelsAreThoseOfTheCommandLine) {
   const auto out =
@@ -351,49 +266,6 @@ TEST_F(NodeTest, DepthOfTheSameProcessIsNotCopied) {
   }));
   EXPECT_EQ(watcher.address.load(), published);
   runner.stop();
-}
-
-// MoveIt sends changes alone: a node that starts later, or again, has to ask.
-TEST_F(NodeTest, WhatWasAttachedBeforeIsAskedForWheneverMoveItComes) {
-  start();
-  const auto robot_pixels = [&] {
-    const auto labels = labels_of(0);
-    if (!labels) return std::ptrdiff_t{-1};
-    return std::count_if(labels->data.begin(), labels->data.end(),
-                         [](std::uint8_t label) { return label != 0; });
-  };
-  const auto arm = robot_pixels();
-  ASSERT_GT(arm, 0);
-  auto moveit = std::make_unique<MoveIt>(true);
-  executor_->add_node(moveit->node);
-  EXPECT_TRUE(spin_until([&] { return robot_pixels() > 2 * arm; })) << moveit->asked;
-  EXPECT_EQ(moveit->asked, 1);
-  executor_->remove_node(moveit->node);
-  moveit.reset();
-  spin_until([] { return false; }, 3s);  // the node sees that it is gone
-  EXPECT_GT(robot_pixels(), 2 * arm) << "the box stays while nobody says otherwise";
-  MoveIt next(false);
-  executor_->add_node(next.node);
-  EXPECT_TRUE(spin_until([&] { return robot_pixels() == arm; })) << next.asked;
-}
-
-TEST_F(NodeTest, MoveItIsAskedAgainIfItsAnswerIsLostAndMayPublishMeanwhile) {
-  MoveIt moveit(true);
-  moveit.lost = 1;
-  moveit.is_busy = true;
-  executor_->add_node(moveit.node);
-  start();
-  EXPECT_EQ(moveit.asked, 2);
-}
-
-TEST_F(NodeTest, NothingIsJudgedBeforeMoveItSaysWhatIsAttached) {
-  MoveIt moveit(true);
-  executor_->add_node(moveit.node);
-  start();
-  EXPECT_EQ(moveit.asked, 1);
-  const auto first = received_.begin()->second, later = labels_of(0);
-  ASSERT_TRUE(later);
-  EXPECT_EQ(first->data, later->data) << "the box was there from the first image on";
 }
 
 TEST_F(NodeTest, ImagesAreReliableWhereAllPublishersAre) {
