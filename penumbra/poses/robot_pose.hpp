@@ -27,11 +27,11 @@ enum class FrameStatus {
   missing_depth,      ///< no depth image: every pixel is unknown
   poses_disagree,     ///< joint states and TF differ, or two publishers of one joint or transform:
                       ///< the robot's pose is unknown
-  stale_transform,    ///< a transform has no state near the stamp: the robot's pose is unknown
+  stale_transform,    ///< a transform has no state near the stamp, and without it there is no pose
   missing_transform,  ///< the pose of the camera, or of a link in TF, is unknown or impossible: not
                       ///< rigid, or the camera is inside a link
-  stale_joints,       ///< a joint has no state near the stamp: the robot's pose is unknown
-  missing_joints,     ///< a joint has no (finite) position: the robot's pose is unknown
+  stale_joints,       ///< a joint has no state near the stamp, and without it there is no pose
+  missing_joints,     ///< a joint has no (finite) position, and without it there is no pose
 };
 
 /// The status's name in report.json.
