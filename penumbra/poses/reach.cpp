@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <penumbra/poses/reach-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
@@ -19,6 +20,27 @@ double entry_depth(const Ball& ball, const Eigen::Vector3d& ray) {
   const double square = along * along - ray.squaredNorm() * outside;
   if (square < 0.0 || along <= 0.0) return 0.0;
   return std::max((along - std::sqrt(square)) / ray.squaredNorm(), DepthRenderer::near_plane);
+}
+
+/// The pixels [u0, u1) x [v0, v1).
+struct Pixels {
+  int u0, u1, v0, v1;
+};
+
+/// Returns the pixels whose rays may meet a ball: those of the box around it.
+Pixels pixels_of(const Ball& ball, const Intrinsics& camera) {
+  const double near = ball.centre.z() - ball.radius, far = ball.centre.z() + ball.radius;
+  if (!(near > DepthRenderer::near_plane)) return {0, camera.width(), 0, camera.height()};
+  const auto range = [&](int axis, double focal, double middle, int size) {
+    const double a = ball.centre[axis] - ball.radius, b = ball.centre[axis] + ball.radius;
+    const double first = middle + focal * std::min(a / near, a / far);
+    const double last = middle + focal * std::max(b / near, b / far);
+    return std::pair(static_cast<int>(std::clamp<double>(std::floor(first), 0, size)),
+                     static_cast<int>(std::clamp<double>(std::ceil(last) + 1, 0, size)));
+  };
+  const auto [u0, u1] = range(0, camera.fx(), camera.cx(), camera.width());
+  const auto [v0, v1] = range(1, camera.fy(), camera.cy(), camera.height());
+  return {u0, u1, v0, v1};
 }
 
 }  // namespace
@@ -80,9 +102,10 @@ std::vector<Ball> reach_of_links(const Robot& robot) {
 
 void draw_reaches(std::span<const Reach> reaches, const Intrinsics& intrinsics,
                   ImageView<float> depth, ImageView<std::uint16_t> links, TileMask& touched) {
-  for (const Reach& reach : reaches)
-    for (int v = 0; v < depth.height; ++v)
-      for (int u = 0; u < depth.width; ++u) {
+  for (const Reach& reach : reaches) {
+    const Pixels pixels = pixels_of(reach.ball, intrinsics);
+    for (int v = pixels.v0; v < pixels.v1; ++v)
+      for (int u = pixels.u0; u < pixels.u1; ++u) {
         const auto z = static_cast<float>(entry_depth(reach.ball, intrinsics.ray(u, v)));
         float& nearest = depth(u, v);
         if (!(z > 0.0F) || (nearest > 0.0F && nearest <= z)) continue;
@@ -90,6 +113,7 @@ void draw_reaches(std::span<const Reach> reaches, const Intrinsics& intrinsics,
         links(u, v) = static_cast<std::uint16_t>(reach.link + 1);
         touched.mark(u, v, u, v);
       }
+  }
 }
 
 LabelView unknown_in_reaches(const LabelView& labels, const ImageView<const std::uint16_t>& links,

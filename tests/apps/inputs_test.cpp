@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t example_frames = 12;
 constexpr double near = 0.003;  // metres; docs/calibration.md
-const fs::path example = fs::path(PENUMBRA_SOURCE_DIR) / "examples/arm_over_table";
+const fs::path shipped = fs::path(PENUMBRA_SOURCE_DIR) / "examples/arm_over_table";
 
 /// Inputs by name, and the options that a command needs to take them.
 const std::vector<std::pair<std::string, Words>> kinds = {
@@ -84,10 +84,10 @@ const std::map<std::string, Words> table = {
 class InputsTest : public testing::TestWithParam<std::string> {
  protected:
   InputsTest() {
-    fs::copy(example, path("recording"), fs::copy_options::recursive);
-    fs::copy(example, path("without_depth"), fs::copy_options::recursive);
+    fs::copy(shipped, path("recording"), fs::copy_options::recursive);
+    fs::copy(shipped, path("without_depth"), fs::copy_options::recursive);
     edit_file(path("without_depth/recording.yaml"), "  depth: depth/%d.png", "  #");
-    fs::copy(example, path("images"), fs::copy_options::recursive);
+    fs::copy(shipped, path("images"), fs::copy_options::recursive);
     fs::remove(path("images/recording.yaml"));
     write_clouds();
     write_bags();
@@ -153,15 +153,15 @@ class InputsTest : public testing::TestWithParam<std::string> {
     if (command == "calibrate" && kind == "without_depth") add({"--masks", "truth/%d.png"});
     if (command == "calibrate" && kind == "no_depth.mcap")
       add({"--masks", "recording/truth/%d.png"});
-    const fs::path targets = example / "../view_planning/targets.yaml";
+    const fs::path targets = shipped / "../view_planning/targets.yaml";
     if (command == "view-planning")
-      add({"--targets", targets, "--candidates", example / "../view_planning/candidates.csv"});
+      add({"--targets", targets, "--candidates", shipped / "../view_planning/candidates.csv"});
     if (command == "look-ahead")
-      add({"--targets", targets, "--trajectory", example / "../look_ahead/sweep_left.csv"});
+      add({"--targets", targets, "--trajectory", shipped / "../look_ahead/sweep_left.csv"});
     const std::map<std::string, Words> options = {
         {"--package",
          {"--package", "arm_description=" + path("recording/arm_description").string()}},
-        {"--pose", {"--pose", example / "camera_pose.csv", "--parent", "base_link"}},
+        {"--pose", {"--pose", shipped / "camera_pose.csv", "--parent", "base_link"}},
         {"--no-depth", {"--no-depth"}}};
     for (const std::string& option : needed)
       if (command != "cloud" || option != "--no-depth") add(options.at(option));
@@ -222,7 +222,7 @@ class InputsTest : public testing::TestWithParam<std::string> {
     EXPECT_EQ(viewer.complete_session()["frames"], example_frames);
   }
 
-  const Eigen::Isometry3d truth_ = io::read_pose_csv(example / "camera_pose.csv");
+  const Eigen::Isometry3d truth_ = io::read_pose_csv(shipped / "camera_pose.csv");
   Json first_;
   TemporaryFolder folder_;
 };
