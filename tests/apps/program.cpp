@@ -30,8 +30,8 @@ int status_of(int wait_status) {
 
 /// Calls `prepare` in the new process.
 template <typename Prepare>
-pid_t start(const Words& arguments, const std::filesystem::path& out,
-            const std::filesystem::path& err, const Prepare& prepare) {
+pid_t start_program(const Words& arguments, const std::filesystem::path& out,
+                    const std::filesystem::path& err, const Prepare& prepare) {
   std::vector<char*> words = {const_cast<char*>(PENUMBRA_PROGRAM)};
   for (const std::string& argument : arguments)
     words.push_back(const_cast<char*>(argument.c_str()));
@@ -61,7 +61,7 @@ Outcome penumbra(const Words& arguments, const Words& environment) {
 }
 
 int penumbra_within(std::size_t bytes, TooLarge what, const Words& arguments) {
-  const pid_t child = start(arguments, "/dev/null", "/dev/null", [&] {
+  const pid_t child = start_program(arguments, "/dev/null", "/dev/null", [&] {
     const rlimit none{0, 0}, most{bytes, bytes};
     setrlimit(RLIMIT_CORE, &none);
     setrlimit(RLIMIT_FSIZE, &most);
@@ -79,7 +79,7 @@ Outcome penumbra_interrupted(const Words& arguments,
     return {status_of(status), read_file(folder.path() / "out"), read_file(folder.path() / "err")};
   };
   for (const char* const name : {"out", "err"}) write_file(folder.path() / name, "");
-  const pid_t child = start(arguments, folder.path() / "out", folder.path() / "err", [] {});
+  const pid_t child = start_program(arguments, folder.path() / "out", folder.path() / "err", [] {});
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0 && !when(outcome(0)))
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
