@@ -41,7 +41,9 @@ def make_inputs(folder, count):
                 (made / part.name).symlink_to(part)
         rows = list(csv.reader((SHIPPED / "joint_states.csv").open()))
         for row in rows[1:]:
-            row[2] = str(float(row[2]) + 1e-3 * i) if i >= BROKEN else "no number"
+            row[2] = str(float(row[2]) + 1e-3 * i)
+            if i < BROKEN:
+                row[1:] = ["no number"] * len(row[1:])
         with (made / "joint_states.csv").open("w", newline="") as out:
             csv.writer(out).writerows(rows)
     return folder
