@@ -93,12 +93,18 @@ std::optional<AttachedBody> find_attached(const Attachments& to, std::int64_t st
   return found == bodies.end() ? std::nullopt : std::optional(std::move(*found));
 }
 
-/// Detaches a body. What is attached after the stamp alone cannot have been removed then, so it
-/// holds from `now` on.
+/// Returns whether a stamp is that of an earlier event: a change of the body has it, or the body is
+/// attached after it alone.
+bool is_old(std::int64_t stamp, const std::string& name, bool is_removal, const Attachments& to) {
+  const bool is_then = find_attached(to, stamp, name).has_value();
+  if (is_then != find_attached(to, stamp - 1, name).has_value()) return true;
+  return is_removal && !is_then && to.last_change(name).value_or(stamp) > stamp;
+}
+
+/// Detaches a body; from `now` on if the stamp is old.
 void detach(std::int64_t stamp, std::int64_t now, const std::string& name, Attachments& to) {
-  const auto last = to.last_change(name);
-  const bool is_early = last && *last > stamp && !find_attached(to, stamp, name);
-  to.detach(is_early ? std::max(now, *last) : stamp, name);
+  if (is_old(stamp, name, true, to)) stamp = std::max(now, *to.last_change(name));
+  to.detach(stamp, name);
 }
 
 /// Returns T_link_frame. A frame may be a link of the same robot or the root of all.
@@ -153,12 +159,14 @@ void AttachedInput::follow_world(const CollisionObjectMessage& object, const std
 std::string AttachedInput::take(const AttachedObjectMessage& message, std::int64_t now,
                                 Attachments& to, const std::string& robot,
                                 const PosedRobot* posed) {
-  std::string fault = change(message, now, to, robot, posed);
   const CollisionObjectMessage& object = message.object;
   const std::string name = (robot.empty() ? "" : robot + "/") + object.id;
+  const bool is_add = object.operation == CollisionObjectMessage::add;
+  std::string fault;
+  if (!is_add || !is_old(object.header.stamp, name, false, to))
+    fault = change(message, now, to, robot, posed);
   const auto last = to.last_change(name);
-  if (object.operation != CollisionObjectMessage::add || !last || find_attached(to, *last, name))
-    return fault;
+  if (!is_add || !last || find_attached(to, *last, name)) return fault;
   AttachedObjectMessage again = message;
   again.object.header.stamp = std::max(now, *last);
   return change(again, now, to, robot, posed);

@@ -391,6 +391,13 @@ TEST_F(LiveInboxTest, WhatIsDetachedAndAttachedWithOldStampsHoldsFromNowOn) {
     publish(now + milliseconds, Object::remove, "part");
     EXPECT_LT(next(), bare + least);
   }
+  // One message sent again and again, with the stamp at which the part was made.
+  for (int i = 0; i < 3; ++i) {
+    publish(start - 2 * seconds, Object::add, "part");
+    EXPECT_GT(next(), bare + least) << i;
+    publish(start - 2 * seconds, Object::remove, "part");
+    EXPECT_LT(next(), bare + least) << i;
+  }
   // A scene that is late, as the answer to a question, says what was attached then.
   io::PlanningSceneMessage scene;
   scene.robot_state.joints.header.stamp = start;

@@ -43,7 +43,7 @@ def make_inputs(folder, count):
         for row in rows[1:]:
             row[2] = str(float(row[2]) + 1e-3 * i)
             if i < BROKEN:
-                row[1:] = ["no number"] * len(row[1:])
+                row[2:] = ["no number"] * len(row[2:])
         with (made / "joint_states.csv").open("w", newline="") as out:
             csv.writer(out).writerows(rows)
     return folder
