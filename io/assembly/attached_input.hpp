@@ -17,8 +17,9 @@ namespace penumbra::io {
 struct PosedRobot;
 
 /// Reads what MoveIt attaches to a robot. A message holds from the stamp of its object on, else of
-/// the robot's state in it, else from `now`, the last stamp received. Something attached or removed
-/// with a stamp before its last change is so from `now` on.
+/// the robot's state in it, else from `now`, the last stamp received. The stamp of an earlier
+/// message of the object, and that of a removal from before the object was attached, count as
+/// `now`. An object that was removed after the stamp is attached again from `now` on.
 ///
 /// A message may name an object without its shape. Then the object keeps the shape with which it is
 /// attached, else it has that of the world's object of that name, else that of the next message.

@@ -108,7 +108,7 @@ void add_counts(const PixelCounts& pixels, std::vector<Line>& lines) {
     const auto label = static_cast<Label>(i + 1);
     std::optional<double> share =
         robot == 0 ? 0.0 : static_cast<double>(of_robot[i]) / static_cast<double>(robot);
-    if (of_robot[i] > robot) share.reset();  // unknown pixels beside it
+    if (of_robot[i] > robot) share.reset();  // also pixels without robot
     lines.push_back(counted(label_names[i], of_robot[i], share, label_color(label)));
   }
   if (pixels.fringe > 0)

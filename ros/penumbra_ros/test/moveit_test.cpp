@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The node beside a MoveIt that says what is attached.
+// The node and a MoveIt that says what is attached.
 #include "move_group.hpp"
 #include "node_fixture.hpp"
 
