@@ -11,6 +11,7 @@
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/calibration/calibration.hpp>
+#include <penumbra/calibration/dense.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
 #include <penumbra/poses/pose_stage-inl.hpp>
 
@@ -274,12 +275,11 @@ class Calibrator {
   [[nodiscard]] std::string advice(const Calibration& result, Observer& observer,
                                    const State& state) const {
     constexpr std::array axes{"to its right", "down", "along its view"};
-    const Eigen::SelfAdjointEigenSolver<PoseCovariance> all(result.covariance);
-    const calibration::Twist weakest = all.eigenvectors().col(5);
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> position(
-        result.covariance.bottomRightCorner<3, 3>());
+    const calibration::Twist weakest = dense::principal_axes(result.covariance).vectors.col(5);
+    const dense::PrincipalAxes position =
+        dense::principal_axes(result.covariance.bottomRightCorner<3, 3>());
     Eigen::Index axis = 0;
-    position.eigenvectors().col(2).cwiseAbs().maxCoeff(&axis);
+    position.vectors.col(2).cwiseAbs().maxCoeff(&axis);
     std::string text = std::string("the camera's position is known least ") +
                        axes.at(static_cast<std::size_t>(axis));
     const std::vector<std::string> joints = telling_joints(observer, state, weakest);

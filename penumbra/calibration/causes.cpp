@@ -9,6 +9,7 @@
 #include <sstream>
 #include <tuple>
 
+#include <penumbra/calibration/dense.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
 
 namespace penumbra::calibration {
@@ -70,7 +71,7 @@ std::vector<int> indices(const Unknowns& unknowns, const Cause& cause) {
 
 /// How many standard deviations values are from 0.
 double sigmas_of(const Eigen::VectorXd& value, const Eigen::MatrixXd& covariance) {
-  return std::sqrt(value.dot(covariance.ldlt().solve(value)));
+  return std::sqrt(dense::squared_sigmas(value, covariance));
 }
 
 /// The indices of `some` in `all`, which has them in any order.

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 
+#include <penumbra/calibration/dense.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
 
 namespace penumbra::calibration {
@@ -25,8 +26,7 @@ Twist twist_of(const Eigen::Isometry3d& motion) {
 
 double longest_axis(const Eigen::Matrix3d& covariance) {
   constexpr double chi = 2.7955;  // square root of the 95 % quantile of chi^2 with 3 degrees
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
-  return chi * std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff()));
+  return chi * std::sqrt(std::max(0.0, dense::principal_axes(covariance).values[2]));
 }
 
 void Unknowns::step(State& state, const Eigen::VectorXd& by) const {

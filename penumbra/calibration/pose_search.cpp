@@ -6,6 +6,7 @@
 #include <random>
 
 #include <penumbra/base/statistics-inl.hpp>
+#include <penumbra/calibration/dense.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
 #include <penumbra/mesh/simplified.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
@@ -235,7 +236,7 @@ Eigen::Isometry3d PoseSearch::climb(Eigen::Isometry3d mean, const Twist& sigma, 
         Eigen::Matrix<double, 6, 6>::Identity() * 1e-7;  // (0.3 mm, 0.02 degrees)^2
     for (std::size_t i = 0; i < elite; ++i)
       covariance += (tried[i].twist - centre) * (tried[i].twist - centre).transpose() / elite;
-    factor = covariance.llt().matrixL();
+    factor = dense::lower_factor(covariance);
     mean = mean * motion(centre);
   }
   return best;

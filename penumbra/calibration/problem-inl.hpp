@@ -10,9 +10,10 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include <penumbra/calibration/calibration.hpp>
+#include <penumbra/calibration/dense.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::calibration {
@@ -171,7 +172,7 @@ struct Equations {
   /// The equations if only these unknowns are estimated.
   [[nodiscard]] Equations of(const std::vector<int>& chosen) const;
   /// Returns the step to where the residuals are least, to first order.
-  [[nodiscard]] Eigen::VectorXd step() const { return -information.ldlt().solve(gradient); }
+  [[nodiscard]] Eigen::VectorXd step() const { return -dense::solve(information, gradient); }
   /// Returns the equations after a step, to first order.
   [[nodiscard]] Equations after(const Eigen::VectorXd& step) const;
   /// Returns the unknowns' covariance, where the gradient is 0.

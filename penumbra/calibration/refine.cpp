@@ -8,6 +8,7 @@
 
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/base/statistics-inl.hpp>
+#include <penumbra/calibration/dense.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
 
 namespace penumbra::calibration {
@@ -154,14 +155,14 @@ Matrix jackknife(const Equations& equations, const std::vector<std::size_t>& gro
   }
   Matrix unseen = equations.prior.asDiagonal();
   for (const auto& [group, part] : left_out) unseen += part.steps * part.steps.transpose();
-  const Matrix inverse = information.inverse();
-  Matrix covariance = inverse * unseen * inverse;
+  const Matrix inverse = dense::inverse(information);
+  Matrix covariance = dense::sandwich(inverse, unseen);
   const auto count = static_cast<double>(left_out.size());
   if (left_out.size() < 2)
     return Matrix::Constant(covariance.rows(), covariance.cols(),
                             std::numeric_limits<double>::quiet_NaN());
   for (const auto& [group, part] : left_out) {
-    const Vector moved = (information - part.information).ldlt().solve(part.gradient);
+    const Vector moved = dense::solve(information - part.information, part.gradient);
     covariance += (count - 1.0) / count * moved * moved.transpose();
   }
   return covariance;

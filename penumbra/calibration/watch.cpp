@@ -11,6 +11,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/base/statistics-inl.hpp>
+#include <penumbra/calibration/dense.hpp>
 #include <penumbra/calibration/problem-inl.hpp>
 #include <penumbra/calibration/watch.hpp>
 #include <penumbra/calibration/watch_solution-inl.hpp>
@@ -87,7 +88,7 @@ bool is_beyond_chance(const Estimate& time) {
 
 /// How improbable a motion is if there was none.
 double distance(const Twist& motion, const PoseCovariance& covariance) {
-  return motion.dot(covariance.ldlt().solve(motion));
+  return dense::squared_sigmas(motion, covariance);
 }
 
 }  // namespace watching

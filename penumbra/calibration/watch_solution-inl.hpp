@@ -7,7 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+
+#include <penumbra/calibration/dense.hpp>
 
 namespace penumbra::watching {
 
@@ -61,8 +63,8 @@ struct Solution {
   }
   /// By how much the squares fall if `count` unknowns from `first` on are free, the others zero.
   [[nodiscard]] double fall(int first, int count) const {
-    const Eigen::VectorXd g = gradient.segment(first, count);
-    return g.dot(information.block(first, first, count, count).ldlt().solve(g));
+    return dense::squared_sigmas(gradient.segment(first, count),
+                                 information.block(first, first, count, count));
   }
 };
 

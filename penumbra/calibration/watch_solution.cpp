@@ -12,8 +12,7 @@ std::optional<Solution> solve(std::vector<const View*> views, const Prior& prior
     information += view->weight() * view->information;
     gradient += view->weight() * view->gradient;
   }
-  const Eigen::LDLT<Matrix> solver(information);
-  Solution solution{.value = -solver.solve(gradient),
+  Solution solution{.value = -dense::solve(information, gradient),
                     .covariance = {},
                     .information = information,
                     .gradient = gradient};
@@ -30,8 +29,7 @@ std::optional<Solution> solve(std::vector<const View*> views, const Prior& prior
   }
   if (count < least_places) return std::nullopt;
   meat = prior.information + count / (count - 7.0) * meat;
-  const Matrix inverse = solver.solve(Matrix::Identity());
-  solution.covariance = inverse * meat * inverse.transpose();
+  solution.covariance = dense::sandwich(dense::inverse(information), meat);
   return solution;
 }
 
