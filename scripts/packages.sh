@@ -70,6 +70,7 @@ done
 echo "installing: ${missing[*]}" >&2
 as_root=()
 ((EUID == 0)) || as_root=(sudo)
-"${as_root[@]}" apt-get update -qq
+wait=(-o DPkg::Lock::Timeout=600)  # seconds, while another process installs
+"${as_root[@]}" apt-get "${wait[@]}" update -qq
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
-  apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+  apt-get "${wait[@]}" install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
