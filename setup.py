@@ -59,7 +59,6 @@ class CMakeBuild(build_ext):
         module = pathlib.Path(self.get_ext_fullpath(ext.name)).absolute()
         build = pathlib.Path(self.build_temp).absolute()
         subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=24",
                         f"-DPython_EXECUTABLE={sys.executable}", *PYBIND11, *PARTS,
                         *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "penumbra_python", "penumbra_app"],

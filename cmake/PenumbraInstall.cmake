@@ -1,23 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-# `cmake --install` and find_package(Penumbra) with the target Penumbra::penumbra.
+# `cmake --install` and find_package(Penumbra [COMPONENTS ...]). Each library is a component.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Penumbra)
 
-set(libraries penumbra)
-if(TARGET penumbra_live AND PENUMBRA_INSTALL_LIVE)
-  # Penumbra::live is for ros/penumbra_ros alone: its headers may change at any time.
-  list(APPEND libraries penumbra_live)
-  foreach(room files ros cloud mcap bag assembly live)
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/io/${room}
-      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra_live/io
-      FILES_MATCHING PATTERN "*.hpp" PATTERN "*-inl.hpp" EXCLUDE
-      PATTERN "tuning_report.hpp" EXCLUDE)
-  endforeach()
-endif()
-install(TARGETS ${libraries} EXPORT PenumbraTargets
-  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR}
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+foreach(name penumbra cloud setup planning session io live)
+  set(library penumbra_${name})
+  if(name STREQUAL penumbra)
+    set(library penumbra)
+  endif()
+  if(TARGET ${library})
+    install(TARGETS ${library} EXPORT Penumbra_${name}
+      RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${name}
+      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name}
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${name})
+    install(EXPORT Penumbra_${name} NAMESPACE Penumbra:: DESTINATION ${package_dir} COMPONENT ${name})
+  endif()
+endforeach()
+
 # The public headers: the classes that docs/cpp.md names, and what these include. All other headers
 # are free to change.
 set(public_headers
@@ -37,25 +36,40 @@ set(public_headers
   cloud/cloud_labels.hpp
   cloud/cloud_pipeline.hpp
   cloud/cloud_tuning.hpp)
+set(component_of_calibration setup)
+set(component_of_diagnosis setup)
+set(component_of_tuning setup)
+set(component_of_scene planning)
+set(component_of_cloud cloud)
+set(component_of_session session)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)
+  set(component penumbra)
+  if(component_of_${room})
+    set(component ${component_of_${room}})
+  endif()
   install(FILES ${PROJECT_SOURCE_DIR}/penumbra/${header}
-    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra/${room})
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra/${room} COMPONENT ${component})
 endforeach()
-install(FILES ${PROJECT_BINARY_DIR}/generated/penumbra/base/version.hpp
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra/base)
-install(EXPORT PenumbraTargets NAMESPACE Penumbra:: DESTINATION ${package_dir})
+# Of io, recordings and their frames are for users (io/files/recording.hpp and frame_reader.hpp). The
+# other headers may change at any time: ros/penumbra_ros is built with them.
+if(TARGET penumbra_io)
+  foreach(room files ros cloud mcap bag assembly live)
+    set(component io)
+    if(room STREQUAL live)
+      set(component live)
+    endif()
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/io/${room}
+      DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra_io/io COMPONENT ${component}
+      FILES_MATCHING PATTERN "*.hpp" PATTERN "*-inl.hpp" EXCLUDE)
+  endforeach()
+endif()
 
-# An archive is linked together with the libraries that it uses itself: NAME::TARGET comes from the
-# package NAME.
-set(private_packages)
+# An archive is linked together with the packages that it uses itself.
 get_target_property(library_type penumbra TYPE)
+set(static OFF)
 if(library_type STREQUAL "STATIC_LIBRARY")
-  get_target_property(private_packages penumbra LINK_LIBRARIES)
-  list(FILTER private_packages INCLUDE REGEX "^[A-Za-z0-9_-]+::")
-  list(TRANSFORM private_packages REPLACE "::.*" "")
-  list(REMOVE_DUPLICATES private_packages)
-  list(REMOVE_ITEM private_packages Eigen3)
+  set(static ON)
 endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/PenumbraConfig.cmake.in
   ${PROJECT_BINARY_DIR}/PenumbraConfig.cmake INSTALL_DESTINATION ${package_dir})
@@ -63,5 +77,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/PenumbraConfigVersion.cma
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/PenumbraConfig.cmake
               ${PROJECT_BINARY_DIR}/PenumbraConfigVersion.cmake
-  DESTINATION ${package_dir})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  DESTINATION ${package_dir} COMPONENT penumbra)
+install(FILES ${PROJECT_BINARY_DIR}/generated/penumbra/base/version.hpp
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra/base COMPONENT penumbra)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT penumbra)

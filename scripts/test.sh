@@ -102,8 +102,6 @@ page_ended() {
   wait "$1" || { grep -A12 '^not ok' "$log" || tail -n 30 "$log"; echo "all of it: $log"; false; }
 }
 
-check_format() { git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror; }
-
 # check_tidy FOLDERS [CMAKE OPTION...]: clang-tidy on the targets of folders joined by |. Sources are
 # included into one another's unit here, so they count as headers. Each header alone is a compiler's
 # matter (test_headers).
@@ -128,8 +126,9 @@ require=opengl,simulation
 export PENUMBRA_REQUIRE=${PENUMBRA_REQUIRE-$require}
 
 # Every option is given, so that no cached choice in a build tree leaves anything out.
-tests=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_PRECOMPILE_TESTS=ON)
+tests=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_PRECOMPILE=ON -DPENUMBRA_WARNINGS_AS_ERRORS=ON)
 everything=("${tests[@]}" -DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON -DPENUMBRA_WITH_SIMULATION=ON
+            -DPENUMBRA_WITH_DDS=ON
             -DPENUMBRA_BUILD_RESEARCH=$full -DPENUMBRA_WITH_PYTHON=ON -DPENUMBRA_WITH_AVX512=ON)
 # The release tests run every SIMD target; the sanitizers run AVX2 and below.
 avx512=-DPENUMBRA_WITH_AVX512=OFF
@@ -141,8 +140,6 @@ undefined=bool,bounds,enum,float-cast-overflow,integer-divide-by-zero
 undefined+=,return,shift,signed-integer-overflow,unreachable,vla-bound
 tidy_scope=penumbra
 unity=ON  # many sources at once
-# GCC collects garbage less often: saves a tenth of its time, costs 300 MB.
-quick='-DCMAKE_CXX_FLAGS=--param ggc-min-expand=300 --param ggc-min-heapsize=500000'
 # AddressSanitizer watches the code that reads files or writes images, ThreadSanitizer the renderer's
 # threads. Their trees hold only those rooms. Most rooms are tested in one tree.
 asan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;time;camera;render;labels;poses;tracking;targets;cloud'
@@ -162,16 +159,16 @@ if $full; then
   tidy_scope+='|io|apps|sim|research|tests|examples|bench'
 fi
 
-check format check_format
+check format scripts/format.sh --check
 check "page is what its sources give" web/check_bundle.sh
-check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE_TESTS=OFF
+check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE=OFF
 waiting=$(($(nproc) + 1))  # some tests wait for messages of others
 page=
 # Other tests cover the same.
 once_more='^LiveRenderers[.]ADevice'
 if $full; then once_more='^$'; fi
-check "build (release)" build release all "${everything[@]}" "$not_in_release" "$benchmarks" "$quick" \
-  "-DCMAKE_UNITY_BUILD=$unity" -DCMAKE_UNITY_BUILD_BATCH_SIZE=24 && {
+check "build (release)" build release all "${everything[@]}" "$not_in_release" "$benchmarks" \
+  "-DCMAKE_UNITY_BUILD=$unity" && {
   $full || { page >build/release/page.log 2>&1 & page=$!; }
   run_tests release -j "$waiting" -E "$once_more"
 }

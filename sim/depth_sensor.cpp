@@ -33,16 +33,6 @@ void check_share(double share, const char* name) {
 
 }  // namespace
 
-DepthNoise DepthNoise::d415() {
-  DepthNoise noise;
-  noise.quadratic = 0.0016;
-  noise.disparity_step = 1.0 / 32.0;
-  noise.edge_holes = 0.35;
-  noise.edge_mixed = 0.25;
-  noise.holes = 0.003;
-  return noise;
-}
-
 DepthSensor::DepthSensor(const DepthNoise& noise, double fx, std::uint64_t seed,
                          std::uint64_t stream)
     : noise_(noise), focal_baseline_(fx * noise.baseline), seed_(seed), stream_(stream) {

@@ -39,7 +39,15 @@ struct DepthNoise {
   /// Returns noise like an Intel RealSense D415's. Baseline and disparity step are Intel's;
   /// `quadratic` is for a disparity error of 0.08 pixels; the fractions of edges and holes are
   /// assumptions, not fitted to a recording.
-  [[nodiscard]] static DepthNoise d415();
+  [[nodiscard]] static DepthNoise d415() {
+    DepthNoise noise;
+    noise.quadratic = 0.0016;
+    noise.disparity_step = 1.0 / 32.0;
+    noise.edge_holes = 0.35;
+    noise.edge_mixed = 0.25;
+    noise.holes = 0.003;
+    return noise;
+  }
 };
 
 /// The options of a simulation.

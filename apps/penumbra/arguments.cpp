@@ -13,9 +13,9 @@
 #include <penumbra/base/version.hpp>
 
 #include <apps/penumbra/arguments.hpp>
+#include <apps/penumbra/build_info.hpp>
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
-#include <io/dds/participant.hpp>
 #include <io/files/names.hpp>
 
 namespace penumbra::app {
@@ -76,34 +76,6 @@ void add_inspect(CLI::App& app, InspectArguments& inspect) {
 void add_doctor(CLI::App& app, DoctorArguments& doctor) {
   app.footer(doctor_examples);
   app.add_flag("--json", doctor.json, "print JSON instead of text");
-}
-
-void add_simulate(CLI::App& app, SimulateArguments& simulate) {
-  app.footer(simulate_examples);
-  sim::SimulationOptions& options = simulate.options;
-  app.add_option("SCENE", simulate.scene, "conveyor, handover, random, carry or two_arms")
-      ->required();
-  add_text(app, "-o,--output", "folder for the recording, new or empty; or a new bag NAME.mcap",
-           "OUT", simulate.output)
-      ->required();
-  add_number(app, "--seed", "of the random numbers; default 0", "N", options.seed);
-  add_frames(app, simulate.frames);
-  add_number(app, "--duration", "length of the scene; default: its own", "S", options.duration,
-             1e-3, 1e6);
-  add_number(app, "--rate", "frames per second; default 30", "HZ", options.frame_rate);
-  app.add_flag_callback(
-      "--no-noise", [&] { options.depth = {}; },
-      "true depth, rounded to millimetres; default: noise as a RealSense D415's");
-  add_number(app, "--joint-sigma", "noise of the reported joint positions; default 0", "RAD",
-             options.joint_sigma);
-  add_number(app, "--joint-latency", "how much older they are than their stamps; default 0", "S",
-             options.joint_latency);
-  add_number(app, "--belt-jitter", "variation of the belt's speed, relative; default 0", "SHARE",
-             options.belt_jitter);
-  add_number(app, "--camera", "which of the scene's three cameras draws; default 0, its own", "N",
-             options.camera, 0, 2);
-  app.add_flag("--second-camera", options.second_camera,
-               "a depth camera on the other side, too: second_depth/, in bags /second_camera/...");
 }
 
 using Commands = std::vector<std::pair<const CLI::App*, std::function<Command()>>>;
@@ -181,12 +153,11 @@ std::optional<Command> parse_arguments(int argc, const char* const* argv) {
     if (!is_built) what += " (not in this build: penumbra " + std::string(name) + " says why)";
     add(name, what, arguments, add_options, check);
   };
-  const bool has_graph = io::has_dds();
-  add_if(!sim::Simulation::scenes().empty(), "simulate", "record a simulated scene with its truth",
-         simulate, add_simulate, any);
-  add_if(has_graph, "topics", "list the live topics of ROS 2's graph", topics, add_topics, any);
-  add_if(has_graph, "play", "publish a bag on ROS 2's graph", play, add_play, any);
-  add_if(has_graph, "live", "label live topics of ROS 2 and publish the results", live, add_live,
+  add_if(build_simulation, "simulate", "record a simulated scene with its truth", simulate,
+         add_simulate, any);
+  add_if(build_dds, "topics", "list the live topics of ROS 2's graph", topics, add_topics, any);
+  add_if(build_dds, "play", "publish a bag on ROS 2's graph", play, add_play, any);
+  add_if(build_dds, "live", "label live topics of ROS 2 and publish the results", live, add_live,
          check_live);
   add("view", "show a recording or bag in the browser: 3-D, images, timeline", view, add_view,
       check_view);

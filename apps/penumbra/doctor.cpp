@@ -14,9 +14,8 @@
 
 #include <apps/penumbra/build_info.hpp>
 #include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/receive_buffers.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/dds/participant.hpp>
-#include <io/dds/receive_buffers.hpp>
 #include <io/files/json-inl.hpp>
 
 namespace penumbra::app {
@@ -89,9 +88,9 @@ Json libraries_json() {
 /// What `doctor --json` prints. Values that do not apply are null.
 Json examine_machine() {
   const unsigned threads = std::thread::hardware_concurrency();
-  const io::ReceiveBuffers buffers = io::receive_buffers();
+  const ReceiveBuffers buffers = receive_buffers();
   Json advice = Json::array();
-  for (const std::string& line : {io::limit_advice(buffers), io::normal_advice(buffers)})
+  for (const std::string& line : {limit_advice(buffers), normal_advice(buffers)})
     if (!line.empty()) advice.push_back(line);
   Json opengl = opengl_json();
   Json renderers = renderers_json(opengl["devices"]);
@@ -101,7 +100,7 @@ Json examine_machine() {
             {"compiler", build_compiler},
             {"sanitizers", or_null(std::string(build_sanitizers))},
             {"opengl", build_opengl},
-            {"dds", io::has_dds()}}},
+            {"dds", build_dds}}},
           {"cpu",
            {{"model", or_null(cpu_model())},
             {"threads", threads == 0 ? Json() : Json(threads)},

@@ -13,7 +13,6 @@
 #include <io/dds/graph_names.hpp>
 #include <io/live/cloud_text.hpp>
 #include <io/live/live_fusion.hpp>
-#include <io/live/name_resolver.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -98,18 +97,6 @@ void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps) {
 }
 
 }  // namespace
-
-void add_camera(std::vector<NamedCamera>& cameras, const std::string& name,
-                const std::string& depth_topic) {
-  try {
-    static_cast<void>(io::NameResolver().resolve("penumbra/" + name));
-  } catch (const InputError&) {
-    refuse_option("--camera", name, "a name of letters, digits and _, no digit first");
-  }
-  for (const NamedCamera& camera : cameras)
-    if (camera.name == name) throw InputError("--camera: " + name + " is given twice");
-  cameras.push_back({name, depth_topic});
-}
 
 void add_topics(CLI::App& app, TopicsArguments& topics) {
   app.footer(topics_examples);

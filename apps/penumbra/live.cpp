@@ -21,9 +21,9 @@
 #include <apps/penumbra/live_graph.hpp>
 #include <apps/penumbra/live_pages.hpp>
 #include <apps/penumbra/live_setup.hpp>
+#include <apps/penumbra/receive_buffers.hpp>
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/dds/receive_buffers.hpp>
 #include <io/files/disk_file.hpp>
 #include <io/files/pending_file.hpp>
 #include <io/live/diagnostic_changes.hpp>
@@ -340,7 +340,7 @@ int execute(const LiveArguments& arguments) {
   }
   StopSignal stop;
   const auto graph = io::join_graph(arguments.graph);
-  if (const std::string advice = io::limit_advice(io::receive_buffers()); !advice.empty())
+  if (const std::string advice = limit_advice(receive_buffers()); !advice.empty())
     print_notes(std::vector{advice});
   LivePages pages(arguments, graph->domain());
   pages.print();

@@ -11,7 +11,7 @@
 #include <io/assembly/bag_topics.hpp>
 #include <io/dds/participant.hpp>
 #include <io/live/live_inbox.hpp>
-#include <io/live/name_resolver.hpp>
+#include <io/ros/name_resolver.hpp>
 
 namespace penumbra::app {
 

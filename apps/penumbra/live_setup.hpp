@@ -9,7 +9,7 @@
 #include <io/assembly/result_encoder.hpp>
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/live_inbox.hpp>
-#include <io/live/name_resolver.hpp>
+#include <io/ros/name_resolver.hpp>
 
 namespace penumbra::app {
 

@@ -178,6 +178,7 @@ void add_view(CLI::App& app, ViewArguments& view);
 void add_view_planning(CLI::App& app, ViewPlanningArguments& planning);
 void add_look_ahead(CLI::App& app, LookAheadArguments& ahead);
 void add_cloud(CLI::App& app, CloudArguments& arguments);
+void add_simulate(CLI::App& app, SimulateArguments& simulate);
 void add_topics(CLI::App& app, TopicsArguments& topics);
 void add_play(CLI::App& app, PlayArguments& play);
 void add_live(CLI::App& app, LiveArguments& live);

@@ -9,6 +9,7 @@
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/text.hpp>
+#include <io/ros/name_resolver.hpp>
 #include <io/run/output_bag.hpp>
 
 namespace penumbra::app {
@@ -126,6 +127,18 @@ void check_session(const CLI::App& app, io::SessionOptions& session) {
 }
 
 }  // namespace
+
+void add_camera(std::vector<NamedCamera>& cameras, const std::string& name,
+                const std::string& depth_topic) {
+  try {
+    static_cast<void>(io::NameResolver().resolve("penumbra/" + name));
+  } catch (const InputError&) {
+    refuse_option("--camera", name, "a name of letters, digits and _, no digit first");
+  }
+  for (const NamedCamera& camera : cameras)
+    if (camera.name == name) throw InputError("--camera: " + name + " is given twice");
+  cameras.push_back({name, depth_topic});
+}
 
 void note_bag_option(const CLI::App& app, io::InputOptions& input) {
   for (const CLI::Option* option : app.get_options())

@@ -6,6 +6,8 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <io/run/output_bag.hpp>
 #include <sim/recording_bag.hpp>
@@ -29,6 +31,34 @@ std::unique_ptr<sim::RecordingSink> open_recording(const SimulateArguments& argu
 }
 
 }  // namespace
+
+void add_simulate(CLI::App& app, SimulateArguments& simulate) {
+  app.footer(simulate_examples);
+  sim::SimulationOptions& options = simulate.options;
+  app.add_option("SCENE", simulate.scene, "conveyor, handover, random, carry or two_arms")
+      ->required();
+  add_text(app, "-o,--output", "folder for the recording, new or empty; or a new bag NAME.mcap",
+           "OUT", simulate.output)
+      ->required();
+  add_number(app, "--seed", "of the random numbers; default 0", "N", options.seed);
+  add_frames(app, simulate.frames);
+  add_number(app, "--duration", "length of the scene; default: its own", "S", options.duration,
+             1e-3, 1e6);
+  add_number(app, "--rate", "frames per second; default 30", "HZ", options.frame_rate);
+  app.add_flag_callback(
+      "--no-noise", [&] { options.depth = {}; },
+      "true depth, rounded to millimetres; default: noise as a RealSense D415's");
+  add_number(app, "--joint-sigma", "noise of the reported joint positions; default 0", "RAD",
+             options.joint_sigma);
+  add_number(app, "--joint-latency", "how much older they are than their stamps; default 0", "S",
+             options.joint_latency);
+  add_number(app, "--belt-jitter", "variation of the belt's speed, relative; default 0", "SHARE",
+             options.belt_jitter);
+  add_number(app, "--camera", "which of the scene's three cameras draws; default 0, its own", "N",
+             options.camera, 0, 2);
+  app.add_flag("--second-camera", options.second_camera,
+               "a depth camera on the other side, too: second_depth/, in bags /second_camera/...");
+}
 
 int execute(const SimulateArguments& arguments) {
   check_output(arguments.output);

@@ -20,7 +20,7 @@ bool StopSignal::wait(nanoseconds at_most) { return wait_until(steady_clock::now
 bool StopSignal::wait_until(steady_clock::time_point end) {
   while (!came_) {
     const nanoseconds left = std::max<nanoseconds>(end - steady_clock::now(), nanoseconds(0));
-    const auto whole = duration_cast<seconds>(left);
+    const auto whole = duration_cast<std::chrono::seconds>(left);
     const timespec longest{whole.count(), (left - whole).count()};
     came_ = sigtimedwait(&signals_, nullptr, &longest) > 0;
     if (!came_ && errno != EINTR) break;

@@ -183,8 +183,6 @@ class DdsParticipant final : public Participant {
 
 }  // namespace
 
-bool has_dds() { return true; }
-
 std::unique_ptr<Participant> join_graph(const ParticipantOptions& options) {
   return std::make_unique<DdsParticipant>(graph_domain(options));
 }

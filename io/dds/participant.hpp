@@ -140,7 +140,7 @@ class Participant {
 /// ROS_AUTOMATIC_DISCOVERY_RANGE, ROS_STATIC_PEERS, ROS_LOCALHOST_ONLY=1 (the range LOCALHOST,
 /// without static peers) and CYCLONEDDS_URI, which overrides everything else. Throws InputError
 /// with one line that says what to do for a bad domain, for invalid settings in CYCLONEDDS_URI,
-/// without a network, and in builds without DDS.
+/// and without a network.
 [[nodiscard]] std::unique_ptr<Participant> join_graph(const ParticipantOptions& options);
 
 /// Returns the domain that join_graph() uses. Throws InputError.
@@ -149,8 +149,5 @@ class Participant {
 /// Returns the range in which join_graph() finds others: SUBNET, LOCALHOST, OFF or SYSTEM_DEFAULT.
 /// Throws InputError.
 [[nodiscard]] std::string discovery_range();
-
-/// Returns whether this build has DDS.
-[[nodiscard]] bool has_dds();
 
 }  // namespace penumbra::io

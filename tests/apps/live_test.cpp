@@ -3,8 +3,6 @@
 #include "../support/opengl.hpp"
 #include "fixtures.hpp"
 
-#include <io/dds/participant.hpp>
-
 namespace penumbra::test {
 namespace {
 
@@ -47,7 +45,6 @@ TEST(LiveCommand, RefusesWhatCannotBe) {
     arguments.insert(arguments.begin(), "live");
     const Outcome outcome = penumbra(arguments, {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
     EXPECT_EQ(outcome.status, 2) << refused.words << outcome.err;
-    if (!io::has_dds() && outcome.err.find("cyclonedds-dev") != std::string::npos) continue;
     EXPECT_NE(outcome.err.find(refused.words), std::string::npos) << outcome.err;
     EXPECT_LE(count_lines(outcome.err), 2U) << outcome.err;  // and what the kernel's buffers lack
   }
@@ -71,7 +68,6 @@ TEST(LiveCommand, ADeviceThatCannotDrawIsRefusedBeforeTheGraphIsJoined) {
 }
 
 TEST(LiveCommand, EndsByItselfAndSaysWhatCame) {
-  if (!io::has_dds()) GTEST_SKIP() << "this build has no DDS";
   const TemporaryFolder folder;
   const std::string summary = folder.path() / "live.json";
   const Outcome outcome = penumbra(
@@ -85,7 +81,6 @@ TEST(LiveCommand, EndsByItselfAndSaysWhatCame) {
 }
 
 TEST(LiveCommand, AFormerSummaryStaysWhereNothingIsSummed) {
-  if (!io::has_dds()) GTEST_SKIP() << "this build has no DDS";
   const TemporaryFolder folder;
   const std::string summary = folder.path() / "live.json";
   write_file(summary, "former");

@@ -8,7 +8,7 @@
 
 #include <io/live/diagnostic_changes.hpp>
 #include <io/live/live_diagnostics.hpp>
-#include <io/live/name_resolver.hpp>
+#include <io/ros/name_resolver.hpp>
 
 namespace penumbra::test {
 namespace {

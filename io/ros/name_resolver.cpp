@@ -5,7 +5,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/files/printable.hpp>
-#include <io/live/name_resolver.hpp>
+#include <io/ros/name_resolver.hpp>
 
 namespace penumbra::io {
 namespace {

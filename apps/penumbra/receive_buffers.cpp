@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
 
-#include <io/dds/receive_buffers.hpp>
+#include <apps/penumbra/receive_buffers.hpp>
 
-namespace penumbra::io {
+namespace penumbra::app {
 namespace {
 
 // Two simultaneous images of 1280x720, depth and colour, are 4.4 MiB in 70 datagrams. Measured at
@@ -39,4 +39,4 @@ std::string normal_advice(const ReceiveBuffers& buffers) {
          "net.core.rmem_default=4194304 where they run, or a profile with receive_buffer_size";
 }
 
-}  // namespace penumbra::io
+}  // namespace penumbra::app

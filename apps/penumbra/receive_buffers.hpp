@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace penumbra::io {
+namespace penumbra::app {
 
 /// The kernel's sizes of a socket's receive buffer in bytes; nothing if not known.
 struct ReceiveBuffers {
@@ -20,4 +20,4 @@ struct ReceiveBuffers {
 /// The same for results that nodes on Fast DDS, ROS 2's default, receive on this machine.
 [[nodiscard]] std::string normal_advice(const ReceiveBuffers& buffers);
 
-}  // namespace penumbra::io
+}  // namespace penumbra::app
