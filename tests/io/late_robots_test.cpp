@@ -12,20 +12,11 @@ namespace {
 class LateRobotsTest : public testing::Test {
  protected:
   LateRobotsTest() {
-    const auto at = [](double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0)); };
-    bench_.publish("/tf_static", encoded(io::TfMessage{{{{0, "world"}, "left/base", at(-0.5)},
-                                                        {{0, "world"}, "right/base", at(0.5)},
-                                                        {{0, "world"}, "optical"}}}));
-    for (const char* const robot : {"/left", "/right"})
-      bench_.publish(robot + std::string("/robot_description"),
-                     encoded(io::StringMessage{live_urdf}));
-    bench_.inbox.set_robot(io::make_robot(*bench_.inbox.take_load_request()));
+    bench_.tell_transform("world", "left/base", -0.5);
+    bench_.tell_transform("world", "right/base", 0.5);
+    bench_.tell_transform("world", "optical");
+    bench_.tell_robots({"left", "right"});
     bench_.tell_info(0);
-  }
-  static io::LiveOptions options() {
-    io::LiveOptions options = LiveBench::one_camera();
-    io::set_robots(options, {"left", "right"}, [](const std::string& name) { return "/" + name; });
-    return options;
   }
   /// Plays a second. Returns how many of its 20 images had each status.
   std::map<std::string, std::size_t> play(bool with_right) {
@@ -37,14 +28,14 @@ class LateRobotsTest : public testing::Test {
         bench_.publish("/right/joint_states", live_joints(bench_.now - 9 * milliseconds));
       if (ms % 50 == 0) bench_.tell_depth(bench_.now);
       if (bench_.work() == 0) continue;
-      ++statuses[bench_.results.last<io::TargetsMessage>(io::Result::targets).status];
+      ++statuses[bench_.status()];
       delay_ = bench_.now - *bench_.job.stamp;
     }
     return statuses;
   }
 
   using Statuses = std::map<std::string, std::size_t>;
-  LiveBench bench_{options()};
+  LiveBench bench_{LiveBench::of_robots({"left", "right"})};
   std::int64_t delay_ = 0;  // of the last image, in nanoseconds
 };
 

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Live clouds: a lidar that sees the turning board before a wall, each point when it was measured.
-#include "live_scene.hpp"
+#include "../support/errors.hpp"
+#include "live_run.hpp"
 
-#include <chrono>
 #include <cstring>
 #include <mutex>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include <io/live/cloud_text.hpp>
 #include <io/live/live_diagnostics.hpp>
-#include <io/live/live_runner.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -115,28 +113,16 @@ class LiveClouds : public testing::Test {
   void start(const std::string& text = "/points") {
     options_.clouds = {io::parse_cloud(text)};
     options_.clouds[0].has_targets = !options_.target_topics.empty();
-    runner_ = std::make_unique<io::LiveRunner>(
-        options_, PipelineConfig{}, std::vector<io::ResultSink*>{}, io::make_robot,
-        std::chrono::seconds(5), std::vector<io::CloudSink*>{&kept_});
-    runner_->with_inbox([&](io::LiveInbox& inbox) {
-      topics_.assign(inbox.topics().begin(), inbox.topics().end());
-      for (std::size_t i = 0; i < topics_.size(); ++i)
-        if (topics_[i].role == io::TopicRole::cloud)
-          inbox.set_type(i, io::message_type<io::PointCloud2Message>());
-        else if (topics_[i].role == io::TopicRole::targets)
-          inbox.set_type(i, io::message_type<io::PoseStampedMessage>());
-      return true;
-    });
-    runner_->watch_cloud(0, watcher_);
-    runner_->start();
-    say("/robot_description", encoded(io::StringMessage{live_urdf}));
-    say("/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
-    ASSERT_TRUE(eventually([](const io::LiveInbox& inbox) { return bool(inbox.robot().posed()); }));
+    run_ = std::make_unique<LiveRun>(options_, PipelineConfig{}, std::vector<io::ResultSink*>{},
+                                     io::make_robot, std::chrono::seconds(5),
+                                     std::vector<io::CloudSink*>{&kept_});
+    run_->watch_cloud(0, watcher_);
+    run_->start();
+    run_->say_robot_and_mount();
+    ASSERT_TRUE(run_->wait_for_robot());
   }
-  void say(const std::string& name, std::vector<std::byte> payload) {
-    const auto owned = std::make_shared<const std::vector<std::byte>>(std::move(payload));
-    for (std::size_t i = 0; i < topics_.size(); ++i)
-      if (topics_[i].name == name) runner_->receive(i, {*owned, owned});
+  void say(const std::string& name, const std::vector<std::byte>& payload) {
+    run_->say(name, payload);
   }
   /// Says joint states, every 10 ms of them, and a scan each 100 ms.
   void scan(int scans, std::int64_t begin = test::start) {
@@ -144,33 +130,29 @@ class LiveClouds : public testing::Test {
       const std::int64_t stamp = begin + i * scan_time;
       for (std::int64_t t = 0; t <= scan_time; t += 10 * milliseconds)
         say("/joint_states", live_joints(stamp + t));
-      const std::size_t before = done();
-      say("/points", encoded(LidarScan(stamp).message));
-      for (int wait = 0; wait < 500 && done() == before; ++wait)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      say_scan(LidarScan(stamp));
     }
   }
-  /// Clouds that are labelled or dropped.
+  /// Waits until it is labelled or dropped.
+  void say_scan(const LidarScan& scan) {
+    const std::size_t before = done();
+    say("/points", encoded(scan.message));
+    ASSERT_TRUE(wait_until([&] { return done() > before; }));
+  }
+  /// The board hides it at any angle.
+  void say_knob(std::int64_t stamp) { say("/knob", live_target(stamp, {0, 0, 1.2})); }
   std::size_t done() {
-    return runner_->with_inbox([](const io::LiveInbox& inbox) {
-      const io::ImageCounts counts = inbox.cloud(0).counts();
-      return counts.received - counts.waiting - counts.in_work;
-    });
+    return run_->with_inbox(
+        [](const io::LiveInbox& inbox) { return LiveRun::done(inbox.cloud(0)); });
   }
-  template <typename IsSo>
-  bool eventually(const IsSo& is_so) {
-    for (int i = 0; i < 500; ++i) {
-      if (runner_->with_inbox([&](const io::LiveInbox& inbox) { return is_so(inbox); }))
-        return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
+  bool wait_for_targets() {
+    return wait_until([&] { return !kept_.kept(io::CloudResult::targets).empty(); });
   }
+  /// When the last cloud arrived.
   io::LiveFault fault() {
-    std::vector<io::LiveLink> links(topics_.size());
-    for (io::LiveLink& link : links) link.is_open = true;
-    return runner_->with_inbox([&](const io::LiveInbox& inbox) {
-      return io::cloud_fault(inbox, 0, links, io::LiveRunner::steady_now());
+    const std::vector<io::LiveLink> links(run_->topics.size(), {.is_open = true});
+    return run_->with_inbox([&](const io::LiveInbox& inbox) {
+      return io::cloud_fault(inbox, 0, links, *inbox.cloud(0).arrivals().last());
     });
   }
   static io::PointCloud2Message decoded(const std::vector<std::byte>& payload) {
@@ -183,15 +165,14 @@ class LiveClouds : public testing::Test {
   io::LiveOptions options_;
   KeptClouds kept_;
   ScanWatcher watcher_;
-  std::vector<io::InputTopic> topics_;
-  std::unique_ptr<io::LiveRunner> runner_;
+  std::unique_ptr<LiveRun> run_;
 };
 
 TEST_F(LiveClouds, FollowTheRobotThroughEachScan) {
   start();
   scan(5);
-  runner_->stop();
-  EXPECT_FALSE(runner_->fault());
+  run_->stop();
+  EXPECT_FALSE(run_->fault());
   const auto labelled = kept_.kept(io::CloudResult::labelled),
              clean = kept_.kept(io::CloudResult::without_robot);
   ASSERT_EQ(labelled.size(), 5U);
@@ -213,7 +194,7 @@ TEST_F(LiveClouds, FollowTheRobotThroughEachScan) {
 TEST_F(LiveClouds, OfOnePoseAreWrongWhereTheRobotMoved) {
   start("/points ignore_times");
   scan(2);
-  runner_->stop();
+  run_->stop();
   ASSERT_EQ(kept_.kept(io::CloudResult::labelled).size(), 2U);
   EXPECT_GT(wrong_labels(decoded(kept_.kept(io::CloudResult::labelled)[1])), 50U);
 }
@@ -222,16 +203,10 @@ TEST_F(LiveClouds, JudgeTheTargetsOfTheirStampThatComeLater) {
   options_.target_topics = {"/knob"};
   start();
   scan(3);
-  const auto say_knob = [&](std::int64_t stamp) {
-    io::PoseStampedMessage knob{.header = {stamp, "optical"}};
-    knob.pose.translation() = Eigen::Vector3d(0, 0, 1.2);  // the board hides it at any angle
-    say("/knob", encoded(knob));
-  };
   say_knob(test::start + scan_time);  // the second of three scans
-  ASSERT_TRUE(eventually(
-      [&](const io::LiveInbox&) { return !kept_.kept(io::CloudResult::targets).empty(); }));
+  ASSERT_TRUE(wait_for_targets());
   say_knob(test::start + scan_time / 2);  // of no scan
-  runner_->stop();
+  run_->stop();
   const auto kept = kept_.kept(io::CloudResult::targets);
   ASSERT_EQ(kept.size(), 1U);
   io::TargetsMessage targets;
@@ -251,30 +226,24 @@ TEST_F(LiveClouds, GoOnWithTargetsAfterTheClockJumpedBack) {
   start();
   scan(2, test::start + 100 * seconds);
   scan(2);  // 100 s earlier
-  io::PoseStampedMessage knob{.header = {test::start + scan_time, "optical"}};
-  knob.pose.translation() = Eigen::Vector3d(0, 0, 1.2);
-  say("/knob", encoded(knob));
-  EXPECT_TRUE(eventually(
-      [&](const io::LiveInbox&) { return !kept_.kept(io::CloudResult::targets).empty(); }));
+  say_knob(test::start + scan_time);
+  EXPECT_TRUE(wait_for_targets());
 }
 
 TEST_F(LiveClouds, WithoutJointStatesAreUnknownAndSaySo) {
   start();
-  say("/points", encoded(LidarScan(test::start).message));
-  ASSERT_TRUE(
-      eventually([](const io::LiveInbox& inbox) { return inbox.cloud(0).counts().judged == 1; }));
+  say_scan(LidarScan(test::start));
   EXPECT_EQ(decoded(kept_.kept(io::CloudResult::without_robot).at(0)).width, 0U);
-  EXPECT_NE(fault().why.find("missing_joints"), std::string::npos) << fault().why;
+  EXPECT_TRUE(holds(fault().why, "missing_joints"));
 }
 
 TEST_F(LiveClouds, InAFrameAboveTheRobotAreRefused) {
   start();
-  say("/tf_static", encoded(io::TfMessage{{{{0, "odom"}, "base"}}}));
+  say("/tf_static", live_transform("odom", "base"));
   LidarScan scan(test::start);
   scan.message.header.frame_id = "odom";
-  say("/points", encoded(scan.message));
-  EXPECT_NE(fault().why.find("above the robot"), std::string::npos) << fault().why;
-  EXPECT_EQ(done(), 1U);
+  say_scan(scan);
+  EXPECT_TRUE(holds(fault().why, "above the robot"));
   EXPECT_TRUE(kept_.kept(io::CloudResult::without_robot).empty());
 }
 
@@ -282,14 +251,14 @@ TEST_F(LiveClouds, ThatCannotBeReadAreCountedWithTheReason) {
   start();
   LidarScan scan(test::start);
   scan.message.fields[2].name = "w";
-  say("/points", encoded(scan.message));
-  const auto [dropped, why] = runner_->with_inbox([](const io::LiveInbox& inbox) {
+  say_scan(scan);
+  const auto [dropped, why] = run_->with_inbox([](const io::LiveInbox& inbox) {
     const auto& faults = inbox.faults().all();
     return std::pair(inbox.cloud(0).counts().of(DropReason::unreadable),
                      faults.empty() ? std::string() : faults.begin()->second.what);
   });
   EXPECT_EQ(dropped, 1U);
-  EXPECT_NE(why.find('z'), std::string::npos) << why;
+  EXPECT_TRUE(holds(why, "z"));
 }
 
 TEST(CloudText, SaysWhatASensorIs) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The diagnostics of live, for example why there are no results.
+#include "../support/errors.hpp"
 #include "live_scene.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +43,7 @@ class LiveDiagnosticsTest : public testing::Test {
   }
   static void expect_says(const Status& status, std::uint8_t level, const std::string& what) {
     EXPECT_EQ(status.level, level) << status.message;
-    EXPECT_NE(status.message.find(what), std::string::npos) << status.message;
+    EXPECT_TRUE(holds(status.message, what));
   }
 
   LiveBench bench_;

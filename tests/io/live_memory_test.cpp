@@ -6,31 +6,22 @@
 #include "live_scene.hpp"
 
 #include <iostream>
-#include <string>
 
 #include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
 
-constexpr std::int64_t period = 33 * milliseconds;
 /// The size of the allocator's caches that buffers of a larger robot or image leave behind, MiB. A
 /// leak of 100 bytes for each image would be 9 MiB in the long run.
 constexpr double memory_slack = 8.0;
 
 class LiveMemory : public testing::Test {
  protected:
-  static io::LiveOptions options() {
-    io::LiveOptions options = LiveBench::one_camera();
-    options.target_topics = {"/wrist", "/objects"};
-    return options;
-  }
   LiveMemory() {
-    for (std::size_t i = 0; i < bench_.inbox.topics().size(); ++i) {
-      const io::InputTopic& topic = bench_.inbox.topics()[i];
-      if (topic.name == "/wrist") bench_.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
-      if (topic.name == "/objects") bench_.inbox.set_type(i, "penumbra_msgs/msg/Keypoints");
-    }
+    for (std::size_t i = 0; i < bench_.inbox.topics().size(); ++i)
+      if (bench_.inbox.topics()[i].name == "/objects")
+        bench_.inbox.set_type(i, "penumbra_msgs/msg/Keypoints");
     bench_.tell_all();
   }
 
@@ -48,9 +39,7 @@ class LiveMemory : public testing::Test {
   }
 
   void tell_targets(std::size_t i) {
-    io::PoseStampedMessage pose{.header = {stamp_of(i), "optical"}};
-    pose.pose.translation() = Eigen::Vector3d(1.2, 0.0, 3.0);
-    bench_.publish("/wrist", encoded(pose));
+    bench_.publish("/wrist", live_target(stamp_of(i), {1.2, 0.0, 3.0}));
     io::KeypointsMessage points{.header = {stamp_of(i), "optical"}};
     points.keypoints.push_back({.name = std::to_string(i), .u = 10, .v = 10, .score = 1});
     bench_.publish("/objects", encoded(points));
@@ -58,16 +47,12 @@ class LiveMemory : public testing::Test {
 
   void judge(std::size_t i) {
     tell_changes(i);
-    bench_.tell_joints(stamp_of(i) - 10 * milliseconds);
-    bench_.tell_joints(stamp_of(i) + 10 * milliseconds);
     tell_targets(i);
-    bench_.tell_depth(stamp_of(i));
-    bench_.work();
-    bench_.now += period;
+    bench_.judge(stamp_of(i));
     bench_.results.published.clear();
   }
   static std::int64_t stamp_of(std::size_t i) {
-    return start + static_cast<std::int64_t>(i) * period;
+    return start + static_cast<std::int64_t>(i) * image_period;
   }
 
   void expect_flat(std::size_t frames) {
@@ -86,7 +71,7 @@ class LiveMemory : public testing::Test {
     EXPECT_EQ(bench_.results.count(io::Result::labels), 0U);
   }
 
-  LiveBench bench_{options()};
+  LiveBench bench_{LiveBench::one_camera({"/wrist", "/objects"})};
   std::string robot_ = live_urdf;
   /// The number of frames of TF. The long run has more of them than are kept.
   std::size_t names_ = 400;

@@ -6,7 +6,6 @@
 #include "live_scene.hpp"
 
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <random>
 
@@ -17,12 +16,10 @@
 namespace penumbra::test {
 namespace {
 
-constexpr std::int64_t step = 10 * milliseconds, image_period = 50 * milliseconds;
+constexpr std::int64_t step = 10 * milliseconds, slow_period = 50 * milliseconds;
 constexpr double part_size = 0.15, part_place = 0.3;  // metres; on a's board
 
-Eigen::Isometry3d at(double x, double y = 0.0, double z = 0.0) {
-  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
-}
+Eigen::Isometry3d at(double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)); }
 
 /// What is true: where the bases are, and whether a carries the part.
 class World {
@@ -52,47 +49,27 @@ class World {
   std::unique_ptr<Pipeline> pipeline_;
 };
 
-io::LiveOptions options() {
-  io::LiveOptions options = LiveBench::one_camera();
-  options.target_topics = {"/ball"};
-  io::set_robots(options, {"a", "b"}, [](const std::string& name) { return "/" + name; });
-  return options;
-}
-
 class LiveRobotsChaos : public testing::Test {
  protected:
   LiveRobotsChaos() {
     bench_.results.wanted = {{io::Result::overlay, false}, {io::Result::points, false}};
-    for (std::size_t i = 0; i < bench_.inbox.topics().size(); ++i)
-      if (bench_.inbox.topics()[i].role == io::TopicRole::targets)
-        bench_.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
-    tell_base("optical", 0.0);
-    for (const std::size_t robot : {0U, 1U}) {
-      tell_base(names[robot] + "/base", world_.bases[robot]);
-      bench_.publish("/" + names[robot] + "/robot_description",
-                     encoded(io::StringMessage{live_urdf}));
-    }
-    bench_.inbox.set_robot(io::make_robot(*bench_.inbox.take_load_request()));
+    bench_.tell_transform("world", "optical");
+    for (const std::size_t robot : {0U, 1U}) tell_base(robot);
+    bench_.tell_robots({"a", "b"});
     bench_.tell_info(0);
     bench_.tell_depth(start - seconds);  // targets know the camera's frame
   }
 
-  void tell_base(const std::string& frame, double x) {
-    bench_.publish("/tf_static", encoded(io::TfMessage{{{{0, "world"}, frame, at(x)}}}));
+  void tell_base(std::size_t robot) {
+    bench_.tell_transform("world", names[robot] + "/base", world_.bases[robot]);
   }
 
   /// MoveIt's message with the stamp at which the part was made, whenever that was.
   void tell_part(bool is_attached) {
-    io::AttachedObjectMessage message{.link_name = "board"};
-    message.object.header = {start - seconds, "board"};
-    message.object.id = "part";
-    message.object.operation =
-        is_attached ? io::CollisionObjectMessage::add : io::CollisionObjectMessage::remove;
-    message.object.pose = {{part_place, 0, 0}, {0, 0, 0, 1}};
-    message.object.primitives = {
-        {.type = io::SolidPrimitiveMessage::box, .dimensions = {part_size, part_size, part_size}}};
-    message.object.primitive_poses = {{{0, 0, 0}, {0, 0, 0, 1}}};
-    bench_.publish("/a/attached_collision_object", encoded(message));
+    using Object = io::CollisionObjectMessage;
+    const auto operation = is_attached ? Object::add : Object::remove;
+    bench_.publish("/a/attached_collision_object",
+                   encoded(live_part(start - seconds, operation, "part", part_size, part_place)));
     world_.is_carried = is_attached;
   }
 
@@ -110,7 +87,7 @@ class LiveRobotsChaos : public testing::Test {
       case 1:
         world_.bases[robot] =
             std::uniform_real_distribution<double>(0.1, 0.5)(random_) * (robot == 0 ? -1.0 : 1.0);
-        tell_base(names[robot] + "/base", world_.bases[robot]);
+        tell_base(robot);
         ++moved_;
         break;
       default:
@@ -119,21 +96,16 @@ class LiveRobotsChaos : public testing::Test {
   }
 
   void tell_image(std::int64_t stamp) {
-    io::PoseStampedMessage ball{.header = {stamp, "optical"}};
-    ball.pose = at(std::uniform_real_distribution<double>(-1.2, 1.2)(random_),
-                   std::uniform_real_distribution<double>(-0.6, 0.6)(random_), 3.0);
-    bench_.publish("/ball", encoded(ball));
-    balls_[stamp] = ball.pose.translation();
+    const double x = std::uniform_real_distribution<double>(-1.2, 1.2)(random_);
+    const double y = std::uniform_real_distribution<double>(-0.6, 0.6)(random_);
+    balls_[stamp] = {x, y, 3.0};
+    bench_.publish("/ball", live_target(stamp, balls_[stamp]));
     bench_.tell_depth(stamp);
   }
 
   void check() {
     const auto found = bench_.results.last<io::TargetsMessage>(io::Result::targets);
-    const auto pixels_of = [&](io::Result result) {  // the next result takes the message's memory
-      const auto image = bench_.results.last<io::ImageMessage>(result);
-      return std::vector(image.data.begin(), image.data.end());
-    };
-    const auto labels = pixels_of(io::Result::labels), mask = pixels_of(io::Result::mask);
+    const auto labels = bench_.pixels(io::Result::labels), mask = bench_.pixels(io::Result::mask);
     bench_.results.published.clear();
     const std::int64_t stamp = found.header.stamp;
     // Neither tf_static nor the part's messages say since when: not for images on their way.
@@ -164,7 +136,7 @@ class LiveRobotsChaos : public testing::Test {
 
   const std::array<std::string, 2> names{"a", "b"};
   std::mt19937_64 random_ = seeded_random(17);
-  LiveBench bench_{options()};
+  LiveBench bench_{LiveBench::of_robots({"a", "b"}, {"/ball"})};
   World world_;
   std::map<std::int64_t, Eigen::Vector3d> balls_;  // by stamp
   std::array<std::int64_t, 2> silent_until_{};
@@ -181,7 +153,7 @@ TEST_F(LiveRobotsChaos, NothingWrongIsSaid) {
       if (now >= silent_until_[robot])
         bench_.publish("/" + names[robot] + "/joint_states", live_joints(now));
     change(now);
-    if (now % image_period == 0) tell_image(now);
+    if (now % slow_period == 0) tell_image(now);
     if (bench_.work() > 0) check();
   }
   std::cout << images_ << " images, " << whole_ << " without an unknown pixel, " << verdicts_

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The threads of live: two cameras and one robot, with all messages at once.
-#include "live_scene.hpp"
+#include "../support/errors.hpp"
+#include "live_run.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <future>
 #include <mutex>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include <io/live/live_diagnostics.hpp>
-#include <io/live/live_runner.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -28,9 +25,8 @@ class SharedResults final : public io::ResultSink {
     results_.write(result, stamp, payload);
   }
   [[nodiscard]] std::size_t count(io::Result of) {
-    const auto all = published();
-    return static_cast<std::size_t>(
-        std::count_if(all.begin(), all.end(), [&](const auto& one) { return one.result == of; }));
+    const std::lock_guard lock(mutex_);
+    return results_.count(of);
   }
   [[nodiscard]] std::vector<KeptResults::Published> published() {
     const std::lock_guard lock(mutex_);
@@ -47,94 +43,80 @@ class SharedResults final : public io::ResultSink {
 class LiveRunnerTest : public testing::Test {
  protected:
   LiveRunnerTest() {
-    for (const char* name : {"left", "right"})
+    for (const std::string name : {"left", "right"})
       options_.cameras.push_back({.name = name,
-                                  .depth_topic = std::string("/") + name + "/depth",
-                                  .info_topic = std::string("/") + name + "/camera_info"});
+                                  .depth_topic = "/" + name + "/depth",
+                                  .info_topic = "/" + name + "/camera_info"});
   }
-  static std::vector<io::InputTopic> topics_of(io::LiveRunner& runner) {
-    return runner.with_inbox([](const io::LiveInbox& inbox) {
-      return std::vector<io::InputTopic>(inbox.topics().begin(), inbox.topics().end());
-    });
+  void start(const io::LiveRunner::RobotMaker& maker = io::make_robot) {
+    std::vector<io::ResultSink*> sinks{&left_, &right_};
+    sinks.resize(options_.cameras.size());
+    run_ = std::make_unique<LiveRun>(options_, PipelineConfig{}, sinks, maker,
+                                     std::chrono::milliseconds(10));
+    if (fusion_) run_->fuse(*fusion_);
+    run_->start();
+    run_->say_robot_and_mount();
   }
-  static void tell(io::LiveRunner& runner, const std::vector<io::InputTopic>& topics,
-                   const std::string& name, std::vector<std::byte> payload) {
-    const auto owned = std::make_shared<const std::vector<std::byte>>(std::move(payload));
-    for (std::size_t i = 0; i < topics.size(); ++i)
-      if (topics[i].name == name) runner.receive(i, {*owned, owned});
+  void say(const std::string& name, const std::vector<std::byte>& payload) {
+    run_->say(name, payload);
   }
+  void end() {
+    run_->stop();
+    EXPECT_FALSE(run_->fault());
+  }
+  static std::int64_t stamp_of(int i) { return test::start + i * 33 * milliseconds; }
+
   io::LiveOptions options_;
   SharedResults left_, right_;
+  std::unique_ptr<io::LiveFusion> fusion_;
+  std::unique_ptr<LiveRun> run_;
 };
 
 TEST_F(LiveRunnerTest, JudgesTwoCamerasAtOnce) {
-  io::LiveRunner runner(options_, {}, {&left_, &right_});
-  const auto topics = topics_of(runner);
-  runner.start();
-  const auto say = [&](const std::string& name, std::vector<std::byte> payload) {
-    tell(runner, topics, name, std::move(payload));
-  };
-  say("/robot_description", encoded(io::StringMessage{live_urdf}));
-  say("/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
+  start();
   for (const char* camera : {"/left", "/right"})
     say(std::string(camera) + "/camera_info", encoded(live_info(0)));
-  constexpr int frames = 60;
-  for (int i = 0; i < frames; ++i) {
-    const std::int64_t stamp = 1000 * seconds + i * 33 * milliseconds;
+  ASSERT_TRUE(run_->wait_for_robot());
+  constexpr std::size_t frames = 60, waits = 6;
+  const auto are_done = [&](std::size_t images) {
+    return run_->with_inbox([&](const io::LiveInbox& inbox) {
+      return LiveRun::done(inbox.camera(0)) == images && LiveRun::done(inbox.camera(1)) == images;
+    });
+  };
+  for (std::size_t i = 0; i < frames; ++i) {
+    const std::int64_t stamp = stamp_of(static_cast<int>(i));
     say("/joint_states", live_joints(stamp));
     for (const char* camera : {"/left", "/right"})
       say(std::string(camera) + "/depth", live_depth(stamp));
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    if (i % (frames / waits) != frames / waits - 1) continue;
+    ASSERT_TRUE(wait_until([&] { return are_done(i + 1); }));
   }
-  const auto all_done = [&] {
-    return runner.with_inbox([](const io::LiveInbox& inbox) {
-      bool done = true;
-      for (std::size_t i = 0; i < inbox.camera_count(); ++i) {
-        const io::ImageCounts counts = inbox.camera(i).counts();
-        done &= counts.waiting == 0 && counts.in_work == 0;
-      }
-      return done;
-    });
-  };
-  for (int i = 0; i < 1000 && !all_done(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  EXPECT_TRUE(all_done());
-  runner.stop();
-  EXPECT_FALSE(runner.fault());
+  end();
   LiveTruth truth;
   for (SharedResults* results : {&left_, &right_}) {
     const auto published = results->published();
-    EXPECT_GT(expect_true_labels(published, truth), 0U);
-    EXPECT_EQ(published.back().stamp, 1000 * seconds + (frames - 1) * 33 * milliseconds);
+    EXPECT_GE(expect_true_labels(published, truth), waits);
+    EXPECT_EQ(published.back().stamp, stamp_of(frames - 1));
   }
 }
 
 TEST_F(LiveRunnerTest, PointsAreAsFewAndAsSeldomAsAsked) {
   options_.cameras.resize(1);
   options_.points = {.stride = 4, .range = 2.0};  // the wall is farther
-  options_.points_rate = 0.01;
+  options_.points_rate = 1e-6;
   left_.with_points = true;
-  io::LiveRunner runner(options_, {}, {&left_});
-  const auto topics = topics_of(runner);
-  runner.start();
-  tell(runner, topics, "/robot_description", encoded(io::StringMessage{live_urdf}));
-  tell(runner, topics, "/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
-  tell(runner, topics, "/left/camera_info", encoded(live_info(0)));
-  for (int wait = 0; wait < 1000; ++wait) {
-    if (runner.with_inbox([](const io::LiveInbox& inbox) { return bool(inbox.robot().posed()); }))
-      break;
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
+  start();
+  say("/left/camera_info", encoded(live_info(0)));
+  ASSERT_TRUE(run_->wait_for_robot());
   constexpr std::size_t frames = 5;
   for (std::size_t i = 0; i < frames; ++i) {
-    const std::int64_t stamp = 1000 * seconds + static_cast<std::int64_t>(i) * 33 * milliseconds;
+    const std::int64_t stamp = stamp_of(static_cast<int>(i));
     for (const int after : {-10, 10})
-      tell(runner, topics, "/joint_states", live_joints(stamp + after * milliseconds));
-    tell(runner, topics, "/left/depth", live_depth(stamp));
-    for (int wait = 0; wait < 1000 && left_.count(io::Result::labels) <= i; ++wait)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      say("/joint_states", live_joints(stamp + after * milliseconds));
+    say("/left/depth", live_depth(stamp));
+    ASSERT_TRUE(wait_until([&] { return left_.count(io::Result::labels) > i; }));
   }
-  runner.stop();
+  end();
   EXPECT_EQ(left_.count(io::Result::labels), frames);
   EXPECT_EQ(left_.count(io::Result::points), 1U);
   for (const auto& one : left_.published()) {
@@ -147,63 +129,45 @@ TEST_F(LiveRunnerTest, PointsAreAsFewAndAsSeldomAsAsked) {
 
 TEST_F(LiveRunnerTest, ARobotWhoseMeshesComeLaterHealsByItself) {
   std::atomic<int> tries = 0;
-  const auto maker = [&](const io::RobotLoadRequest& request) {
+  start([&](const io::RobotLoadRequest& request) {
     if (++tries < 3) return io::MadeRobot{request.number, nullptr, "its meshes are not there"};
     return io::make_robot(request);
-  };
-  io::LiveRunner runner(options_, {}, {&left_, &right_}, maker, std::chrono::milliseconds(10));
-  const auto topics = topics_of(runner);
-  runner.start();
-  tell(runner, topics, "/robot_description", encoded(io::StringMessage{live_urdf}));
-  const auto is_there = [&] {
-    return runner.with_inbox(
-        [](const io::LiveInbox& inbox) { return bool(inbox.robot().posed()); });
-  };
-  for (int i = 0; i < 1000 && !is_there(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  EXPECT_TRUE(is_there());
+  });
+  EXPECT_TRUE(run_->wait_for_robot());
   EXPECT_EQ(tries, 3);
+  end();
 }
 
 TEST_F(LiveRunnerTest, ReceivesWhileARobotsMeshesAreRead) {
   std::promise<void> begun, may_go_on;
-  io::LiveRunner runner(options_, {}, {&left_, &right_}, [&](const io::RobotLoadRequest& request) {
+  start([&](const io::RobotLoadRequest& request) {
     begun.set_value();
     may_go_on.get_future().wait();
     return io::make_robot(request);
   });
-  const auto topics = topics_of(runner);
-  runner.start();
-  const auto say = [&](const std::string& name, std::vector<std::byte> payload) {
-    tell(runner, topics, name, std::move(payload));
-  };
-  say("/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
   say("/left/camera_info", encoded(live_info(0)));
-  say("/robot_description", encoded(io::StringMessage{live_urdf}));
   begun.get_future().wait();
-  const std::int64_t start = 1000 * seconds;
-  for (int i = 0; i < 10; ++i) {
-    say("/joint_states", live_joints(start + i * 10 * milliseconds));
-    say("/left/depth", live_depth(start + i * 10 * milliseconds));
-  }
-  const std::vector<io::LiveLink> links(topics.size());
-  runner.with_inbox([&](const io::LiveInbox& inbox) {
+  const auto say_image = [&](std::int64_t stamp) {
+    say("/joint_states", live_joints(stamp));
+    say("/left/depth", live_depth(stamp));
+  };
+  for (int i = 0; i < 10; ++i) say_image(stamp_of(i));
+  const std::vector<io::LiveLink> links(run_->topics.size());
+  run_->with_inbox([&](const io::LiveInbox& inbox) {
     EXPECT_TRUE(inbox.robot().is_being_made());
     EXPECT_EQ(inbox.camera(0).counts().of(DropReason::not_ready), 10U);
     const auto fault = io::robot_fault(inbox, links, io::LiveRunner::steady_now());
-    EXPECT_NE(fault.why.find("is being made"), std::string::npos) << fault.why;
+    EXPECT_TRUE(holds(fault.why, "is being made"));
     return true;
   });
   may_go_on.set_value();
+  int i = 10;
+  EXPECT_TRUE(wait_until([&] {
+    say_image(stamp_of(i++));
+    return !left_.published().empty();
+  }));
+  end();
   LiveTruth truth;
-  for (int i = 0; i < 1000 && left_.published().empty(); ++i) {
-    const std::int64_t stamp = start + seconds + i * 10 * milliseconds;
-    say("/joint_states", live_joints(stamp));
-    say("/left/depth", live_depth(stamp));
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  runner.stop();
-  EXPECT_FALSE(runner.fault());
   EXPECT_GT(expect_true_labels(left_.published(), truth), 0U);
 }
 
@@ -213,43 +177,29 @@ TEST_F(LiveRunnerTest, CamerasGiveOneVerdict) {
   options_.target_topics = {"/part"};
   std::mutex mutex;
   std::vector<Views> told;
-  io::LiveFusion fusion({"left", "right"}, [&](std::span<const std::byte> payload) {
-    const std::lock_guard lock(mutex);
-    const auto fault = io::Decoder<Views>().decode(payload, told.emplace_back());
-    EXPECT_FALSE(fault) << *fault;
-  });
+  fusion_ = std::make_unique<io::LiveFusion>(
+      std::vector<std::string>{"left", "right"}, [&](std::span<const std::byte> payload) {
+        const std::lock_guard lock(mutex);
+        const auto fault = io::Decoder<Views>().decode(payload, told.emplace_back());
+        EXPECT_FALSE(fault) << *fault;
+      });
   const auto last = [&] {
     const std::lock_guard lock(mutex);
     return told.empty() ? Views() : told.back();
   };
-  io::LiveRunner runner(options_, {}, {&left_, &right_});
-  runner.fuse(fusion);
-  runner.with_inbox([&](io::LiveInbox& inbox) {
-    for (std::size_t i = 0; i < inbox.topics().size(); ++i)
-      if (inbox.topics()[i].name == "/part") inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
-    return true;
-  });
-  const auto topics = topics_of(runner);
-  runner.start();
-  const auto say = [&](const std::string& name, std::vector<std::byte> payload) {
-    tell(runner, topics, name, std::move(payload));
-  };
-  const Eigen::Isometry3d aside(Eigen::Translation3d(0.8, 0.0, 0.0));
-  say("/robot_description", encoded(io::StringMessage{live_urdf}));
-  say("/tf_static",
-      encoded(io::TfMessage{{{{0, "base"}, "optical"}, {{0, "base"}, "aside", aside}}}));
+  start();
+  say("/tf_static", live_transform("base", "aside", {0.8, 0, 0}));
   io::CameraInfoMessage info = live_info(0);
   say("/left/camera_info", encoded(info));
   info.header.frame_id = "aside";
   say("/right/camera_info", encoded(info));
   const Image<std::uint16_t> board(64, 48, 950), behind(64, 48, 2000);
-  std::int64_t stamp = start;
-  /// Judges frames until `is_done`, or for 10 s.
+  std::int64_t stamp = test::start;
+  /// Judges frames until `is_done`.
   const auto judge_until = [&](bool with_right, const auto& is_done) {
-    for (int i = 0; i < 1000 && !is_done(last()); ++i, stamp += 20 * milliseconds) {
-      io::PoseStampedMessage part{.header = {stamp, "base"}};
-      part.pose.translation() = Eigen::Vector3d(0.0, 0.0, 2.0);
-      say("/part", encoded(part));
+    EXPECT_TRUE(wait_until([&] {
+      stamp += 20 * milliseconds;
+      say("/part", live_target(stamp, {0, 0, 2}, "base"));
       say("/left/depth",
           encoded(io::image_message(io::MessageHeader{stamp, "optical"}, "16UC1", board.view())));
       if (with_right)
@@ -257,8 +207,8 @@ TEST_F(LiveRunnerTest, CamerasGiveOneVerdict) {
             encoded(io::image_message(io::MessageHeader{stamp, "aside"}, "16UC1", behind.view())));
       for (const int later : {-10, 10})
         say("/joint_states", live_joints(stamp + later * milliseconds));
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
+      return is_done(last());
+    }));
     return last();
   };
   const auto has_verdict = [](std::uint8_t verdict) {
@@ -276,12 +226,11 @@ TEST_F(LiveRunnerTest, CamerasGiveOneVerdict) {
   const Views left = judge_until(false, has_verdict(io::TargetMessage::unknown));
   ASSERT_EQ(left.targets.size(), 1U);
   EXPECT_EQ(left.targets[0].verdict, io::TargetMessage::unknown) << "the right camera is silent";
-  EXPECT_NE(left.targets[0].reason.find("'right'"), std::string::npos) << left.targets[0].reason;
+  EXPECT_TRUE(holds(left.targets[0].reason, "'right'"));
   io::DiagnosticArrayMessage diagnostics{.header = {}, .status = {{}}};
-  fusion.add_contradictions(diagnostics);
+  fusion_->add_contradictions(diagnostics);
   EXPECT_TRUE(diagnostics.status[0].values.empty());
-  runner.stop();
-  EXPECT_FALSE(runner.fault());
+  end();
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ namespace penumbra::test {
 inline constexpr std::int64_t milliseconds = 1'000'000;
 inline constexpr std::int64_t seconds = 1000 * milliseconds;
 inline constexpr std::int64_t start = 1000 * seconds;  // the board is level then
+inline constexpr std::int64_t image_period = 33 * milliseconds;
 
 /// A camera of the scene.
 struct LiveLens {
@@ -88,9 +89,41 @@ std::vector<std::byte> encoded(const M& message) {
   return payload;
 }
 
+inline std::vector<std::byte> live_joints(std::int64_t stamp, double angle) {
+  return encoded(
+      io::JointStateMessage{.header = {stamp, ""}, .names = {"spin"}, .positions = {angle}});
+}
 inline std::vector<std::byte> live_joints(std::int64_t stamp) {
-  return encoded(io::JointStateMessage{
-      .header = {stamp, ""}, .names = {"spin"}, .positions = {spin_at(stamp)}});
+  return live_joints(stamp, spin_at(stamp));
+}
+
+inline std::vector<std::byte> live_transform(const std::string& parent, const std::string& child,
+                                             const Eigen::Vector3d& at = {0, 0, 0}) {
+  return encoded(
+      io::TfMessage{{{{0, parent}, child, Eigen::Isometry3d(Eigen::Translation3d(at))}}});
+}
+
+/// Returns a target at a point.
+inline std::vector<std::byte> live_target(std::int64_t stamp, const Eigen::Vector3d& at,
+                                          const std::string& frame = "optical") {
+  return encoded(
+      io::PoseStampedMessage{{stamp, frame}, Eigen::Isometry3d(Eigen::Translation3d(at))});
+}
+
+/// Returns MoveIt's message of a cube on the board.
+inline io::AttachedObjectMessage live_part(std::int64_t stamp,
+                                           std::uint8_t operation = io::CollisionObjectMessage::add,
+                                           const std::string& id = "part", double size = 0.3,
+                                           double x = 0.5) {
+  io::AttachedObjectMessage part{.link_name = "board"};
+  part.object.header = {stamp, "board"};
+  part.object.id = id;
+  part.object.operation = operation;
+  part.object.pose = {{x, 0, 0}, {0, 0, 0, 1}};
+  part.object.primitives = {
+      {.type = io::SolidPrimitiveMessage::box, .dimensions = {size, size, size}}};
+  part.object.primitive_poses = {{{0, 0, 0}, {0, 0, 0, 1}}};
+  return part;
 }
 
 /// Returns depth of a wall at 3 m. Each pixel of the board is beyond, so labels show where it was
@@ -168,12 +201,25 @@ class KeptResults final : public io::ResultSink {
 /// An inbox and its worker, driven by hand.
 class LiveBench {
  public:
-  explicit LiveBench(const io::LiveOptions& options = one_camera()) : inbox(options) {}
+  LiveBench() : LiveBench(one_camera()) {}
+  explicit LiveBench(const io::LiveOptions& options) : inbox(options) {
+    for (std::size_t i = 0; i < inbox.topics().size(); ++i)
+      if (inbox.topics()[i].role == io::TopicRole::targets)
+        inbox.set_type(i, io::message_type<io::PoseStampedMessage>());
+  }
 
-  static io::LiveOptions one_camera() {
+  static io::LiveOptions one_camera(const std::vector<std::string>& targets = {}) {
     io::LiveOptions options;
     options.cameras = {
         {.depth_topic = "/camera/depth/image_rect_raw", .info_topic = "/camera/depth/camera_info"}};
+    options.target_topics = targets;
+    return options;
+  }
+  /// One camera and robots with namespaces.
+  static io::LiveOptions of_robots(const std::vector<std::string>& names,
+                                   const std::vector<std::string>& targets = {}) {
+    io::LiveOptions options = one_camera(targets);
+    io::set_robots(options, names, [](const std::string& name) { return "/" + name; });
     return options;
   }
 
@@ -188,9 +234,22 @@ class LiveBench {
     publish("/robot_description", encoded(io::StringMessage{urdf}));
     if (const auto request = inbox.take_load_request()) inbox.set_robot(io::make_robot(*request));
   }
-  void tell_mount() { publish("/tf_static", encoded(io::TfMessage{{{{0, "base"}, "optical"}}})); }
+  /// Publishes the descriptions of several robots.
+  void tell_robots(const std::vector<std::string>& names) {
+    for (const std::string& name : names)
+      publish("/" + name + "/robot_description", encoded(io::StringMessage{live_urdf}));
+    inbox.set_robot(io::make_robot(*inbox.take_load_request()));
+  }
+  void tell_transform(const std::string& parent, const std::string& child, double x = 0.0) {
+    publish("/tf_static", live_transform(parent, child, {x, 0, 0}));
+  }
+  void tell_mount() { tell_transform("base", "optical"); }
   void tell_joints(std::int64_t stamp, std::uint64_t publisher = 0) {
     publish("/joint_states", live_joints(stamp), publisher);
+  }
+  /// Publishes joint states before and after a stamp.
+  void tell_joints_around(std::int64_t stamp, const std::string& topic = "/joint_states") {
+    for (const int by : {-10, 10}) publish(topic, live_joints(stamp + by * milliseconds));
   }
   void tell_info(std::int64_t stamp, double focal = 60.0) {
     publish("/camera/depth/camera_info", encoded(live_info(stamp, {.focal = focal})));
@@ -217,7 +276,27 @@ class LiveBench {
     return judged;
   }
 
+  /// Judges an image whose pose is known.
+  std::size_t judge(std::int64_t stamp) {
+    tell_joints_around(stamp);
+    tell_depth(stamp);
+    now += image_period;
+    return work();
+  }
+
   [[nodiscard]] io::ImageCounts counts() const { return inbox.camera(0).counts(); }
+  [[nodiscard]] std::string status() {
+    return results.last<io::TargetsMessage>(io::Result::targets).status;
+  }
+  [[nodiscard]] std::vector<std::byte> pixels(io::Result result) {
+    const auto image = results.last<io::ImageMessage>(result);
+    return {image.data.begin(), image.data.end()};
+  }
+  /// Returns how many pixels of the last mask are the robot's.
+  [[nodiscard]] std::ptrdiff_t masked() {
+    const auto mask = pixels(io::Result::mask);
+    return std::count(mask.begin(), mask.end(), std::byte{255});
+  }
 
   std::int64_t now = 1000 * seconds;
   io::LiveInbox inbox;

@@ -2,25 +2,16 @@
 // Targets of an inbox: the image that they come with, and the cameras that they are for.
 #include "live_scene.hpp"
 
-#include <utility>
-
 #include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
 
 TEST(LiveTargets, ComeWithTheNextImage) {
-  io::LiveOptions options = LiveBench::one_camera();
-  options.target_topics = {"/wrist"};
-  LiveBench bench(options);
-  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
-    if (bench.inbox.topics()[i].role == io::TopicRole::targets)
-      bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
+  LiveBench bench(LiveBench::one_camera({"/wrist"}));
   bench.tell_all();
   bench.tell_depth(start - seconds);  // the camera's frame is known by its first image
-  io::PoseStampedMessage pose{.header = {start, "optical"}};
-  pose.pose.translation() = Eigen::Vector3d(1.2, 0.0, 3.0);
-  bench.publish("/wrist", encoded(pose));
+  bench.publish("/wrist", live_target(start, {1.2, 0.0, 3.0}));
   bench.tell_joints(start);
   bench.tell_depth(start);
   EXPECT_EQ(bench.work(), 1U);
@@ -39,43 +30,30 @@ io::JointTrajectoryMessage quarter_turn() {
   return motion;
 }
 
-/// What is said at `start` of a ball above the board, behind it, once the board is a quarter
-/// turned.
-io::TargetMessage forecast_of_a_ball(LiveBench& bench) {
-  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
-    if (bench.inbox.topics()[i].role == io::TopicRole::targets)
-      bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
-  bench.tell_depth(start - seconds);
-  io::PoseStampedMessage ball{.header = {start, "optical"}};
-  ball.pose.translation() = Eigen::Vector3d(0.0, 0.3, 2.0);
-  bench.publish("/ball", encoded(ball));
-  bench.tell_joints(start);
-  bench.tell_depth(start);
-  EXPECT_EQ(bench.work(), 1U);
-  return bench.results.last<io::TargetsMessage>(io::Result::targets).targets.at(0);
-}
-
-io::LiveOptions with_a_ball() {
-  io::LiveOptions options = LiveBench::one_camera();
-  options.target_topics = {"/ball"};
-  options.motion_topics = {"/joint_trajectory"};
-  return options;
-}
-
-TEST(LivePlans, AreForecast) {
-  // The ray to the ball's middle meets the board's near face 0.95 m away, 0.1425 m from its axis;
-  // the board's edge is 0.1 m from it.
-  const double begin = std::acos(0.1 / 0.1425) / (0.5 * std::numbers::pi);
-  constexpr double radius = 0.06;  // seconds in which the edge passes half of the ball
-  io::DisplayTrajectoryMessage planned{.model_id = "tiny", .parts = {{.joints = quarter_turn()}}};
-  for (const bool is_planned : {true, false}) {
-    LiveBench bench(with_a_ball());
-    bench.tell_all();
-    if (is_planned)
-      bench.publish("/display_planned_path", encoded(planned));
-    else
-      bench.publish("/joint_trajectory", encoded(quarter_turn()));
-    const io::TargetMessage ball = forecast_of_a_ball(bench);
+/// Publishes messages of motions, then a ball that is above the board, and behind it once the board
+/// is a quarter turned.
+class LivePlans : public testing::Test {
+ protected:
+  LivePlans() : bench_(options()) { bench_.tell_all(); }
+  static io::LiveOptions options() {
+    io::LiveOptions options = LiveBench::one_camera({"/ball"});
+    options.motion_topics = {"/joint_trajectory"};
+    return options;
+  }
+  io::TargetMessage forecast() {
+    bench_.tell_depth(start - seconds);
+    bench_.publish("/ball", live_target(start, {0.0, 0.3, 2.0}));
+    bench_.tell_joints(start);
+    bench_.tell_depth(start);
+    EXPECT_EQ(bench_.work(), 1U);
+    return bench_.results.last<io::TargetsMessage>(io::Result::targets).targets.at(0);
+  }
+  void expect_a_forecast() {
+    // The ray to the ball's middle meets the board's near face 0.95 m away, 0.1425 m from its axis;
+    // the board's edge is 0.1 m from it.
+    const double begin = std::acos(0.1 / 0.1425) / (0.5 * std::numbers::pi);
+    constexpr double radius = 0.06;  // seconds in which the edge passes half of the ball
+    const io::TargetMessage ball = forecast();
     EXPECT_NEAR(ball.forecast_seconds, 1.0, 1e-9);
     EXPECT_GT(ball.hidden_in, begin);
     EXPECT_LT(ball.hidden_in, begin + radius);
@@ -83,27 +61,36 @@ TEST(LivePlans, AreForecast) {
     EXPECT_EQ(ball.hidden_by, "board");
     EXPECT_EQ(ball.forecast_reason, "");
   }
+
+  LiveBench bench_;
+};
+
+TEST_F(LivePlans, OfMoveItAreForecast) {
+  bench_.publish("/display_planned_path",
+                 encoded(io::DisplayTrajectoryMessage{.model_id = "tiny",
+                                                      .parts = {{.joints = quarter_turn()}}}));
+  expect_a_forecast();
 }
 
-TEST(LivePlans, WithoutOneNothingIsForecast) {
-  LiveBench bench(with_a_ball());
-  bench.tell_all();
-  bench.publish("/joint_trajectory", encoded(quarter_turn()));
-  bench.publish("/joint_trajectory", encoded(io::JointTrajectoryMessage()));  // stops the motion
-  const io::TargetMessage ball = forecast_of_a_ball(bench);
+TEST_F(LivePlans, OfOthersAreForecast) {
+  bench_.publish("/joint_trajectory", encoded(quarter_turn()));
+  expect_a_forecast();
+}
+
+TEST_F(LivePlans, WithoutOneNothingIsForecast) {
+  bench_.publish("/joint_trajectory", encoded(quarter_turn()));
+  bench_.publish("/joint_trajectory", encoded(io::JointTrajectoryMessage()));  // stops the motion
+  const io::TargetMessage ball = forecast();
   EXPECT_TRUE(ball.forecast_seconds == 0.0 && std::isnan(ball.hidden_in));
-  EXPECT_EQ(bench.inbox.faults().all().size(), 0U);
+  EXPECT_EQ(bench_.inbox.faults().all().size(), 0U);
 }
 
-TEST(LivePlans, OfAnotherRobotAreFaults) {
-  LiveBench bench(with_a_ball());
-  bench.tell_all();
+TEST_F(LivePlans, OfAnotherRobotAreFaults) {
   io::JointTrajectoryMessage other = quarter_turn();
   other.joint_names = {"elbow"};
-  bench.publish("/joint_trajectory", encoded(other));
-  const io::TargetMessage ball = forecast_of_a_ball(bench);
-  EXPECT_TRUE(std::isnan(ball.hidden_in));
-  EXPECT_EQ(bench.inbox.faults().all().size(), 1U);
+  bench_.publish("/joint_trajectory", encoded(other));
+  EXPECT_TRUE(std::isnan(forecast().hidden_in));
+  EXPECT_EQ(bench_.inbox.faults().all().size(), 1U);
 }
 
 TEST(LiveTargets, GoToTheCamerasThatKnowTheirFrame) {
@@ -113,12 +100,9 @@ TEST(LiveTargets, GoToTheCamerasThatKnowTheirFrame) {
         {.name = name, .depth_topic = name, .info_topic = name + std::string("/camera_info")});
   options.target_topics = {"/part"};
   LiveBench bench(options);
-  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
-    if (bench.inbox.topics()[i].role == io::TopicRole::targets)
-      bench.inbox.set_type(i, "geometry_msgs/msg/PoseStamped");
   bench.tell_robot();
-  bench.publish("/tf_static",
-                encoded(io::TfMessage{{{{0, "base"}, "optical"}, {{0, "base"}, "aside"}}}));
+  bench.tell_mount();
+  bench.tell_transform("base", "aside");
   const auto show = [&](const std::string& camera, const std::string& frame, std::int64_t stamp) {
     io::CameraInfoMessage info = live_info(0);
     info.header.frame_id = frame;
@@ -126,9 +110,7 @@ TEST(LiveTargets, GoToTheCamerasThatKnowTheirFrame) {
     bench.publish(camera, live_depth(stamp, frame));
   };
   const auto tell_part = [&](const std::string& frame, std::int64_t stamp) {
-    io::PoseStampedMessage part{.header = {stamp, frame}};
-    part.pose.translation() = Eigen::Vector3d(0.0, 0.0, 2.0);
-    bench.publish("/part", encoded(part));
+    bench.publish("/part", live_target(stamp, {0.0, 0.0, 2.0}, frame));
   };
   const auto received = [&](std::size_t camera) {
     EXPECT_TRUE(bench.inbox.next(camera, bench.now, false, bench.job));
@@ -146,7 +128,7 @@ TEST(LiveTargets, GoToTheCamerasThatKnowTheirFrame) {
   std::int64_t stamp = start;
   const auto judge = [&] {
     stamp += 100 * milliseconds;
-    for (const int around : {-10, 10}) bench.tell_joints(stamp + around * milliseconds);
+    bench.tell_joints_around(stamp);
     show("/left", "optical", stamp);
     show("/right", "aside", stamp);
     const std::size_t left = received(0);

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <memory>
 #include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -65,24 +65,13 @@ class BusyMoveItTest : public testing::Test {
     bench_.now += 100 * milliseconds;
     bench_.tell_joints(bench_.now);
   }
-  static io::AttachedObjectMessage part(std::uint8_t operation) {
-    io::AttachedObjectMessage part{.link_name = "board"};
-    part.object.header.frame_id = "board";
-    part.object.id = "part";
-    part.object.operation = operation;
-    part.object.pose = {{0, 0, 0}, {0, 0, 0, 1}};
-    part.object.primitives = {
-        {.type = io::SolidPrimitiveMessage::box, .dimensions = {0.1, 0.1, 0.1}}};
-    part.object.primitive_poses = {part.object.pose};
-    return part;
-  }
   void publish(const io::PlanningSceneMessage& scene) {
     bench_.publish("/monitored_planning_scene", encoded(scene));
   }
   void change(std::uint8_t operation) {
     io::PlanningSceneMessage scene;
     scene.robot_state.is_diff = true;
-    scene.robot_state.attached = {part(operation)};
+    scene.robot_state.attached = {live_part(0, operation)};
     publish(scene);
   }
   /// Answers what was so when it was asked, and gives it the stamp of the question.
@@ -91,7 +80,7 @@ class BusyMoveItTest : public testing::Test {
     ASSERT_TRUE(from);
     io::PlanningSceneMessage scene;
     scene.robot_state.joints = {.header = {*from, ""}, .names = {"spin"}};
-    if (with_part) scene.robot_state.attached = {part(io::CollisionObjectMessage::add)};
+    if (with_part) scene.robot_state.attached = {live_part(0)};
     publish(scene);
   }
   std::size_t bodies_at(std::int64_t stamp) {
