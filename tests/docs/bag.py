@@ -55,8 +55,7 @@ class McapWriter:
     def write(self, topic, kind, stamp, message):
         if topic not in self.channels:
             number = self.channels[topic] = len(self.channels) + 1
-            self.record(3, struct.pack("<H", number) + self.text(kind) + self.text("ros2msg") +
-                        self.text(""))
+            self.record(3, struct.pack("<H", number) + self.text(kind) + self.text("ros2msg") + self.text(""))
             self.record(4, struct.pack("<HH", number, number) + self.text(topic) +
                         self.text("cdr") + struct.pack("<I", 0))
         self.record(5, struct.pack("<HIQQ", self.channels[topic], 0, stamp, stamp) + message)
@@ -106,8 +105,7 @@ def joint_state(names, positions, stamp):
 def quaternion(R):
     """x, y, z, w of a rotation by less than half a turn."""
     w = np.sqrt(1 + np.trace(R)) / 2
-    return [(R[2, 1] - R[1, 2]) / (4 * w), (R[0, 2] - R[2, 0]) / (4 * w),
-            (R[1, 0] - R[0, 1]) / (4 * w), w]
+    return [(R[2, 1] - R[1, 2]) / (4 * w), (R[0, 2] - R[2, 0]) / (4 * w), (R[1, 0] - R[0, 1]) / (4 * w), w]
 
 
 def static_transform(parent, child, T, stamp):

@@ -44,8 +44,7 @@ def blocks_of(document: pathlib.Path) -> List[Block]:
 
 
 def all_blocks(*languages: str) -> List[Block]:
-    return [block for document in DOCUMENTS for block in blocks_of(document)
-            if block.language in languages]
+    return [block for document in DOCUMENTS for block in blocks_of(document) if block.language in languages]
 
 
 def commands_of(block: Block) -> List[Command]:

@@ -57,8 +57,7 @@ SAID = {"batch.md": check_batch, "look_ahead.md": check_look_ahead, "point_cloud
         "targets.md": check_detector, "python.md": check_manual}
 
 
-@pytest.mark.parametrize("document", [d for d in DOCUMENTS
-                                      if any(b.language == "python" for b in blocks_of(d))],
+@pytest.mark.parametrize("document", [d for d in DOCUMENTS if any(b.language == "python" for b in blocks_of(d))],
                          ids=lambda d: d.name)
 def test_python_runs(document, work):
     """A document's blocks in their order, as one program."""
@@ -84,8 +83,7 @@ def test_cpp_compiles(tmp_path):
     assert len(units) >= 4
     includes = sorted({line for of_block, _ in units for line in of_block})
     source = tmp_path / "blocks.cpp"
-    source.write_text("\n".join([*includes, "#include <tests/docs/block_context.hpp>",
-                                 *[text for _, text in units]]))
+    source.write_text("\n".join([*includes, "#include <tests/docs/block_context.hpp>", *[text for _, text in units]]))
     done = subprocess.run([*os.environ["PENUMBRA_COMPILE"].split(), "-fsyntax-only", source],
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

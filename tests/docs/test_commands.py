@@ -41,8 +41,7 @@ PROGRAMS_FIRST = ("python.md",)
 
 
 def run(words, work, environment):
-    done = subprocess.run(words, cwd=work, env=environment, capture_output=True, text=True,
-                          timeout=PATIENCE)
+    done = subprocess.run(words, cwd=work, env=environment, capture_output=True, text=True, timeout=PATIENCE)
     assert done.returncode == 0, f"{' '.join(words)}\n{done.stdout}{done.stderr}"
     return done.stdout
 

@@ -109,11 +109,9 @@ TEST_F(SqliteBags, TellWhatRowsAreWrong) {
   const BagContent all = test::read_bag(file_);
   EXPECT_EQ(all.messages.size(), 1U);
   ASSERT_EQ(all.faults.size(), 3U) << testing::PrintToString(all.faults);
-  EXPECT_EQ(all.faults[0], file_.string() + ": a topic's row is damaged; left out");
-  EXPECT_EQ(all.faults[1], file_.string() +
-                               ": message 2 is of a topic that the bag does not "
-                               "define; left out");
-  EXPECT_EQ(all.faults[2], file_.string() + ": message 30 holds no bytes; left out");
+  EXPECT_HAS(all.faults[0], file_.string() + ": a topic's row");
+  EXPECT_HAS(all.faults[1], file_.string() + ": message 2 ");
+  EXPECT_HAS(all.faults[2], file_.string() + ": message 30 ");
 }
 
 TEST_F(SqliteBags, RefuseWhatIsNoBag) {

@@ -2,8 +2,6 @@
 #include "files.hpp"
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 

@@ -95,49 +95,22 @@ TEST(CloudBadFile, CompressedPointsAreChecked) {
   const auto packed = [&](const std::string& bytes, unsigned plain = 4) {
     return header + raw(static_cast<unsigned>(bytes.size()), plain) + bytes;
   };
-  using namespace std::string_literals;
+  const auto c = [](int code) { return std::string(1, static_cast<char>(code)); };
   expect_bad("a.pcd", {{header + "1234567", "ends before"},
-                       {header + raw(10U, 4U) +
-                            "\x03"
-                            "abcd",
-                        "10 bytes"},
-                       {packed("\x03"
-                               "abcd",
-                               4294967295U),
-                        "4294967295"},
-                       {packed("\x03"
-                               "abcd") +
-                            "x",
-                        "follow"},
-                       {packed("\x03"
-                               "abc"),
-                        "run"},
-                       {packed("\x02"
-                               "abc"),
-                        "decompress"},
-                       {packed("\x04"
-                               "abcde"),
-                        "decompress"},
-                       {packed("\x01"
-                               "ab\xe0"),
-                        "reference"},
-                       {packed("\x01"
-                               "ab\xe0\x01"),
-                        "reference"},
-                       {packed("\x01"
-                               "ab\x20"),
-                        "reference"},
-                       {packed("\x01"
-                               "ab\x20\x02"),
-                        "before their first"},
-                       {packed("\x00"
-                               "a\xe0\xff\x00"s),
-                        "decompress"}});
+                       {header + raw(10U, 4U) + c(3) + "abcd", "10 bytes"},
+                       {packed(c(3) + "abcd", 4294967295U), "4294967295"},
+                       {packed(c(3) + "abcd") + "x", "follow"},
+                       {packed(c(3) + "abc"), "run"},
+                       {packed(c(2) + "abc"), "decompress"},
+                       {packed(c(4) + "abcde"), "decompress"},
+                       {packed(c(1) + "ab" + c(0xe0)), "reference"},
+                       {packed(c(1) + "ab" + c(0xe0) + c(1)), "reference"},
+                       {packed(c(1) + "ab" + c(0x20)), "reference"},
+                       {packed(c(1) + "ab" + c(0x20) + c(2)), "before their first"},
+                       {packed(c(0) + "a" + c(0xe0) + c(0xff) + c(0)), "decompress"}});
   // 1 GB, of which 4 kB are there.
-  std::string run =
-      "\x00"
-      "a"s;
-  for (int i = 0; i < 1000; ++i) run += "\xe0\xff\x00"s;
+  std::string run = c(0) + "a";
+  for (int i = 0; i < 1000; ++i) run += c(0xe0) + c(0xff) + c(0);
   const std::string large =
       test::pcd("FIELDS a\nSIZE 1\nTYPE U\n", 1000000000, 1, "binary_compressed\n");
   expect_bad("b.pcd",

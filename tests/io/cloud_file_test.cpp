@@ -3,7 +3,6 @@
 #include "files.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,6 @@
 #include "files.hpp"
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>

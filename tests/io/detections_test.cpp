@@ -2,9 +2,9 @@
 // A detector's files.
 #include "../support/errors.hpp"
 #include "files.hpp"
+#include "robots.hpp"
 
 #include <numeric>
-#include <string>
 
 #include <gtest/gtest.h>
 
@@ -18,9 +18,12 @@ using test::expect_refused;
 
 class DetectionsTest : public testing::Test {
  protected:
+  [[nodiscard]] Detections read(const std::string& name) const {
+    return read_detections(name, folder_.path(), images(), {{39, "bottle"}});
+  }
   [[nodiscard]] Detections read(const std::string& name, const std::string& text) const {
     folder_.write(name, text);
-    return read_detections(name, folder_.path(), images(), {{39, "bottle"}});
+    return read(name);
   }
   static Intrinsics images() { return {70, 50, 100, 100, 35, 25}; }
   [[nodiscard]] TargetsFile open(const std::string& name) const {
@@ -46,7 +49,7 @@ class DetectionsTest : public testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  Robot robot_ = Robot::parse(R"(<robot name="r"><link name="base"/></robot>)", ".");
+  Robot robot_ = test::bare_robot();
 };
 
 TEST_F(DetectionsTest, EveryFormatGivesTheSameBox) {
@@ -63,8 +66,7 @@ TEST_F(DetectionsTest, EveryFormatGivesTheSameBox) {
                     "7");
   expect_the_bottle(read("d.txt", "5,7,10,20,14,15,0.75,39,1\n"), "7");  // MOT counts from 1
   folder_.write("yolo/000004.txt", "39 0.2428571428571428 0.55 0.2 0.3 0.75 7\n");
-  expect_the_bottle(read_detections("yolo/%06d.txt", folder_.path(), images(), {{39, "bottle"}}),
-                    "7");
+  expect_the_bottle(read("yolo/%06d.txt"), "7");
 }
 
 /// Made by pycocotools of a mask of 50 x 70 pixels.
@@ -85,36 +87,30 @@ TEST_F(DetectionsTest, ReadsCompressedRunLengths) {
 }
 
 TEST_F(DetectionsTest, FaultsNameFileAndLine) {
-  const auto refused = [&](const std::string& name, const std::string& text,
-                           const std::string& says) {
-    expect_refused([&] { static_cast<void>(read(name, text)); }, {name, says});
-  };
-  refused("a.json", "", "no JSON");
-  refused("a.json", "[1]", "detection 0");
-  refused("a.json", "[]", "no detection");
-  refused("a.json", R"([{"image_id": 4, "category_id": 39}])", "bbox");
-  refused("a.json", R"([{"image_id": "left", "category_id": 1, "bbox": [1, 2, 3, 4]}])", "left");
-  refused("a.json",
-          R"([{"image_id": 4, "category_id": 1, "segmentation": {"size": [9, 9], "counts": "4"}}])",
-          "[50, 70]");
-  refused(
-      "a.json",
-      R"([{"image_id": 4, "category_id": 1, "segmentation": {"size": [50, 70], "counts": "o"}}])",
-      "run lengths");
-  refused("a.csv", "frame,x0,y0,x1\n", ":1: ");
-  refused("a.csv", "frame,x0,y0,x1,y1\n1,2,3,4\n", ":2: ");
-  refused("a.txt", "1,2,3\n", ":1: ");
-  refused("a.txt", "1,2,3,4,5,6\n1.5,2,3,4,5,6\n", ":2: ");
-  refused("a.txt", "1,2,3,4,5,x\n", ":1: 'x'");
-  refused("a.txt", "0,2,3,4,5,6\n", ":1: has the frame 0");
-  refused("a.xml", "", "no detector's file");
-  folder_.write("labels/3.txt", "0 100 200 14 15\n");
-  expect_refused(
-      [&] { static_cast<void>(read_detections("labels/%d.txt", folder_.path(), images(), {})); },
-      {"labels/3.txt:1: ", "0 to 1"});
-  expect_refused(
-      [&] { static_cast<void>(read_detections("none/%d.txt", folder_.path(), images(), {})); },
-      {"none/%d.txt"});
+  const std::string one = R"([{"image_id": 4, "category_id": 1, )";
+  for (const auto& [name, text, says] : std::initializer_list<std::array<std::string, 3>>{
+           {"a.json", "", "no JSON"},
+           {"a.json", "[1]", "detection 0"},
+           {"a.json", "[]", "no detection"},
+           {"a.json", R"([{"image_id": 4, "category_id": 39}])", "bbox"},
+           {"a.json", R"([{"image_id": "left", "category_id": 1, "bbox": [1, 2, 3, 4]}])", "left"},
+           {"a.json", one + R"("segmentation": {"size": [9, 9], "counts": "4"}}])", "[50, 70]"},
+           {"a.json", one + R"("segmentation": {"size": [50, 70], "counts": "o"}}])",
+            "run lengths"},
+           {"a.csv", "frame,x0,y0,x1\n", ":1: "},
+           {"a.csv", "frame,x0,y0,x1,y1\n1,2,3,4\n", ":2: "},
+           {"a.txt", "1,2,3\n", ":1: "},
+           {"a.txt", "1,2,3,4,5,6\n1.5,2,3,4,5,6\n", ":2: "},
+           {"a.txt", "1,2,3,4,5,x\n", ":1: 'x'"},
+           {"a.txt", "0,2,3,4,5,6\n", ":1: has the frame 0"},
+           {"a.xml", "", "no detector's file"},
+           {"labels/3.txt", "0 100 200 14 15\n", ":1: "}}) {
+    folder_.write(name, text);
+    expect_refused([&, file = name == "labels/3.txt" ? "labels/%d.txt"
+                                                     : name] { static_cast<void>(read(file)); },
+                   {name, says});
+  }
+  expect_refused([&] { static_cast<void>(read("none/%d.txt")); }, {"none/%d.txt"});
 }
 
 TEST_F(DetectionsTest, ClassesSayHowTheyAreJudged) {

@@ -73,7 +73,6 @@ class Script {
 };
 
 TEST(LiveChaos, NoLabelImageIsOfAWrongPose) {
-  const std::int64_t start = 1000 * seconds;
   for (int round = 0; round < 3; ++round) {
     auto random = seeded_random(static_cast<std::uint64_t>(round));
     Script script(random);
@@ -103,7 +102,6 @@ TEST(LiveChaos, NoLabelImageIsOfAWrongPose) {
 }
 
 TEST(LiveChaos, AClockThatJumpsBackTwice) {
-  const std::int64_t start = 1000 * seconds;
   auto random = seeded_random(9);
   LiveBench bench;
   bench.results.wanted = {{io::Result::overlay, false}, {io::Result::points, false}};

@@ -36,14 +36,36 @@ class LiveDiagnosticsTest : public testing::Test {
     return diagnostics_.report(bench_.inbox, links_, {bench_.now, bench_.now});
   }
   void judge() {
-    bench_.tell_joints(bench_.now - 10 * milliseconds);
-    bench_.tell_joints(bench_.now + 10 * milliseconds);
+    bench_.tell_joints_around(bench_.now);
     bench_.tell_depth(bench_.now);
     bench_.work();
   }
   static void expect_says(const Status& status, std::uint8_t level, const std::string& what) {
     EXPECT_EQ(status.level, level) << status.message;
     EXPECT_TRUE(holds(status.message, what));
+  }
+  void expect_camera(std::uint8_t level, const std::string& what) {
+    expect_says(camera(), level, what);
+  }
+  void expect_robot(std::uint8_t level, const std::string& what) {
+    expect_says(robot(), level, what);
+  }
+  /// Publishes an image with each of these stamps, 100 ms after one another, and joint states.
+  template <typename Stamp>
+  void play(int images, const Stamp& stamp_at) {
+    for (int i = 0; i < images; ++i) {
+      bench_.now += 100 * milliseconds;
+      bench_.tell_joints(bench_.now);
+      bench_.tell_depth(stamp_at(bench_.now));
+      bench_.work();
+    }
+  }
+  /// Judges images with such times between them.
+  void judge(int images, std::int64_t each) {
+    for (int i = 0; i < images; ++i) {
+      bench_.now += each;
+      judge();
+    }
   }
 
   LiveBench bench_;
@@ -53,41 +75,41 @@ class LiveDiagnosticsTest : public testing::Test {
 
 TEST_F(LiveDiagnosticsTest, SaysWhatIsMissing) {
   link(io::TopicRole::depth).publishers = 0;
-  expect_says(camera(), Status::stale, "no publisher of /camera/depth/image_rect_raw");
-  expect_says(robot(), Status::stale, "no robot_description yet");
+  expect_camera(Status::stale, "no publisher of /camera/depth/image_rect_raw");
+  expect_robot(Status::stale, "no robot_description yet");
   link(io::TopicRole::depth) = {.is_open = true, .publishers = 0, .refused_because = "reliability"};
-  expect_says(camera(), Status::stale, "leave --reliable out");
+  expect_camera(Status::stale, "leave --reliable out");
   link(io::TopicRole::depth) = {.is_open = true, .publishers = 1};
   bench_.tell_depth(bench_.now);
-  expect_says(camera(), Status::error, "no camera_info yet");
+  expect_camera(Status::error, "no camera_info yet");
   bench_.tell_info(0);
-  expect_says(camera(), Status::error, "no robot_description yet");
+  expect_camera(Status::error, "no robot_description yet");
   bench_.tell_robot("<robot");
-  expect_says(robot(), Status::error, "robot_description");
+  expect_robot(Status::error, "robot_description");
   bench_.tell_robot();
   bench_.tell_mount();
-  expect_says(robot(), Status::stale, "no joint states yet");
+  expect_robot(Status::stale, "no joint states yet");
   judge();
-  expect_says(camera(), Status::ok, "frames/s");
-  expect_says(robot(), Status::ok, "tiny");
+  expect_camera(Status::ok, "frames/s");
+  expect_robot(Status::ok, "tiny");
 }
 
 TEST_F(LiveDiagnosticsTest, SaysWhatHasStopped) {
   bench_.tell_all();
   judge();
   bench_.now += 3 * seconds;
-  expect_says(camera(), Status::stale, "no depth images for 3.0 s");
-  expect_says(robot(), Status::stale, "no joint states for 3.0 s");
+  expect_camera(Status::stale, "no depth images for 3.0 s");
+  expect_robot(Status::stale, "no joint states for 3.0 s");
   bench_.tell_depth(bench_.now);
   bench_.now += 200 * milliseconds;
   bench_.work();
-  expect_says(camera(), Status::error, "stale_joints");
+  expect_camera(Status::error, "stale_joints");
 }
 
 TEST_F(LiveDiagnosticsTest, TellsUnreadableMessages) {
   bench_.tell_all();
   bench_.publish("/camera/depth/image_rect_raw", std::vector<std::byte>(3));
-  expect_says(camera(), Status::stale, "1 messages cannot be read");
+  expect_camera(Status::stale, "1 messages cannot be read");
 }
 
 TEST_F(LiveDiagnosticsTest, SaysWhyJointStatesDoNotTellThePose) {
@@ -100,57 +122,43 @@ TEST_F(LiveDiagnosticsTest, SaysWhyJointStatesDoNotTellThePose) {
             .header = {stamp, ""}, .names = {names.begin(), names.end()}, .positions = positions}));
   };
   tell(bench_.now, {"gripper"}, 0.1);
-  expect_says(robot(), Status::error, "none of the robot's joints: gripper");
+  expect_robot(Status::error, "none of the robot's joints: gripper");
   tell(0, {"spin"}, 0.1);
-  expect_says(robot(), Status::error, "joint states have no stamp");
+  expect_robot(Status::error, "joint states have no stamp");
   tell(bench_.now, {"spin"}, std::nan(""));
-  expect_says(robot(), Status::error, "no position that can be used");
+  expect_robot(Status::error, "no position that can be used");
   tell(bench_.now, {"gripper", "spin"}, 0.1);
-  expect_says(robot(), Status::ok, "its pose is known");
+  expect_robot(Status::ok, "its pose is known");
   for (int i = 0; i < 30; ++i) {
     bench_.now += 100 * milliseconds;
     tell(bench_.now, {"a", "b", "c", "d"}, 0.1);
   }
-  expect_says(robot(), Status::error, "no joint states of the robot for 3.0 s");
-  expect_says(robot(), Status::error, "a, b, c, ...");
+  expect_robot(Status::error, "no joint states of the robot for 3.0 s");
+  expect_robot(Status::error, "a, b, c, ...");
 }
 
 TEST_F(LiveDiagnosticsTest, NamesImagesWhoseStampsAreZeroOrFrozen) {
   bench_.tell_all();
-  for (int i = 0; i < 30; ++i) {
-    bench_.now += 100 * milliseconds;
-    bench_.tell_joints(bench_.now);
-    bench_.tell_depth(0);
-    bench_.work();
-  }
-  expect_says(camera(), Status::stale, "stamps are 0");
+  play(30, [](std::int64_t) { return 0; });
+  expect_camera(Status::stale, "stamps are 0");
   const std::int64_t frozen = bench_.now;
-  for (int i = 0; i < 30; ++i) {
-    bench_.now += 100 * milliseconds;
-    bench_.tell_joints(bench_.now);
-    bench_.tell_depth(frozen);
-    bench_.work();
-  }
-  expect_says(camera(), Status::error, "frozen");
+  play(30, [&](std::int64_t) { return frozen; });
+  expect_camera(Status::error, "frozen");
 }
 
 TEST_F(LiveDiagnosticsTest, SaysThatAClockWasSetBack) {
   bench_.tell_all();
   judge();
-  expect_says(robot(), Status::ok, "tiny");
-  for (int i = 0; i < 30; ++i) {  // the camera's alone
-    bench_.now += 100 * milliseconds;
-    bench_.tell_joints(bench_.now);
-    bench_.tell_depth(bench_.now - 20 * seconds);
-    bench_.work();
+  expect_robot(Status::ok, "tiny");
+  for (int i = 0; i < 30; ++i) {
+    play(1, [](std::int64_t now) { return now - 20 * seconds; });  // the camera's clock alone
     bench_.now += 250 * milliseconds;
     bench_.work();
   }
-  expect_says(camera(), Status::error,
-              "20.0 s later than those of the images: a clock was set back");
+  expect_camera(Status::error, "20.0 s later than those of the images: a clock was set back");
   bench_.tell_joints(bench_.now - 60 * seconds);
-  expect_says(robot(), Status::warn, "the clock jumped back by");
-  expect_says(robot(), Status::ok, "tiny");
+  expect_robot(Status::warn, "the clock jumped back by");
+  expect_robot(Status::ok, "tiny");
 }
 
 TEST_F(LiveDiagnosticsTest, AJointThatWasNeverSeenIsTheRobotsFault) {
@@ -166,7 +174,7 @@ TEST_F(LiveDiagnosticsTest, AJointThatWasNeverSeenIsTheRobotsFault) {
   bench_.tell_joints(bench_.now);
   const Status status = robot();
   expect_says(status, Status::error, "'fold'");
-  EXPECT_EQ(status.message.find("wave"), std::string::npos) << "it moves nothing that is drawn";
+  EXPECT_FALSE(holds(status.message, "wave")) << "it moves nothing that is drawn";
 }
 
 TEST_F(LiveDiagnosticsTest, OffersTheTopicWithTheSameImages) {
@@ -179,7 +187,7 @@ TEST_F(LiveDiagnosticsTest, OffersTheTopicWithTheSameImages) {
   EXPECT_EQ(offered(depth.name), "") << "that is the topic itself";
   EXPECT_EQ(offered("/other"), "");
   link(io::TopicRole::depth) = {.is_open = true, .other_topic = "/camera/depth/compressedDepth"};
-  expect_says(camera(), Status::stale, "/camera/depth/compressedDepth");
+  expect_camera(Status::stale, "/camera/depth/compressedDepth");
 }
 
 TEST_F(LiveDiagnosticsTest, SaysWhichShareOfTheFramesIsOk) {
@@ -193,13 +201,10 @@ TEST_F(LiveDiagnosticsTest, SaysWhichShareOfTheFramesIsOk) {
     }
     judge();
   }
-  expect_says(camera(), Status::warn, "stale_joints");
-  expect_says(camera(), Status::warn, "ok in 80 %");
-  for (int i = 0; i < 50; ++i) {
-    bench_.now += 250 * milliseconds;
-    judge();
-  }
-  EXPECT_EQ(camera().message.find("ok in"), std::string::npos) << "that is long ago";
+  expect_camera(Status::warn, "stale_joints");
+  expect_camera(Status::warn, "ok in 80 %");
+  judge(50, 250 * milliseconds);
+  EXPECT_FALSE(holds(camera().message, "ok in")) << "that is long ago";
 }
 
 TEST_F(LiveDiagnosticsTest, OptionsHaveTheNamesOfParameters) {
@@ -207,33 +212,27 @@ TEST_F(LiveDiagnosticsTest, OptionsHaveTheNamesOfParameters) {
   const std::string box = R"(<box size="0.4 0.2 0.1"/>)";
   urdf.replace(urdf.find(box), box.size(), R"(<mesh filename="package://none/board.stl"/>)");
   bench_.tell_robot(urdf);
-  expect_says(robot(), Status::error, " --package none=DIR");
+  expect_robot(Status::error, " --package none=DIR");
   diagnostics_ = io::LiveDiagnostics(bench_.now, {.parameters = {"packages"}});
-  expect_says(robot(), Status::error, " packages none=DIR");
+  expect_robot(Status::error, " packages none=DIR");
 }
 
 TEST_F(LiveDiagnosticsTest, ASlowCameraIsNotCalledSilent) {
   bench_.tell_all();
-  for (int i = 0; i < 3; ++i) {
-    bench_.now += 2 * seconds;
-    judge();
-  }
+  judge(3, 2 * seconds);
   bench_.now += 1900 * milliseconds;
-  expect_says(camera(), Status::ok, "frames/s");
+  expect_camera(Status::ok, "frames/s");
   bench_.now += 4 * seconds;
-  expect_says(camera(), Status::stale, "no depth images for");
+  expect_camera(Status::stale, "no depth images for");
 }
 
 TEST_F(LiveDiagnosticsTest, WarnsOfAWrongSetupUntilItIsAnother) {
   bench_.tell_all();
   judge();
-  expect_says(camera(), Status::ok, "frames/s");
-  for (int i = 0; i < 60; ++i) {
-    bench_.now += 100 * milliseconds;
-    judge();
-  }
+  expect_camera(Status::ok, "frames/s");
+  judge(60, 100 * milliseconds);
   EXPECT_FALSE(bench_.inbox.warnings(0).empty());  // the board is nowhere in the depth images
-  expect_says(camera(), Status::warn, bench_.inbox.warnings(0).at(0));
+  expect_camera(Status::warn, bench_.inbox.warnings(0).at(0));
   for (int i = 0; i < 80; ++i) {  // without joint states nothing shows whether it is mended
     bench_.now += seconds;
     bench_.tell_depth(bench_.now - seconds / 2);
@@ -243,7 +242,7 @@ TEST_F(LiveDiagnosticsTest, WarnsOfAWrongSetupUntilItIsAnother) {
   bench_.now += 2 * io::LiveTally::recent_time;
   bench_.tell_info(bench_.now, 70.0);
   judge();
-  expect_says(camera(), Status::ok, "frames/s");
+  expect_camera(Status::ok, "frames/s");
 }
 
 io::DiagnosticArrayMessage of_cameras(const std::string& left, const std::string& right) {

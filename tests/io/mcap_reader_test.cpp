@@ -98,7 +98,7 @@ TEST_F(McapReader, SaysWhenAnIndexLies) {
 }
 
 TEST_F(McapReader, NamesEveryOtherFault) {
-  const std::vector<std::pair<std::string, std::string>> cases = {
+  const test::BadInputs cases = {
       {message(9, 1) + message(9, 2), "channel 9"},
       {schema(0, "x"), "schema"},
       {schema(1, "x") + schema(1, "x") + schema(1, "y"), "schema 1"},

@@ -7,7 +7,6 @@
 #include "mcap_files.hpp"
 
 #include <iomanip>
-#include <map>
 
 #include <gtest/gtest.h>
 

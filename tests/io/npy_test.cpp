@@ -3,8 +3,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <limits>
-#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -69,19 +67,18 @@ TEST_F(Npy, NamesWhatItDoesNotRead) {
         bytes_of(six));
   };
   const std::string two = npy(1, "{'descr': '<f4', 'shape': (2, 3), }", bytes_of(six));
-  const std::vector<std::pair<std::string, std::string>> cases = {
-      {header("<f8", "False", "(2, 3)"), "'<f8'"},
-      {header("<f4", "True", "(2, 3)"), "Fortran"},
-      {header("<f4", "False", "(6,)"), "1 dimensions"},
-      {header("<f4", "False", "(0, 3)"), "a side of 0"},
-      {header("<f4", "False", "(40000, 3)"), "a side of 40000"},
-      {header("<f4", "False", "(30000, 30000)"), "ends before"},
-      {two, "header"},
-      {npy(1, "", bytes_of(six)), "header"},
-      {npy(4, good_header, bytes_of(six)), "version 4.0"},
-      {npy(2, std::string(70000, ' '), ""), "70000"},
-      {"frame,joint1\n0,1", "NumPy"},
-      {npy(1, good_header, bytes_of(six) + "x"), "after"}};
+  const test::BadInputs cases = {{header("<f8", "False", "(2, 3)"), "'<f8'"},
+                                 {header("<f4", "True", "(2, 3)"), "Fortran"},
+                                 {header("<f4", "False", "(6,)"), "1 dimensions"},
+                                 {header("<f4", "False", "(0, 3)"), "a side of 0"},
+                                 {header("<f4", "False", "(40000, 3)"), "a side of 40000"},
+                                 {header("<f4", "False", "(30000, 30000)"), "ends before"},
+                                 {two, "header"},
+                                 {npy(1, "", bytes_of(six)), "header"},
+                                 {npy(4, good_header, bytes_of(six)), "version 4.0"},
+                                 {npy(2, std::string(70000, ' '), ""), "70000"},
+                                 {"frame,joint1\n0,1", "NumPy"},
+                                 {npy(1, good_header, bytes_of(six) + "x"), "after"}};
   for (const auto& [bytes, named] : cases) {
     const FileResult result = read(bytes);
     EXPECT_EQ(result.status, FileStatus::bad);

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
-#include <utility>
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>

@@ -4,7 +4,6 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <string>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

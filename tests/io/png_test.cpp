@@ -3,8 +3,6 @@
 #include "files.hpp"
 #include "mini_png.hpp"
 
-#include <utility>
-
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 

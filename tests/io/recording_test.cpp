@@ -3,7 +3,6 @@
 #include "robots.hpp"
 
 #include <thread>
-#include <utility>
 
 #include <gtest/gtest.h>
 

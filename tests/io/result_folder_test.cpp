@@ -5,8 +5,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -25,11 +23,15 @@ class ResultFolderTest : public testing::Test {
  protected:
   [[nodiscard]] fs::path out() const { return folder_.path() / "out"; }
   [[nodiscard]] fs::path out(const char* name) const { return out() / name; }
-  [[nodiscard]] ResultFolderOptions options() const {
+  [[nodiscard]] ResultFolderOptions options(bool force = false) const {
     return {.path = out(),
             .report = {"found.json", json_begin},
             .others = {{"pose.csv"}, {"part_*.stl"}, {"report.html", page_begin}},
-            .frames = {{FramePattern("images/%06d.png", out())}}};
+            .frames = {{FramePattern("images/%06d.png", out())}},
+            .force = force};
+  }
+  void expect_refusal(const std::string& named, bool force = false) const {
+    expect_refused([&] { ResultFolder results(options(force)); }, {named});
   }
   /// As a command that succeeds.
   void write_results() const {
@@ -103,7 +105,7 @@ TEST_F(ResultFolderTest, FilesOfOthersAreRefused) {
   }
   write_results();
   write(out("report.html"), "mine");
-  expect_refused([&] { ResultFolder results(options()); }, {"report.html"});
+  expect_refusal("report.html");
   EXPECT_EQ(test::read_bytes(out("report.html")), "mine");
   expect_refused([&] { ResultFolder results({.path = out("report.html"), .report = {"a"}}); },
                  {"report.html", "it is a file"});
@@ -112,9 +114,7 @@ TEST_F(ResultFolderTest, FilesOfOthersAreRefused) {
 TEST_F(ResultFolderTest, ForcedItTakesAnyFolder) {
   fs::create_directory(out());
   write(out("notes.txt"), "mine");
-  ResultFolderOptions forced = options();
-  forced.force = true;
-  ResultFolder results(forced);
+  ResultFolder results(options(true));
   results.begin();
   results.add_text("found.json", report_text);
   results.finish();
@@ -126,10 +126,8 @@ TEST_F(ResultFolderTest, NothingIsWrittenThroughALink) {
   const fs::path precious = folder_.write("precious", "mine");
   fs::remove(out("pose.csv"));
   fs::create_symlink(precious, out("pose.csv"));
-  expect_refused([&] { ResultFolder results(options()); }, {"pose.csv"});
-  ResultFolderOptions forced = options();
-  forced.force = true;
-  ResultFolder results(forced);
+  expect_refusal("pose.csv");
+  ResultFolder results(options(true));
   results.begin();
   results.add_text("pose.csv", "pose");
   results.finish();
@@ -138,14 +136,12 @@ TEST_F(ResultFolderTest, NothingIsWrittenThroughALink) {
 }
 
 TEST_F(ResultFolderTest, FramesAreNotWrittenThroughALink) {
-  ResultFolderOptions forced = options();
-  forced.force = true;
   const fs::path precious = folder_.write("precious", "mine");
   fs::create_directories(out("images"));
   fs::create_symlink(precious, out("images/000007.png"));
   write(out("images/000008.png"), "mine");
   {
-    ResultFolder results(forced);
+    ResultFolder results(options(true));
     results.begin();
     EXPECT_TRUE(fs::exists(out("images/000007.png"))) << "no report says that it is a result";
     write(results.frame_file(0, 7), "image");
@@ -157,14 +153,14 @@ TEST_F(ResultFolderTest, FramesAreNotWrittenThroughALink) {
   EXPECT_EQ(test::read_bytes(out("images/000008.png")), "mine");
   fs::remove_all(out("images"));
   fs::create_directory_symlink(folder_.path(), out("images"));
-  expect_refused([&] { ResultFolder results(forced); }, {"images", "link"});
+  expect_refusal("link", true);
 }
 
 TEST_F(ResultFolderTest, APipeIsRefused) {
   write_results();
   fs::remove(out("pose.csv"));
   ASSERT_EQ(mkfifo(out("pose.csv").c_str(), 0600), 0);
-  expect_refused([&] { ResultFolder results(options()); }, {"pose.csv"});
+  expect_refusal("pose.csv");
 }
 
 TEST_F(ResultFolderTest, AnInputStaysUntilItIsMadeAgain) {
@@ -181,7 +177,7 @@ TEST_F(ResultFolderTest, AnInputStaysUntilItIsMadeAgain) {
 
 TEST_F(ResultFolderTest, BelongsToOneCommandAtATime) {
   const ResultFolder results(options());
-  expect_refused([&] { ResultFolder other(options()); }, {"another program is writing it"});
+  expect_refusal("another program");
 }
 
 TEST_F(ResultFolderTest, TakesOverFromAKilledCommand) {

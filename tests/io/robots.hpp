@@ -29,4 +29,9 @@ inline constexpr const char* arm_urdf = R"(<?xml version="1.0"?>
 
 inline Robot arm() { return Robot::parse(arm_urdf, "."); }
 
+/// A robot that is not drawn, with the link "base".
+inline Robot bare_robot() {
+  return Robot::parse(R"(<robot name="r"><link name="base"/></robot>)", ".");
+}
+
 }  // namespace penumbra::test

@@ -28,25 +28,19 @@ TEST(RosDefinition, LayoutsHaveTheFieldsOfTheirDefinitions) {
 TEST(RosDefinition, ConstantsOfOurMessagesAreTheStructs) {
   const std::string text(definition_of("penumbra_msgs/Target"));
   using T = TargetMessage;
-  const std::vector<std::pair<std::string, int>> wanted = {{"UNKNOWN", T::unknown},
-                                                           {"VISIBLE", T::visible},
-                                                           {"PARTIAL", T::partial},
-                                                           {"HIDDEN", T::hidden},
-                                                           {"OUT_OF_VIEW", T::out_of_view},
-                                                           {"HELD_BY_LINK", T::held_by_link},
-                                                           {"NOT_HANDLED", T::not_handled},
-                                                           {"MEASURED", T::measured},
-                                                           {"PREDICTED", T::predicted},
-                                                           {"HELD", T::held},
-                                                           {"LOST", T::lost},
-                                                           {"NO_ESTIMATE", T::no_estimate},
-                                                           {"ACCEPTED", T::accepted},
-                                                           {"REFUSED_VERDICT", T::refused_verdict},
-                                                           {"REFUSED_GATE", T::refused_gate},
-                                                           {"REFUSED_LATE", T::refused_late},
-                                                           {"REFUSED_INVALID", T::refused_invalid}};
-  for (const auto& [name, value] : wanted)
+  const int values[] = {
+      T::unknown,      T::visible,        T::partial,  T::hidden,          T::out_of_view,
+      T::held_by_link, T::not_handled,    T::measured, T::predicted,       T::held,
+      T::lost,         T::no_estimate,    T::accepted, T::refused_verdict, T::refused_gate,
+      T::refused_late, T::refused_invalid};
+  std::istringstream names(
+      "UNKNOWN VISIBLE PARTIAL HIDDEN OUT_OF_VIEW HELD_BY_LINK NOT_HANDLED MEASURED PREDICTED HELD "
+      "LOST NO_ESTIMATE ACCEPTED REFUSED_VERDICT REFUSED_GATE REFUSED_LATE REFUSED_INVALID");
+  std::string name;
+  for (const int value : values) {
+    names >> name;
     EXPECT_HAS(text, "\nuint8 " + name + "=" + std::to_string(value) + "\n");
+  }
 }
 
 // What colcon builds: the same files, of this version.

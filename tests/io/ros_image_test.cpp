@@ -59,6 +59,15 @@ class Laid {
   std::vector<std::byte> memory_;
 };
 
+/// Expects `decode` to find a fault in each beginning of `whole`.
+template <typename Decode>
+void expect_cuts_are_faults(const std::vector<std::byte>& whole, const Decode& decode) {
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const test::ExactCopy cut{std::span(whole).first(size)};
+    EXPECT_TRUE(decode(cut.bytes())) << size;
+  }
+}
+
 template <typename T>
 void check_depth(const Image<T>& image, const std::string& encoding) {
   DecodedDepth depth;
@@ -88,31 +97,27 @@ TEST(RosImage, DepthOfAnyOrderStepAndAlignment) {
   check_depth(metres, "32FC1");
 }
 
-std::string depth_fault(const ImageMessage& message) {
-  DecodedDepth depth;
-  const auto fault = decode_depth(message, depth);
-  EXPECT_TRUE(fault);
-  EXPECT_TRUE(std::visit([](const auto& view) { return view.empty(); }, depth.view));
-  return fault.value_or("");
-}
-
 TEST(RosImage, SizesThatDoNotFitAreFaults) {
   const std::vector<std::byte> data(24);
   const ImageMessage good{.height = 3, .width = 4, .encoding = "16UC1", .step = 8, .data = data};
   DecodedDepth depth;
   EXPECT_FALSE(decode_depth(good, depth));
-  const auto with = [&](auto change) {
+  using M = ImageMessage;
+  const std::pair<void (*)(M&), const char*> changes[] = {
+      {[](M& m) { m.step = 6; }, "steps of 6 bytes"},
+      {[](M& m) { m.height = 4; }, "4 x 4"},
+      {[](M& m) { m.width = 0; }, "0 x 3"},
+      {[](M& m) { m.width = 4'000'000'000; }, "4000000000 x 3"},
+      {[](M& m) { m.step = 4'000'000'000; }, "steps of 4000000000"},
+      {[](M& m) { m.encoding = "rgb8"; }, "'rgb8'"},
+      {[](M& m) { m.encoding = "\x1b[2J\nok"; }, "'?[2J?ok'"}};
+  for (const auto& [change, named] : changes) {
     ImageMessage message = good;
     change(message);
-    return depth_fault(message);
-  };
-  EXPECT_HAS(with([](auto& m) { m.step = 6; }), "steps of 6 bytes");
-  EXPECT_HAS(with([](auto& m) { m.height = 4; }), "4 x 4");
-  EXPECT_HAS(with([](auto& m) { m.width = 0; }), "has 0 x 3 pixels");
-  EXPECT_HAS(with([](auto& m) { m.width = 4'000'000'000; }), "has 4000000000 x 3 pixels");
-  EXPECT_HAS(with([](auto& m) { m.step = 4'000'000'000; }), "steps of 4000000000");
-  EXPECT_HAS(with([](auto& m) { m.encoding = "rgb8"; }), "has encoding 'rgb8'");
-  EXPECT_HAS(with([](auto& m) { m.encoding = "\x1b[2J\nok"; }), "has encoding '?[2J?ok'");
+    const auto fault = decode_depth(message, depth);
+    EXPECT_HAS(fault.value_or(""), named);
+    EXPECT_TRUE(std::visit([](const auto& view) { return view.empty(); }, depth.view));
+  }
 }
 
 TEST(RosImage, Colours) {
@@ -153,19 +158,11 @@ TEST(RosImage, YuvIsBt601) {
     for (int u = 0; u < 256; u += 15)
       for (int v = 0; v < 256; v += 15) {
         const int other = 255 - y;
-        std::array<int, 4> uyvy = {u, y, v, other}, yuyv = {y, u, other, v};
         for (const bool uv_first : {true, false}) {
-          std::array<std::byte, 4> data;
-          std::transform(uyvy.begin(), uyvy.end(), data.begin(),
-                         [](int x) { return static_cast<std::byte>(x); });
-          if (!uv_first)
-            std::transform(yuyv.begin(), yuyv.end(), data.begin(),
-                           [](int x) { return static_cast<std::byte>(x); });
-          const ImageMessage message{.height = 1,
-                                     .width = 2,
-                                     .encoding = uv_first ? "yuv422" : "yuv422_yuy2",
-                                     .step = 4,
-                                     .data = data};
+          std::vector<std::byte> data;
+          for (const int x : uv_first ? std::array{u, y, v, other} : std::array{y, u, other, v})
+            data.push_back(static_cast<std::byte>(x));
+          const ImageMessage message{{}, 1, 2, uv_first ? "yuv422" : "yuv422_yuy2", 0, 4, data};
           ASSERT_FALSE(decode_color(message, image));
           for (int i = 0; i < 2; ++i) {
             const Rgb8 wanted = bt601(i == 0 ? y : other, u, v), got = image(i, 0);
@@ -194,10 +191,8 @@ TEST(RosImage, PngThereAndBack) {
   const auto fault = decode_color(message, read);
   ASSERT_FALSE(fault) << *fault;
   EXPECT_TRUE(same(image, std::as_const(read).view()));
-  for (std::size_t size = 0; size < png.size(); ++size) {
-    const test::ExactCopy cut{std::span(png).first(size)};
-    EXPECT_TRUE(decode_color(CompressedImageMessage{.data = cut.bytes()}, read)) << size;
-  }
+  expect_cuts_are_faults(
+      png, [&](auto cut) { return decode_color(CompressedImageMessage{.data = cut}, read); });
 }
 
 TEST(RosImage, Jpeg) {
@@ -216,10 +211,8 @@ TEST(RosImage, Jpeg) {
         EXPECT_NEAR(read(u, v).g, image(u, v).g, loss);
         EXPECT_NEAR(read(u, v).b, image(u, v).b, loss);
       }
-    for (std::size_t size = 0; size < file.size(); ++size) {
-      const test::ExactCopy cut{std::span(file).first(size)};
-      EXPECT_TRUE(decode_color(CompressedImageMessage{.data = cut.bytes()}, read)) << size;
-    }
+    expect_cuts_are_faults(
+        file, [&](auto cut) { return decode_color(CompressedImageMessage{.data = cut}, read); });
   }
 }
 
@@ -249,13 +242,10 @@ TEST(RosImage, CompressedDepth) {
         const float wanted = a / (static_cast<float>(q) - b);
         EXPECT_TRUE(q == 0 ? std::isnan(metres(u, v)) : metres(u, v) == wanted) << q;
       }
-    for (std::size_t size = 0; size < data.size(); ++size) {
-      const test::ExactCopy cut{std::span(data).first(size)};
-      EXPECT_TRUE(decode_depth(
-          CompressedImageMessage{.format = "16UC1; compressedDepth" + codec, .data = cut.bytes()},
-          depth))
-          << size;
-    }
+    const std::string format = "16UC1; compressedDepth" + codec;
+    expect_cuts_are_faults(data, [&](auto cut) {
+      return decode_depth(CompressedImageMessage{.format = format, .data = cut}, depth);
+    });
   }
 }
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ros_samples.hpp"
 
-#include <string>
-#include <vector>
-
 #include <gtest/gtest.h>
 
 #include <io/ros/restamp.hpp>

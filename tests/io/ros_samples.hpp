@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include <io/ros/lidar_messages.hpp>
@@ -30,26 +30,7 @@ inline Eigen::Isometry3d sample_pose() {
   return pose;
 }
 
-template <typename M>
-M sample();
-
-template <>
-inline io::ImageMessage sample() {
-  return {.header = sample_header(),
-          .height = 1,
-          .width = 5,
-          .encoding = "mono8",
-          .step = 5,
-          .data = sample_bytes};
-}
-
-template <>
-inline io::CompressedImageMessage sample() {
-  return {.header = sample_header(), .format = "png", .data = sample_bytes};
-}
-
-template <>
-inline io::CameraInfoMessage sample() {
+inline io::CameraInfoMessage sample_camera() {
   io::CameraInfoMessage info{.header = sample_header(), .height = 480, .width = 640};
   info.distortion_model = "plumb_bob";
   info.d = {0.1, -0.2, 0.001, 0.002, 0.05};
@@ -62,71 +43,7 @@ inline io::CameraInfoMessage sample() {
   return info;
 }
 
-template <>
-inline io::JointStateMessage sample() {
-  return {.header = sample_header(),
-          .names = {"elbow", "", "shoulder_pan"},
-          .positions = {0.5, -1.25, 3},
-          .velocities = {},
-          .efforts = {7, 8}};
-}
-
-template <>
-inline io::TfMessage sample() {
-  return {{{sample_header(), "tool", sample_pose()}, {{-1, "a"}, "", sample_pose().inverse()}}};
-}
-
-template <>
-inline io::StringMessage sample() {
-  return {"<robot name=\"r\"/>"};
-}
-
-template <>
-inline io::PoseStampedMessage sample() {
-  return {sample_header(), sample_pose()};
-}
-
-template <>
-inline io::PointCloud2Message sample() {
-  io::PointCloud2Message cloud{.header = sample_header(), .height = 1, .width = 1};
-  cloud.fields = {{"x", 0, io::PointFieldMessage::float32, 1}, {"intensity", 4, 2, 1}};
-  cloud.point_step = 5;
-  cloud.row_step = 5;
-  cloud.data = sample_bytes;
-  cloud.is_dense = true;
-  return cloud;
-}
-
-template <>
-inline io::LaserScanMessage sample() {
-  return {sample_header(), -1.5F, 1.5F, 1.5F, 1e-4F, 0.025F, 0.1F, 30.0F, {1, NAN, 2}, {7, 8, 9}};
-}
-
-template <>
-inline io::LivoxMessage sample() {
-  return {sample_header(),
-          1'000'000'000,
-          2,
-          3,
-          {4, 5, 6},
-          {{0, 1, 2, 3, 10, 11, 12}, {100, 4, 5, 6, 20, 21, 22}}};
-}
-
-template <>
-inline io::DiagnosticArrayMessage sample() {
-  using Status = io::DiagnosticStatusMessage;
-  return {sample_header(),
-          {{Status::warn, "camera", "late", "d435", {{"age_ms", "35.5"}, {"drops", "3"}}},
-           {Status::stale, "joints", "none", "", {}}}};
-}
-
-template <>
-inline io::KeypointsMessage sample() {
-  return {sample_header(), {{"left/wrist", 12.5, -3, 0.75, 1.25}, {"nose", 0, 0, 0, NAN}}};
-}
-
-template <>
-inline io::TargetsMessage sample() {
+inline io::TargetsMessage sample_targets() {
   io::TargetMessage target{.name = "part"};
   target.has_stamp = true;
   target.stamp = 5'000'000'001;
@@ -158,8 +75,7 @@ inline io::TargetsMessage sample() {
   return {sample_header(), "base_link", "stale_joints", "elbow: 0.3 s old", {target, unknown}};
 }
 
-template <>
-inline io::TargetViewsMessage sample() {
+inline io::TargetViewsMessage sample_views() {
   io::TargetViewMessage part{.name = "part"};
   part.verdict = io::TargetMessage::visible;
   part.verdict_name = "visible";
@@ -183,23 +99,55 @@ inline io::TargetViewsMessage sample() {
   return {sample_header(), {part, tool}};
 }
 
+/// A sample of each type that is written.
+inline auto all_samples() {
+  using namespace io;
+  using Status = DiagnosticStatusMessage;
+  const MessageHeader header = sample_header();
+  const float nan = NAN;
+  return std::tuple{
+      ImageMessage{header, 1, 5, "mono8", {}, 5, sample_bytes},
+      CompressedImageMessage{header, "png", sample_bytes},
+      sample_camera(),
+      JointStateMessage{header, {"elbow", "", "shoulder_pan"}, {0.5, -1.25, 3}, {}, {7, 8}},
+      TfMessage{{{header, "tool", sample_pose()}, {{-1, "a"}, "", sample_pose().inverse()}}},
+      StringMessage{"<robot name=\"r\"/>"},
+      PoseStampedMessage{header, sample_pose()},
+      PointCloud2Message{
+          .header = header,
+          .height = 1,
+          .width = 1,
+          .fields = {{"x", 0, PointFieldMessage::float32, 1}, {"intensity", 4, 2, 1}},
+          .point_step = 5,
+          .row_step = 5,
+          .data = sample_bytes,
+          .is_dense = true},
+      LaserScanMessage{
+          header, -1.5F, 1.5F, 1.5F, 1e-4F, 0.025F, 0.1F, 30.0F, {1, nan, 2}, {7, 8, 9}},
+      LivoxMessage{header,
+                   1'000'000'000,
+                   2,
+                   3,
+                   {4, 5, 6},
+                   {{0, 1, 2, 3, 10, 11, 12}, {100, 4, 5, 6, 20, 21, 22}}},
+      DiagnosticArrayMessage{
+          header,
+          {{Status::warn, "camera", "late", "d435", {{"age_ms", "35.5"}, {"drops", "3"}}},
+           {Status::stale, "joints", "none", "", {}}}},
+      KeypointsMessage{header, {{"left/wrist", 12.5, -3, 0.75, 1.25}, {"nose", 0, 0, 0, NAN}}},
+      sample_targets(),
+      sample_views()};
+}
+
+template <typename M>
+M sample() {
+  return std::get<M>(all_samples());
+}
+
 /// Calls `call` with a sample of each type that is written.
 template <typename F>
 void for_each_sample(const F& call) {
-  call(sample<io::ImageMessage>());
-  call(sample<io::CompressedImageMessage>());
-  call(sample<io::CameraInfoMessage>());
-  call(sample<io::JointStateMessage>());
-  call(sample<io::TfMessage>());
-  call(sample<io::StringMessage>());
-  call(sample<io::PoseStampedMessage>());
-  call(sample<io::PointCloud2Message>());
-  call(sample<io::LaserScanMessage>());
-  call(sample<io::LivoxMessage>());
-  call(sample<io::DiagnosticArrayMessage>());
-  call(sample<io::KeypointsMessage>());
-  call(sample<io::TargetsMessage>());
-  call(sample<io::TargetViewsMessage>());
+  std::apply([&](const auto&... message) { (call(message), ...); }, all_samples());
 }
 
 template <typename M>

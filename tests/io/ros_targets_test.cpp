@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -82,42 +79,35 @@ TEST(RosTargets, OnlyWhatIsNotKnownIsNaN) {
 }
 
 TEST(RosTargets, EachValueHasItsOwn) {
+  using T = TargetMessage;
   TargetReport target{};
   target.name = "t";
   FrameReport report;
-  const auto sent = [&] {
-    report.targets = std::span(&target, 1);
-    return targets_message(report, "c", "r").targets[0];
-  };
-  const std::vector<std::pair<Verdict, int>> verdicts = {
-      {Verdict::visible, TargetMessage::visible},
-      {Verdict::partial, TargetMessage::partial},
-      {Verdict::hidden, TargetMessage::hidden},
-      {Verdict::unknown, TargetMessage::unknown},
-      {Verdict::out_of_view, TargetMessage::out_of_view},
-      {Verdict::held, TargetMessage::held_by_link}};
-  for (const auto& [verdict, value] : verdicts) {
+  report.targets = std::span(&target, 1);
+  const auto sent = [&] { return targets_message(report, "c", "r").targets[0]; };
+  for (const auto& [verdict, value] : {std::pair(Verdict::visible, T::visible),
+                                       {Verdict::partial, T::partial},
+                                       {Verdict::hidden, T::hidden},
+                                       {Verdict::unknown, T::unknown},
+                                       {Verdict::out_of_view, T::out_of_view},
+                                       {Verdict::held, T::held_by_link}}) {
     target.verdict = verdict;
     EXPECT_EQ(sent().verdict, value);
     EXPECT_EQ(sent().verdict_name, to_string(verdict));
   }
-  const std::vector<std::pair<Source, int>> sources = {
-      {Source::measured, TargetMessage::measured},
-      {Source::predicted, TargetMessage::predicted},
-      {Source::held, TargetMessage::held},
-      {Source::lost, TargetMessage::lost}};
-  for (const auto& [source, value] : sources) {
-    target.handled = HandledTarget{};
+  target.handled = HandledTarget{};
+  for (const auto& [source, value] : {std::pair(Source::measured, T::measured),
+                                      {Source::predicted, T::predicted},
+                                      {Source::held, T::held},
+                                      {Source::lost, T::lost}}) {
     target.handled->source = source;
     EXPECT_EQ(sent().source, value);
   }
-  const std::vector<std::pair<Outcome, int>> outcomes = {
-      {Outcome::accepted, TargetMessage::accepted},
-      {Outcome::refused_verdict, TargetMessage::refused_verdict},
-      {Outcome::refused_gate, TargetMessage::refused_gate},
-      {Outcome::refused_late, TargetMessage::refused_late},
-      {Outcome::refused_invalid, TargetMessage::refused_invalid}};
-  for (const auto& [outcome, value] : outcomes) {
+  for (const auto& [outcome, value] : {std::pair(Outcome::accepted, T::accepted),
+                                       {Outcome::refused_verdict, T::refused_verdict},
+                                       {Outcome::refused_gate, T::refused_gate},
+                                       {Outcome::refused_late, T::refused_late},
+                                       {Outcome::refused_invalid, T::refused_invalid}}) {
     target.estimate = outcome;
     EXPECT_EQ(sent().estimate, value);
   }

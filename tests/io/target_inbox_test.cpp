@@ -3,10 +3,6 @@
 #include "robots.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <map>
-#include <string>
-#include <vector>
 
 #include <gtest/gtest.h>
 

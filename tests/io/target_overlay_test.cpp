@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets drawn into frames: what is said of them, and where late ones are.
+#include "robots.hpp"
+
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -29,7 +31,7 @@ class TargetOverlayTest : public testing::Test {
   }
   static bool is_drawn(const Image<Rgb8>& image, int u, int v) { return !(image(u, v) == grey); }
 
-  const Robot robot_ = Robot::parse(R"(<robot name="r"><link name="base"/></robot>)", ".");
+  const Robot robot_ = test::bare_robot();
   const Camera camera_{Intrinsics(320, 240, 200, 200, 160, 120), {}, {}, "camera"};
   const Eigen::Isometry3d T_root_ = Eigen::Isometry3d::Identity();
   TargetOverlay overlay_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files.hpp"
+#include "robots.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ class TargetsFileTest : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  Robot robot_ = Robot::parse(R"(<robot name="r"><link name="base"/></robot>)", ".");
+  Robot robot_ = bare_robot();
 };
 
 TEST_F(TargetsFileTest, GivesEachFrameItsValues) {

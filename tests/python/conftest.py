@@ -4,6 +4,7 @@
 import os
 import pathlib
 import subprocess
+import sys
 
 import numpy as np
 from PIL import Image
@@ -39,6 +40,11 @@ class Opened:
         self.config = self.recording.pipeline_config().replace(**config)
         self.pipeline = penumbra.Pipeline(self.robot, self.camera, self.config)
 
+    def targets(self):
+        """Those of the recording's file."""
+        return penumbra.TargetsFile.open(self.recording.targets, robot=self.robot, image=self.config.image,
+                                         images=self.pipeline.intrinsics, has_distortion=False, beyond_hides=True)
+
 
 @pytest.fixture
 def opened():
@@ -57,11 +63,25 @@ def real():
     return Opened(DATA / "xarm7_realsense")
 
 
-def run(*arguments):
-    """The command line; must succeed."""
-    done = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
+def execute(*words, status=0, **options):
+    """A program, which must end with this status. Returns what it printed."""
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False, **options)
+    assert done.returncode == status, done.stdout + done.stderr
+    return done
+
+
+def run(*words, **options):
+    """The command line."""
+    return execute(PROGRAM, *words, **options)
+
+
+def run_python(*words, **options):
+    return execute(sys.executable, *words, **options)
+
+
+def refuses(says, call, error=penumbra.InputError):
+    with pytest.raises(error, match=says):
+        call()
 
 
 def address(array):

@@ -2,14 +2,12 @@
 """Python and the command line say the same."""
 
 import json
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 
 import penumbra
-from conftest import DATA, PROGRAM, SHIPPED, Opened, read_png, run, skip_without_data
+from conftest import DATA, SHIPPED, Opened, read_png, run, run_python, skip_without_data
 
 BAG = DATA / "xarm7_realsense" / "xarm7.mcap"
 RECORDINGS = [SHIPPED, DATA / "xarm7_realsense", BAG]
@@ -57,14 +55,12 @@ def check_target(told, target):
     assert (told["name"], told["verdict"]) == (target.name, target.verdict.value)
     judgement = target.judgement
     assert (told["covered"], told["inside"]) == (judgement.covered, judgement.inside)
-    fractions = {"occluded": "occluded", "front": "front", "clear": "clear", "unknown": "unknown"}
-    for key, name in fractions.items():
-        value = getattr(judgement, name) if judgement.inside else None
+    for key in ("occluded", "front", "clear", "unknown"):
+        value = getattr(judgement, key) if judgement.inside else None
         assert same(told[f"{key}_fraction"], value)
     assert [b["link"] for b in told["blame"]] == [b.link for b in judgement.blame]
-    if told["point"] is None:
-        assert target.point is None
-    else:
+    assert (told["point"] is None) == (target.point is None)
+    if told["point"] is not None:
         assert told["point"] == pytest.approx(target.point.tolist(), rel=1e-6)
     if told["handled"] is not None:
         assert told["handled"]["source"] == target.handled.source.value
@@ -75,9 +71,7 @@ def test_targets_are_judged_alike(tmp_path):
     run("run", SHIPPED, "-o", tmp_path)
     told = json.loads((tmp_path / "report.json").read_text())["frames"]
     opened = Opened(SHIPPED)
-    file = penumbra.TargetsFile.open(opened.recording.targets, robot=opened.robot,
-                                     image=opened.config.image, images=opened.pipeline.intrinsics,
-                                     has_distortion=False, beyond_hides=True)
+    file = opened.targets()
     verdicts = set()
     for frame, expected in zip(opened.frames, told, strict=True):
         report = opened.pipeline.process(frame.frame.replace(targets=file.of_frame(frame.index)))
@@ -108,16 +102,9 @@ def test_a_bag_tells_what_is_taken_of_it():
     assert first.frame.joint_age is not None and frames.notes == ()
 
 
-def python(*arguments, **options):
-    return subprocess.run([sys.executable, "-m", "penumbra", *map(str, arguments)],
-                          capture_output=True, text=True, **options)
-
-
 def test_python_m_penumbra_is_the_command_line(tmp_path):
-    for arguments in (["--version"], ["--help"], ["run", "--help"], ["inspect", "nothing.urdf"],
-                      ["run"], ["doctor", "--nonsense"], ["run", "nowhere", "-o", tmp_path]):
-        expected = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True)
-        told = python(*arguments)
-        assert told.returncode == expected.returncode
+    for status, *arguments in ((0, "--version"), (0, "--help"), (0, "run", "--help"), (2, "inspect", "nothing.urdf"),
+                               (2, "run"), (2, "doctor", "--nonsense"), (2, "run", "nowhere", "-o", tmp_path)):
+        expected = run(*arguments, status=status)
+        told = run_python("-m", "penumbra", *arguments, status=status)
         assert (told.stdout, told.stderr) == (expected.stdout, expected.stderr)
-    assert python("inspect", "nothing.urdf").returncode == 2

@@ -2,23 +2,18 @@
 """The examples run, and what they write is right."""
 
 import shutil
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 
 import penumbra
-from conftest import ROOT, SHIPPED, Opened
+from conftest import Opened, ROOT, run_python, SHIPPED
 
 EXAMPLES = ROOT / "examples" / "python"
 
 
 def run(name, *arguments):
-    done = subprocess.run([sys.executable, EXAMPLES / name, *map(str, arguments)],
-                          capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
+    return run_python(EXAMPLES / name, *arguments).stdout
 
 
 def robot_of(report):
@@ -76,9 +71,8 @@ def test_batch_folder_judges_all_and_tells_what_fails(tmp_path):
     assert told.count("12 frames") == 2 and "2 of 2 judged" in told
     assert len(list((tmp_path / "out").rglob("*.npz"))) == 24
     (tmp_path / "in" / "a" / "joint_states.csv").unlink()
-    done = subprocess.run([sys.executable, EXAMPLES / "batch_folder.py", tmp_path / "in",
-                           tmp_path / "out"], capture_output=True, text=True)
-    assert done.returncode == 2 and "joint_states.csv" in done.stderr and "1 of 2" in done.stdout
+    done = run_python(EXAMPLES / "batch_folder.py", tmp_path / "in", tmp_path / "out", status=2)
+    assert "joint_states.csv" in done.stderr and "1 of 2" in done.stdout
 
 
 def test_calibrate_writes_the_pose(tmp_path):

@@ -2,15 +2,15 @@
 """Recordings of the files that people have, written by others' libraries."""
 
 import json
+import os
 import shutil
-import subprocess
 
 import numpy as np
 from PIL import Image
 import pytest
 
 import penumbra
-from conftest import PROGRAM, SHIPPED
+from conftest import execute, run, SHIPPED
 
 FRAMES = 12
 
@@ -40,13 +40,13 @@ def frames_of(folder):
     return [given.frame.depth for given in penumbra.open_input(folder)]
 
 
-def run(folder):
-    command = [PROGRAM, "run", folder, "-o", folder.parent / "out"]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
+def judge(folder, status=0):
+    """What is printed of a run's faults."""
+    return run("run", folder, "-o", folder.parent / "out", status=status).stderr
 
 
 def ffmpeg(*words):
-    subprocess.run(["ffmpeg", "-v", "error", "-y", *map(str, words)], check=True)
+    execute("ffmpeg", "-v", "error", "-y", *words)
 
 
 def lossless_depth(file, count=FRAMES):
@@ -54,43 +54,37 @@ def lossless_depth(file, count=FRAMES):
            "-pix_fmt", "gray16le", file)
 
 
-@pytest.mark.parametrize("kind", ["tiff", "deflated tiff", "32-bit tiff", "npy", "npy of int64"])
-def test_integers_are_millimetres(recording, images, kind):
-    ending = ".npy" if "npy" in kind else ".tiff"
-    folder = recording(f"depth/%d{ending}")
+def save_tiff(file, pixels, **options):
+    Image.fromarray(pixels).save(file, **options)
+
+
+def save_npy(file, pixels):
+    with file.open("wb") as out:
+        np.save(out, pixels)
+
+
+# How to write a depth image in millimetres.
+KINDS = {
+    "tiff": save_tiff,
+    "deflated tiff": lambda file, depth: save_tiff(file, depth, compression="tiff_deflate"),
+    "32-bit tiff": lambda file, depth: save_tiff(file, depth.astype(np.int32)),
+    "tiff of metres": lambda file, depth: save_tiff(file, (depth / 1000).astype(np.float32)),
+    "npy": save_npy,
+    "npy of int64": lambda file, depth: save_npy(file, depth.astype(np.int64)[..., None]),
+    "npy of metres": lambda file, depth: save_npy(file, depth / 1000),
+    "npy of 0.1 mm": lambda file, depth: save_npy(file, depth.astype(np.int32) * 10),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_integers_are_millimetres_and_floats_metres(recording, images, kind):
+    ending = "npy" if "npy" in kind else "tiff"
+    folder = recording(f"depth/%d.{ending}", camera="depth_scale: 0.0001" if "0.1" in kind else "")
     for i, depth in enumerate(images[0]):
-        file = folder / f"depth/{i}{ending}"
-        if kind == "npy":
-            np.save(file, depth)
-        elif kind == "npy of int64":
-            np.save(file, depth.astype(np.int64)[..., None])
-        else:
-            pixels = depth.astype(np.int32) if kind == "32-bit tiff" else depth
-            Image.fromarray(pixels).save(file, compression="tiff_deflate" if "deflated" in kind else None)
+        KINDS[kind](folder / f"depth/{i}.{ending}", depth)
     for read, depth in zip(frames_of(folder), images[0], strict=True):
-        scale = 1 if read.dtype == np.uint16 else 1000
-        np.testing.assert_allclose(read * scale, depth, rtol=1e-6)
-
-
-@pytest.mark.parametrize("kind", ["tiff", "npy of float64"])
-def test_floats_are_metres(recording, images, kind):
-    folder = recording("depth/%d.tiff" if kind == "tiff" else "depth/%d.npy")
-    for i, depth in enumerate(images[0]):
-        if kind == "tiff":
-            Image.fromarray((depth / 1000).astype(np.float32)).save(folder / f"depth/{i}.tiff")
-        else:
-            np.save(folder / f"depth/{i}.npy", depth / 1000)
-    for read, depth in zip(frames_of(folder), images[0], strict=True):
-        assert read.dtype == np.float32
-        np.testing.assert_allclose(read, depth / 1000, rtol=1e-6)
-
-
-def test_depth_scale_is_of_every_kind(recording, images):
-    folder = recording("depth/%d.npy", camera="depth_scale: 0.0001")
-    for i, depth in enumerate(images[0]):
-        np.save(folder / f"depth/{i}.npy", depth.astype(np.int32) * 10)
-    for read, depth in zip(frames_of(folder), images[0], strict=True):
-        np.testing.assert_allclose(read, depth / 1000, rtol=1e-6)
+        assert "of metres" not in kind or read.dtype == np.float32
+        np.testing.assert_allclose(read * (0.001 if read.dtype == np.uint16 else 1), depth / 1000, rtol=1e-6)
 
 
 def test_a_jpeg_is_a_colour_image(recording, images):
@@ -123,62 +117,58 @@ def test_a_video_gives_frames_in_any_order(recording, images):
 def test_a_short_video_is_said(recording):
     folder = recording("depth.mkv")
     lossless_depth(folder / "depth.mkv", FRAMES - 2)
-    result = run(folder)
-    assert result.returncode == 0
-    assert "depth.mkv" in result.stderr and "missing_depth in 2 of 12 frames" in result.stderr
+    told = judge(folder)
+    assert "depth.mkv" in told and "missing_depth in 2 of 12 frames" in told
 
 
-@pytest.mark.parametrize("made, says", [
-    ("tiff of 8 bits", "8 bits"), ("jpeg", "JPEG"), ("cut tiff", "damaged"), ("text", "no depth image"),
-    ("tiff of another size", "320 x 240"), ("npy of bool", "b1"), ("fifo", "regular file")])
-def test_other_depth_is_refused(recording, images, made, says):
+def cut_tiff(file, depth):
+    save_tiff(file, depth)
+    file.write_bytes(file.read_bytes()[:20000])
+
+
+OTHER_DEPTH = {  # and a word of the fault
+    "tiff of 8 bits": ("8 bits", lambda file, depth: save_tiff(file, depth.astype(np.uint8))),
+    "jpeg": ("JPEG", lambda file, depth: save_tiff(file, depth.astype(np.uint8), format="jpeg")),
+    "cut tiff": ("damaged", cut_tiff),
+    "text": ("no depth image", lambda file, depth: file.write_text("depth")),
+    "tiff of another size": ("320 x 240", lambda file, depth: save_tiff(file, depth[::2, ::2])),
+    "npy of bool": ("b1", lambda file, depth: save_npy(file, depth > 0)),
+    "fifo": ("regular file", lambda file, depth: os.mkfifo(file)),
+}
+
+
+@pytest.mark.parametrize("kind", OTHER_DEPTH)
+def test_other_depth_is_refused(recording, images, kind):
     folder = recording("depth/%d.tiff")
-    depth = images[0][0]
-    file = folder / "depth/0.tiff"
-    if made == "tiff of 8 bits":
-        Image.fromarray(depth.astype(np.uint8)).save(file)
-    elif made == "jpeg":
-        Image.fromarray(depth.astype(np.uint8)).save(file, format="jpeg")
-    elif made == "cut tiff":
-        Image.fromarray(depth).save(file)
-        file.write_bytes(file.read_bytes()[:20000])
-    elif made == "text":
-        file.write_text("depth")
-    elif made == "tiff of another size":
-        Image.fromarray(depth[::2, ::2]).save(file)
-    elif made == "npy of bool":
-        np.save(folder / "depth/0.npy", depth > 0)
-        (folder / "depth/0.npy").rename(file)
-    else:
-        subprocess.run(["mkfifo", file], check=True)
-    result = run(folder)
-    assert result.returncode == 2
-    assert "0.tiff" in result.stderr and says in result.stderr
+    says, make = OTHER_DEPTH[kind]
+    make(folder / "depth/0.tiff", images[0][0])
+    told = judge(folder, 2)
+    assert "0.tiff" in told and says in told
 
 
-@pytest.mark.parametrize("made, says", [("missing", "cannot be read"), ("text", "no video"),
-                                        ("8 bits", "16-bit grey"), ("other size", "320 x 240")])
-def test_other_videos_are_refused(recording, made, says):
+OTHER_VIDEOS = {
+    "missing": ("cannot be read", lambda file: None),
+    "text": ("no video", lambda file: file.write_text("depth")),
+    "8 bits": ("16-bit grey", lambda file: ffmpeg("-i", SHIPPED / "color/%d.png", "-c:v", "ffv1", file)),
+    "other size": ("320 x 240", lambda file: ffmpeg(
+        "-i", SHIPPED / "depth/%d.png", "-vf", "scale=320:240", "-c:v", "ffv1", "-pix_fmt", "gray16le", file)),
+}
+
+
+@pytest.mark.parametrize("kind", OTHER_VIDEOS)
+def test_other_videos_are_refused(recording, kind):
     folder = recording("depth.mkv")
-    file = folder / "depth.mkv"
-    if made == "text":
-        file.write_text("depth")
-    elif made == "8 bits":
-        ffmpeg("-i", SHIPPED / "color/%d.png", "-c:v", "ffv1", file)
-    elif made == "other size":
-        ffmpeg("-i", SHIPPED / "depth/%d.png", "-vf", "scale=320:240", "-c:v", "ffv1", "-pix_fmt", "gray16le",
-               file)
-    result = run(folder)
-    assert result.returncode == 2
-    assert "depth.mkv" in result.stderr and says in result.stderr
+    says, make = OTHER_VIDEOS[kind]
+    make(folder / "depth.mkv")
+    told = judge(folder, 2)
+    assert "depth.mkv" in told and says in told
 
 
 def test_ffmpeg_is_needed_for_videos_alone(recording, monkeypatch):
     folder = recording("depth.mkv")
     lossless_depth(folder / "depth.mkv")
     monkeypatch.setenv("PATH", str(folder))
-    result = run(folder)
-    assert result.returncode == 2 and "ffprobe" in result.stderr
+    assert "ffprobe" in judge(folder, 2)
 
 
 def test_depth_of_a_camera_of_its_own(recording, images):
@@ -192,12 +182,7 @@ def test_depth_of_a_camera_of_its_own(recording, images):
     moved = frames_of(folder)[0]
     assert (moved == images[0][0]).mean() < 0.5
     (folder / "depth_pose.csv").unlink()
-    result = run(folder)
-    assert result.returncode == 2 and "depth_pose.csv" in result.stderr
-
-
-def program(*words):
-    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False)
+    assert "depth_pose.csv" in judge(folder, 2)
 
 
 @pytest.fixture
@@ -209,9 +194,8 @@ def folder(tmp_path):
 
 
 def test_init_finds_what_a_recording_has(folder):
-    result = program("init", folder)
-    assert result.returncode == 0, result.stderr
-    assert "penumbra run" in result.stdout and "parent" in result.stdout
+    told = run("init", folder).stdout
+    assert "penumbra run" in told and "parent" in told
     made, shipped = penumbra.Recording.open(folder), penumbra.Recording.open(SHIPPED)
     assert made.camera.parent == shipped.camera.parent
     for ours, theirs in zip(penumbra.open_input(folder, color=True), penumbra.open_input(SHIPPED, color=True),
@@ -219,9 +203,8 @@ def test_init_finds_what_a_recording_has(folder):
         np.testing.assert_array_equal(ours.frame.depth, theirs.frame.depth)
         np.testing.assert_array_equal(ours.color, theirs.color)
         assert ours.frame.stamp == theirs.frame.stamp
-    again = program("init", folder)
-    assert again.returncode == 2 and "--force" in again.stderr
-    assert program("init", folder, "--force").returncode == 0
+    assert "--force" in run("init", folder, status=2).stderr
+    run("init", folder, "--force")
 
 
 def test_init_names_a_detectors_file(folder):
@@ -229,34 +212,31 @@ def test_init_names_a_detectors_file(folder):
     box = {"image_id": 0, "category_id": 39, "bbox": [460, 172, 38, 98], "score": 0.9}
     (folder / "results.json").write_text(json.dumps([box]))
     (folder / "notes.json").write_text('{"taken": "by hand"}')
-    assert program("init", folder).returncode == 0
+    run("init", folder)
     assert 'targets: "results.json"' in (folder / "recording.yaml").read_text()
 
 
 def test_init_says_what_is_missing(folder):
     (folder / "camera_pose.csv").unlink()
     (folder / "joint_states.csv").write_text("frame,elbow\n0,1\n")
-    result = program("init", folder)
-    assert result.returncode == 0
-    assert "calibrate" in result.stdout.splitlines()[-1] and "--search" in result.stdout
-    assert "joints: " in result.stdout and "pose: " in result.stdout
+    told = run("init", folder).stdout
+    assert "calibrate" in told.splitlines()[-1] and "--search" in told
+    assert "joints: " in told and "pose: " in told
     assert "# pose: " in (folder / "recording.yaml").read_text()
 
 
 def test_init_needs_one_robot_and_images(folder):
     urdf = folder / "arm_description/arm.urdf"
     shutil.copy(urdf, folder / "other.urdf")
-    result = program("init", folder)
-    assert result.returncode == 2 and "--robot" in result.stderr
-    assert program("init", folder, "--robot", urdf).returncode == 0
+    assert "--robot" in run("init", folder, status=2).stderr
+    run("init", folder, "--robot", urdf)
     (folder / "recording.yaml").unlink()
     shutil.rmtree(folder / "depth")
     shutil.rmtree(folder / "color")
-    result = program("init", folder)
-    assert result.returncode == 2 and "images" in result.stderr
+    assert "images" in run("init", folder, status=2).stderr
     assert not (folder / "recording.yaml").exists()
 
 
 def test_an_unknown_command_names_near_ones():
-    result = program("calibrat")
-    assert result.returncode == 2 and "no such command" in result.stderr and "calibrate?" in result.stderr
+    told = run("calibrat", status=2).stderr
+    assert "no such command" in told and "calibrate?" in told

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import penumbra
-from conftest import DATA, ROOT, SHIPPED, Opened, read_png, run, skip_without_data
+from conftest import DATA, Opened, read_png, refuses, ROOT, run, SHIPPED, skip_without_data
 from penumbra import Backend
 from test_stages import INTRINSICS, box_mesh, pose
 
@@ -83,8 +83,7 @@ def test_several_frames_are_drawn_at_once():
     assert len(places) > 1
     for z in places:
         renderer.submit([pose(0, 0, z)])
-    with pytest.raises(ValueError, match="pending"):
-        renderer.submit([pose(0, 0, 1)])
+    refuses("pending", lambda: renderer.submit([pose(0, 0, 1)]), ValueError)
     for i, z in enumerate(places):
         assert renderer.pending == len(places) - i
         shown = renderer.collect()

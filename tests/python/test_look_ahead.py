@@ -2,14 +2,12 @@
 """What planned motions will hide: as the command says it, and wrong arguments."""
 
 import json
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 
 import penumbra
-from conftest import ROOT, SHIPPED
+from conftest import refuses, ROOT, run, SHIPPED
 
 MOTION = ROOT / "examples" / "look_ahead" / "sweep_left.csv"
 
@@ -21,8 +19,7 @@ class Cell:
         self.camera = penumbra.ForecastCamera(
             "cell", self.given.camera, parent=self.given.config.camera_parent,
             T_parent_camera=self.given.config.T_parent_camera, rule=self.given.config.rule)
-        self.lid = penumbra.Target("lid", penumbra.PointTarget([0.42, 0.56, 0.30], frame=""),
-                                   depth_margin=0.05)
+        self.lid = penumbra.Target("lid", penumbra.PointTarget([0.42, 0.56, 0.30], frame=""), depth_margin=0.05)
         rows = MOTION.read_text().splitlines()
         self.joints = rows[0].split(",")[1:]
         self.points = np.array([[float(x) for x in row.split(",")] for row in rows[1:]])
@@ -31,9 +28,11 @@ class Cell:
         return penumbra.LookAhead(self.given.robot, [self.camera], targets or [self.lid],
                                   self.start, penumbra.LookAheadConfig(**config))
 
-    def motion(self, **more):
-        return penumbra.Trajectory(self.given.robot, self.joints, self.points[:, 0],
-                                   self.points[:, 1:], self.start, **more)
+    def motion(self):
+        return penumbra.Trajectory(self.given.robot, self.joints, self.points[:, 0], self.points[:, 1:], self.start)
+
+    def still(self, times):
+        return penumbra.Trajectory(self.given.robot, self.joints, times, self.points[[0, 0], 1:], self.start)
 
 
 @pytest.fixture(scope="module")
@@ -42,14 +41,12 @@ def cell():
 
 
 def test_it_says_what_the_command_says(cell, tmp_path):
-    subprocess.run([sys.executable, "-m", "penumbra", "look-ahead", SHIPPED, "--trajectory", MOTION,
-                    "-o", tmp_path], check=True, capture_output=True)
+    run("look-ahead", SHIPPED, "--trajectory", MOTION, "-o", tmp_path)
     (motion,) = json.loads((tmp_path / "look_ahead.json").read_text())["motions"]
     (told,) = [target for target in motion["targets"] if target["name"] == "lid"]
     (forecast,) = cell.ahead().along(cell.motion())
     expected = told["any_camera"]["intervals"]
-    assert [each.verdict.value for each in forecast.any.intervals] == [
-        each["verdict"] for each in expected]
+    assert [each.verdict.value for each in forecast.any.intervals] == [each["verdict"] for each in expected]
     for got, wanted in zip(forecast.any.intervals, expected):
         assert got.by == (wanted["by"] or "")
         np.testing.assert_allclose([got.begin, got.end, got.hidden],
@@ -74,18 +71,14 @@ def test_visibility_is_that_along_the_motion(cell):
 
 def test_motions_are_ranked(cell):
     ahead = cell.ahead()
-    still = penumbra.Trajectory(cell.given.robot, cell.joints, [0, 1], cell.points[[0, 0], 1:],
-                                cell.start)
-    ranked = penumbra.rank([ahead.along(cell.motion()), ahead.along(still)])
+    ranked = penumbra.rank([ahead.along(cell.motion()), ahead.along(cell.still([0, 1]))])
     assert [each.trajectory for each in ranked] == [1, 0]
     assert ranked[0].seen == pytest.approx(1.0) and "lid" in ranked[1].reason
 
 
 def test_a_target_moves_with_its_velocity(cell):
-    still = penumbra.Trajectory(cell.given.robot, cell.joints, [0, 2], cell.points[[0, 0], 1:],
-                                cell.start)
     away = penumbra.ForecastTarget(cell.lid, velocity=[0, 3.0, 0])
-    (forecast,) = cell.ahead([away]).along(still)
+    (forecast,) = cell.ahead([away]).along(cell.still([0, 2]))
     assert forecast.any.intervals[-1].verdict is penumbra.Verdict.out_of_view
 
 
@@ -110,15 +103,10 @@ def test_a_trajectory_has_its_faults(cell):
     assert motion.duration == 3 and motion.beyond_limits == ()
     assert abs(motion.jump[1]) < 1e-9
     np.testing.assert_allclose(motion.at([1.5])[0][:3], cell.points[1, 1:])
-    with pytest.raises(penumbra.InputError, match="rise"):
-        penumbra.Trajectory(cell.given.robot, cell.joints, [0, 0], cell.points[[0, 0], 1:],
-                            cell.start)
-    with pytest.raises(penumbra.InputError, match="no_joint"):
-        penumbra.Trajectory(cell.given.robot, ["no_joint"], [0], [[0]], cell.start)
-    with pytest.raises(ValueError, match="positions"):
-        penumbra.Trajectory(cell.given.robot, cell.joints, [0, 1], [[0, 0]], cell.start)
-    with pytest.raises(penumbra.InputError, match="joint positions"):
-        penumbra.LookAhead(cell.given.robot, [cell.camera], [cell.lid],
-                           penumbra.Frame(None, None))
-    with pytest.raises(ValueError, match="positions"):
-        cell.ahead().visibility([[0.0]])
+    refuses("rise", lambda: cell.still([0, 0]))
+    refuses("no_joint", lambda: penumbra.Trajectory(cell.given.robot, ["no_joint"], [0], [[0]], cell.start))
+    refuses("positions", lambda: penumbra.Trajectory(cell.given.robot, cell.joints, [0, 1], [[0, 0]], cell.start),
+            ValueError)
+    refuses("joint positions", lambda: penumbra.LookAhead(cell.given.robot, [cell.camera], [cell.lid],
+                                                          penumbra.Frame(None, None)))
+    refuses("positions", lambda: cell.ahead().visibility([[0.0]]), ValueError)

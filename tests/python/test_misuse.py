@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import penumbra
-from conftest import ROOT, SHIPPED, Opened
+from conftest import Opened, refuses, ROOT, SHIPPED
 
 GOOD = np.zeros((480, 640), np.uint16)
 
@@ -94,8 +94,7 @@ def test_rows_may_lie_apart_and_run_upwards(opened):
     apart[:, 30:670] = frame.depth
     upwards = np.ascontiguousarray(frame.depth[::-1])[::-1]
     for same in (apart[:, 30:670], upwards):
-        assert np.array_equal(opened.pipeline.process(frame.frame.replace(depth=same)).labels,
-                              expected)
+        assert np.array_equal(opened.pipeline.process(frame.frame.replace(depth=same)).labels, expected)
 
 
 def test_images_of_another_size_raise(opened):
@@ -171,16 +170,12 @@ def test_renderers_refuse_poses(opened):
     good = opened.robot.forward_kinematics(opened.robot.rest_positions())
     for poses, says in ((good[:3], "(11, 4, 4)"), (np.full((11, 4, 4), np.nan), "0 0 0 1"),
                         (good * np.array([2, 2, 2, 1])[:, None], "rotations"), (good[0], "(N, 4, 4)")):
-        with pytest.raises(ValueError, match=r".*" + says.replace("(", r"\(").replace(")", r"\)")):
-            renderer.render(poses)
+        refuses(r".*" + says.replace("(", r"\(").replace(")", r"\)"), lambda: renderer.render(poses), ValueError)
     renderer.submit(good)
-    with pytest.raises(ValueError, match="pending"):
-        renderer.submit(good)
-    with pytest.raises(ValueError, match="pending"):
-        renderer.render(good)
+    refuses("pending", lambda: renderer.submit(good), ValueError)
+    refuses("pending", lambda: renderer.render(good), ValueError)
     assert renderer.collect().depth.shape == (480, 640)
-    with pytest.raises(ValueError, match="no frame is pending"):
-        renderer.collect()
+    refuses("no frame is pending", lambda: renderer.collect(), ValueError)
 
 
 def test_errors_are_of_the_named_classes():
@@ -200,8 +195,7 @@ def test_transposed_depth_is_said_to_be_so(opened):
     frame = opened.frames[0].frame
     turned = np.ascontiguousarray(np.zeros((opened.camera.intrinsics.width,
                                             opened.camera.intrinsics.height), np.uint16))
-    with pytest.raises(ValueError, match="transposed"):
-        opened.pipeline.process(frame.replace(depth=turned))
+    refuses("transposed", lambda: opened.pipeline.process(frame.replace(depth=turned)), ValueError)
 
 
 def test_an_inverted_camera_pose_is_diagnosed(opened):

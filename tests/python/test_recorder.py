@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import penumbra
-from conftest import SHIPPED, read_png, run
+from conftest import read_png, refuses, run, SHIPPED
 
 
 @pytest.fixture(scope="module")
@@ -149,19 +149,16 @@ def test_frames_that_are_no_frames_are_refused_and_not_written(out, given, frame
     good = frames[0].depth, frames[0].frame.joints
     with penumbra.Recorder(out, given.robot, given.camera, given.config) as recorder:
         recorder.add(*good)
-        with pytest.raises(error, match=says):
-            recorder.add(*bad(*good))
+        refuses(says, lambda: recorder.add(*bad(*good)), error)
         assert recorder.add(*good) == 1
-    with pytest.raises(ValueError, match="closed"):
-        recorder.add(*good)
+    refuses("closed", lambda: recorder.add(*good), ValueError)
     assert len(list(penumbra.open_input(out))) == 2
     assert not list(out.rglob("*.part"))
 
 
 def test_setups_that_cannot_be_recorded_are_input_errors(out, given, frames, tmp_path):
     def refused(says, folder=out, robot=given.robot, config=given.config, **options):
-        with pytest.raises(penumbra.InputError, match=says):
-            penumbra.Recorder(folder, robot, given.camera, config, **options)
+        refuses(says, lambda: penumbra.Recorder(folder, robot, given.camera, config, **options))
 
     refused("no file", targets=tmp_path / "targets.yaml")
     refused("nowhere", config=given.config.replace(camera_parent="nowhere"))
@@ -188,8 +185,7 @@ while True:
 
 @pytest.mark.parametrize("count", [1, 5, 14])
 def test_a_killed_program_leaves_its_frames(out, count, tmp_path):
-    with subprocess.Popen([sys.executable, "-c", LOOP, SHIPPED, out], stdout=subprocess.PIPE,
-                          text=True) as loop:
+    with subprocess.Popen([sys.executable, "-c", LOOP, SHIPPED, out], stdout=subprocess.PIPE, text=True) as loop:
         for _ in range(count):
             loop.stdout.readline()
         loop.send_signal(signal.SIGKILL)
@@ -211,5 +207,4 @@ def test_png_files_hold_the_pixels(tmp_path):
                   np.zeros((0, 5, 3), np.uint8), np.ma.masked_array(np.zeros((7, 5, 3), np.uint8)), [[1]]):
         with pytest.raises((TypeError, ValueError), match="image: expected"):
             penumbra.write_png(file, wrong)
-    with pytest.raises(penumbra.InputError, match="nowhere"):
-        penumbra.write_png(tmp_path / "nowhere" / "image.png", np.zeros((7, 5), np.uint8))
+    refuses("nowhere", lambda: penumbra.write_png(tmp_path / "nowhere" / "image.png", np.zeros((7, 5), np.uint8)))

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import penumbra
-from conftest import SHIPPED
+from conftest import refuses, SHIPPED
 
 
 def box_mesh(size):
@@ -59,8 +59,7 @@ def test_another_robot_is_painted_before_what_is_behind_it():
     assert front.tolist() == [[255, 255, 0, 255, 0]]
     millimetres = (1000 * measured).astype(np.uint16)
     assert np.array_equal(penumbra.front_of(virtual_depth, millimetres, tolerance), front)
-    with pytest.raises(penumbra.InputError, match="5x1"):
-        penumbra.front_of(virtual_depth, measured[:, :3])
+    refuses("5x1", lambda: penumbra.front_of(virtual_depth, measured[:, :3]))
 
 
 def test_millimetres_are_metres(shipped):
@@ -103,8 +102,7 @@ def test_the_mask_of_the_robot_is_where_virtual_depth_is(opened, image):
     unread = pipeline.process(opened.frames[6].frame)
     pipeline.process(opened.frames[7].frame)
     assert report.robot_mask is mask
-    with pytest.raises(ValueError, match="before"):
-        unread.robot_mask
+    refuses("before", lambda: unread.robot_mask, ValueError)
 
 
 def test_the_camera_maps_points_and_lenses(tmp_path):
@@ -219,13 +217,10 @@ def test_points_without_the_robot(shipped):
     T = report.T_root_camera
     assert np.allclose(root.points, expected @ T[:3, :3].T + T[:3, 3], atol=1e-5)
     assert len(root) == len(cloud) and root.colors.shape == (0, 3)
-    with pytest.raises(penumbra.InputError, match="no link 'hand'"):
-        report.points(frame="hand")
-    with pytest.raises(ValueError, match="color"):
-        report.points(color=color[:-1])
+    refuses("no link 'hand'", lambda: report.points(frame="hand"))
+    refuses("color", lambda: report.points(color=color[:-1]), ValueError)
     shipped.pipeline.process(frame.frame)
-    with pytest.raises(ValueError, match="another frame"):
-        report.filtered_depth()
+    refuses("another frame", lambda: report.filtered_depth(), ValueError)
 
 
 def test_a_camera_comes_from_opencvs_matrix():
@@ -245,26 +240,22 @@ def test_joints_may_be_named(shipped):
     by_order = shipped.pipeline.process(frame.frame).labels.copy()
     named = dict(zip(robot.variables, frame.frame.joints))
     assert np.array_equal(by_order, shipped.pipeline.process(frame.frame.replace(joints=named)).labels)
-    with pytest.raises(KeyError, match="tail"):
-        shipped.pipeline.process(frame.frame.replace(joints=named | {"tail": 1.0}))
+    refuses("tail", lambda: shipped.pipeline.process(frame.frame.replace(joints=named | {"tail": 1.0})), KeyError)
     named.popitem()
-    with pytest.raises(KeyError, match="missing"):
-        shipped.pipeline.process(frame.frame.replace(joints=named))
+    refuses("missing", lambda: shipped.pipeline.process(frame.frame.replace(joints=named)), KeyError)
 
 
 def test_an_unknown_variable_is_a_key_error(shipped):
     robot = shipped.pipeline.robot
     assert robot.find_variable(robot.variables[2]) == 2
-    with pytest.raises(KeyError, match="tail"):
-        robot.find_variable("tail")
+    refuses("tail", lambda: robot.find_variable("tail"), KeyError)
 
 
 def test_an_inputs_frames_have_numbers():
     given = penumbra.open_input(SHIPPED)
     assert len(given) == 12
     assert given[3].index == 3
-    with pytest.raises(IndexError, match="frame 12"):
-        given[12]
+    refuses("frame 12", lambda: given[12], IndexError)
 
 
 def test_what_the_command_line_notes_is_noted(opened):

@@ -19,8 +19,7 @@ def test_the_stubs_next_to_the_module_name_its_public_classes():
     named = {node.name for node in stubs.body if isinstance(node, ast.ClassDef)}
     named |= {name.asname for node in stubs.body if isinstance(node, ast.ImportFrom)
               for name in node.names if node.level}
-    public = {name for name, value in vars(penumbra).items()
-              if isinstance(value, type) and not name.startswith("_")}
+    public = {name for name, value in vars(penumbra).items() if isinstance(value, type) and not name.startswith("_")}
     assert "Pipeline" in named and named == public | {"from_arrays"}
     assert (PACKAGE / "py.typed").exists()
 
@@ -58,9 +57,7 @@ def test_the_packages_own_python_is_typed():
 def test_wrong_use_does_not_pass_mypy(tmp_path):
     pytest.importorskip("mypy")
     script = tmp_path / "wrong.py"
-    script.write_text("import penumbra\n"
-                      "penumbra.LabelRule(front_min_width='7')\n"
-                      "penumbra.Frame(None)\n")
+    script.write_text("import penumbra\n" "penumbra.LabelRule(front_min_width='7')\n" "penumbra.Frame(None)\n")
     done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-incremental", script],
                           capture_output=True, text=True)
     assert done.stdout.count("error:") == 2, done.stdout

@@ -51,8 +51,7 @@ def test_every_kind_of_region_is_judged(opened):
                penumbra.PixelPolygon([[9.5, 19.5], [39.5, 19.5], [39.5, 59.5], [9.5, 59.5]]),
                penumbra.PixelMask(mask), penumbra.PixelMask(mask.astype(np.uint8)),
                penumbra.RunLengthMask(640, 480, runs), penumbra.RenderedRegion(rendered)]
-    targets = [penumbra.Target(str(i), penumbra.RegionTarget(region))
-               for i, region in enumerate(regions)]
+    targets = [penumbra.Target(str(i), penumbra.RegionTarget(region)) for i, region in enumerate(regions)]
     report = opened.pipeline.process(opened.frames[0].frame.replace(targets=targets))
     assert [t.judgement.covered for t in report.targets] == 6 * [1200]
     for region in regions:
@@ -62,9 +61,8 @@ def test_every_kind_of_region_is_judged(opened):
 
 
 def test_shapes_in_space_and_their_handling(opened):
-    cube = penumbra.TriangleMesh(
-        np.array([[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.1]], np.float32),
-        np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], np.uint32))
+    cube = penumbra.TriangleMesh(np.array([[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.1]], np.float32),
+                                 np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], np.uint32))
     T = np.eye(4)
     T[:3, 3] = 0.52, 0.28, 0.04
     handling = penumbra.PoseTrackerConfig(motion=penumbra.Motion.still)

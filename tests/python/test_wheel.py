@@ -28,8 +28,7 @@ def test_the_wheel_is_built_offline_and_works(tmp_path):
     clean.update(PIP_NO_INDEX="1", PIP_DISABLE_PIP_VERSION_CHECK="1")
 
     def step(*command):
-        done = subprocess.run(list(map(str, command)), env=clean, cwd=tmp_path, capture_output=True,
-                              text=True)
+        done = subprocess.run(list(map(str, command)), env=clean, cwd=tmp_path, capture_output=True, text=True)
         assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
         return done.stdout
 
