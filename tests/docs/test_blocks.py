@@ -27,34 +27,15 @@ def test_every_block_is_of_a_language_that_is_tested():
             assert block.language in KNOWN, f"{block}: {block.language}"
 
 
-def check_manual(out):
-    assert len(re.findall(r"^\d+ ok \d+ front pixels, \d{5,} points$", out, re.MULTILINE)) == 12
-    assert "FrameStatus.bad_depth" in out and "% behind gripper" in out
-
-
-def check_detector(out):
-    assert len(re.findall(r"^cylinder_7 (?:visible|partial|hidden|unknown)", out, re.MULTILINE)) == 12
-
-
-def check_batch(out):
-    assert out.endswith("arm_over_table done 12\n")
-
-
-def check_masks(out):
-    assert re.fullmatch(r"12 frames, \d{5} pixels in the last one\nepisode_000007 12\n", out)
-
-
-def check_cloud(out):
-    assert re.fullmatch(r"9\d{4} of 100000 points stay\n", out)
-
-
-def check_look_ahead(out):
-    assert re.search(r"^lid \d\.\d\d s to \d\.\d\d s: hidden \w+$", out, re.MULTILINE)
-
-
-# What the programs of a document print, read once more.
-SAID = {"batch.md": check_batch, "look_ahead.md": check_look_ahead, "point_clouds.md": check_cloud, "robot_masks.md": check_masks,
-        "targets.md": check_detector, "python.md": check_manual}
+# What the programs of a document print: regular expressions, and how many lines match them (1: or more).
+SAID = {
+    "batch.md": {r"arm_over_table done 12\n\Z": 1},
+    "look_ahead.md": {r"^lid \d\.\d\d s to \d\.\d\d s: hidden \w+$": 1},
+    "point_clouds.md": {r"\A9\d{4} of 100000 points stay\n\Z": 1},
+    "python.md": {r"^\d+ ok \d+ front pixels, \d{5,} points$": 12, r"FrameStatus\.bad_depth": 1, "% behind gripper": 1},
+    "robot_masks.md": {r"\A12 frames, \d{5} pixels in the last one\nepisode_000007 12\n\Z": 1},
+    "targets.md": {r"^cylinder_7 (?:visible|partial|hidden|unknown)": 12},
+}
 
 
 @pytest.mark.parametrize("document", [d for d in DOCUMENTS if any(b.language == "python" for b in blocks_of(d))],
@@ -65,7 +46,9 @@ def test_python_runs(document, work):
     done = subprocess.run([sys.executable, "-c", in_folder(text, work)], cwd=work, env=os.environ,
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    SAID[document.name](done.stdout)
+    for pattern, lines in SAID[document.name].items():
+        found = len(re.findall(pattern, done.stdout, re.MULTILINE))
+        assert found == lines or found > lines == 1, done.stdout
 
 
 def as_unit(block, number):

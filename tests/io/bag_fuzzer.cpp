@@ -33,7 +33,7 @@ std::string sound_bag() {
 }
 
 void read_to_its_end(const std::string& bytes) {
-  const MemoryFile file(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+  const MemoryFile file(bytes);
   const auto bag = io::open_sqlite_bag(file.path());
   unsigned sum = 0;
   for (io::BagMessage message; bag->next(message);) {

@@ -169,8 +169,7 @@ TEST_F(Bags, RefusesWhatItCannotRead) {
   metadata("rosbag2_bagfile_information:\n  version: 5\n");
   EXPECT_HAS(refusal(folder_.path()), "key 'relative_file_paths' is missing");
   metadata(test::metadata_yaml("sqlite3", {"a.db3.zstd"}, " []", "FILE"));
-  EXPECT_HAS(refusal(folder_.path()),
-             "metadata.yaml:11: ");
+  EXPECT_HAS(refusal(folder_.path()), "metadata.yaml:11: ");
   metadata(test::metadata_yaml("sqlite3", {"a.db3"}, " []", "MESSAGE"));
   EXPECT_HAS(refusal(folder_.path()), "'MESSAGE' is not read; 'ros2 bag convert'");
   metadata("rosbag2_bagfile_information:\n  relative_file_paths: []\n");

@@ -67,9 +67,10 @@ inline std::string pcd(const std::string& fields, int width, int height, const s
 }
 
 /// `header`: NumPy's dictionary, of any length.
-inline std::string npy(const std::string& header, const std::string& data) {
-  return std::string("\x93NUMPY\x01", 7) + '\0' + static_cast<char>(header.size() & 255) +
-         static_cast<char>(header.size() >> 8) + header + data;
+inline std::string npy(const std::string& header, const std::string& data, char version = 1) {
+  const auto size = static_cast<unsigned>(header.size());
+  return "\x93NUMPY" + raw(version, '\0') +
+         (version == 1 ? raw(static_cast<unsigned short>(size)) : raw(size)) + header + data;
 }
 
 inline const std::string xyz_fields = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";

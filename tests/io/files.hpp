@@ -6,15 +6,27 @@
 #include "../support/random.hpp"
 #include "../support/temporary_folder.hpp"
 
+#include <cstring>
 #include <initializer_list>
 #include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include <penumbra/base/image.hpp>
+
 #define EXPECT_HAS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
 namespace penumbra::test {
+
+template <typename T, typename U>
+bool same_pixels(ImageView<T> a, ImageView<U> b) {
+  if (a.width != b.width || a.height != b.height) return false;
+  for (int v = 0; v < b.height; ++v)
+    if (std::memcmp(a.row(v), b.row(v), sizeof(T) * static_cast<std::size_t>(b.width)) != 0)
+      return false;
+  return true;
+}
 
 /// Input, and what the one line of its error must name.
 using BadInputs = std::initializer_list<std::pair<std::string, std::string>>;

@@ -4,6 +4,7 @@
 #include "../support/allocations.hpp"
 #include "../support/run_length.hpp"
 #include "mcap_files.hpp"
+#include "memory_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,10 +35,10 @@ class McapDamage : public testing::TestWithParam<Compression> {
   }
 
   McapContents read(const std::string& bytes) {
-    folder_.write("a.mcap", bytes);
+    const test::MemoryFile file(bytes);
     const test::MemoryShortage none(large_memory, 0);
     McapContents all;
-    test::refusal([&] { all = test::read_mcap(file_); });
+    test::refusal([&] { all = test::read_mcap(file.path()); });
     return all;
   }
 
@@ -195,7 +196,6 @@ TEST(McapClaims, AHoleIsLeftAfterSomeGigabytes) {
 // What a file claims costs nothing.
 TEST(McapClaims, TakeNoMemory) {
   using namespace test::mcap_file;
-  test::TemporaryFolder folder;
   const std::string huge = u64(~0ULL >> 1), huge32 = u32(~0ULL);
   const std::string head = magic + header();
   std::vector<std::string> files;
@@ -211,9 +211,9 @@ TEST(McapClaims, TakeNoMemory) {
           file("", record(opcode, std::string(before, '\1').append(huge32).append(huge))));
   files.push_back(magic + record(1, huge32 + huge));
   for (const std::string& bytes : files) {
-    const auto path = folder.write("a.mcap", bytes);
+    const test::MemoryFile file(bytes);
     const test::MemoryShortage none(large_memory, 0);
-    const McapContents all = test::read_mcap(path);
+    const McapContents all = test::read_mcap(file.path());
     EXPECT_TRUE(all.messages.empty());
     EXPECT_EQ(none.asked(), 0U);
   }

@@ -15,6 +15,8 @@ namespace penumbra::test {
 /// A file without a disk, for readers that want a path.
 class MemoryFile {
  public:
+  explicit MemoryFile(const std::string& bytes)
+      : MemoryFile(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()) {}
   MemoryFile(const std::uint8_t* bytes, std::size_t count)
       : descriptor_(::memfd_create("fuzz", 0)) {
     if (descriptor_ < 0) std::abort();

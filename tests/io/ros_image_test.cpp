@@ -17,15 +17,7 @@ namespace penumbra::io {
 namespace {
 
 using test::bytes_of;
-
-template <typename T>
-bool same(const Image<T>& a, ImageView<const T> b) {
-  if (a.width() != b.width || a.height() != b.height) return false;
-  for (int v = 0; v < b.height; ++v)
-    if (std::memcmp(a.view().row(v), b.row(v), sizeof(T) * static_cast<std::size_t>(b.width)) != 0)
-      return false;
-  return true;
-}
+using test::same_pixels;
 
 // An image as it lies in a message: rows of `step` bytes, `offset` bytes from an aligned place.
 class Laid {
@@ -79,7 +71,7 @@ void check_depth(const Image<T>& image, const std::string& encoding) {
         const auto fault = decode_depth(laid.message_, depth);
         ASSERT_FALSE(fault) << *fault;
         const auto view = std::get<ImageView<const T>>(depth.view);
-        EXPECT_TRUE(same(image, view)) << step << ' ' << offset << ' ' << big;
+        EXPECT_TRUE(same_pixels(image.view(), view)) << step << ' ' << offset << ' ' << big;
         const void* data = view.data;
         const bool in_place = data == laid.message_.data.data();
         EXPECT_EQ(in_place, !big && offset != 1 && step != row + 1);
@@ -190,7 +182,7 @@ TEST(RosImage, PngThereAndBack) {
   Image<Rgb8> read;
   const auto fault = decode_color(message, read);
   ASSERT_FALSE(fault) << *fault;
-  EXPECT_TRUE(same(image, std::as_const(read).view()));
+  EXPECT_TRUE(same_pixels(image.view(), read.view()));
   expect_cuts_are_faults(
       png, [&](auto cut) { return decode_color(CompressedImageMessage{.data = cut}, read); });
 }
@@ -230,7 +222,7 @@ TEST(RosImage, CompressedDepth) {
       const auto fault =
           decode_depth(CompressedImageMessage{.format = format, .data = data}, depth);
       ASSERT_FALSE(fault) << *fault;
-      EXPECT_TRUE(same(image, std::get<ImageView<const std::uint16_t>>(depth.view)));
+      EXPECT_TRUE(same_pixels(image.view(), std::get<ImageView<const std::uint16_t>>(depth.view)));
     }
     const auto fault = decode_depth(
         CompressedImageMessage{.format = "32FC1; compressedDepth" + codec, .data = data}, depth);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets drawn into frames: what is said of them, and where late ones are.
+#include "files.hpp"
 #include "robots.hpp"
-
-#include <algorithm>
 
 #include <gtest/gtest.h>
 
@@ -48,19 +47,19 @@ TargetReport said(Verdict verdict, std::int64_t stamp, double occluded) {
   return report;
 }
 
-bool same(const Image<Rgb8>& a, const Image<Rgb8>& b) {
-  return std::equal(a.data(), a.data() + a.size(), b.data());
-}
-
 /// "unknown 0%" would read as "0 % hidden".
 TEST_F(TargetOverlayTest, UnknownHasNoShare) {
   const RegionTarget box{PixelBox{100, 100, 40, 40}};
   const auto drawn = [&](Verdict verdict, double share) {
     return draw(said(verdict, 0, share), 0, 0.0, box);
   };
-  EXPECT_TRUE(same(drawn(Verdict::unknown, 0.0), drawn(Verdict::unknown, 0.001)));
-  EXPECT_FALSE(same(drawn(Verdict::unknown, 0.0), drawn(Verdict::unknown, 0.5))) << "at least 50 %";
-  EXPECT_FALSE(same(drawn(Verdict::partial, 0.3), drawn(Verdict::partial, 0.5)));
+  EXPECT_TRUE(test::same_pixels(drawn(Verdict::unknown, 0.0).view(),
+                                drawn(Verdict::unknown, 0.001).view()));
+  EXPECT_FALSE(
+      test::same_pixels(drawn(Verdict::unknown, 0.0).view(), drawn(Verdict::unknown, 0.5).view()))
+      << "at least 50 %";
+  EXPECT_FALSE(
+      test::same_pixels(drawn(Verdict::partial, 0.3).view(), drawn(Verdict::partial, 0.5).view()));
 }
 
 /// The camera moves half a metre meanwhile: what stands still is seen 100 pixels further left.
@@ -78,7 +77,7 @@ TEST_F(TargetOverlayTest, ALateTargetIsDrawnWhereItIsSeenNow) {
 TEST_F(TargetOverlayTest, ATargetOfAFrameThatWasNotSeenIsNotDrawn) {
   const PointTarget ball{.position = {0.25, 0, 1}, .radius = 0.05};
   const Image<Rgb8> image = draw(said(Verdict::visible, -second, 0), 0, 0.0, ball);
-  EXPECT_TRUE(same(image, Image<Rgb8>(320, 240, grey)));
+  EXPECT_TRUE(test::same_pixels(image.view(), Image<Rgb8>(320, 240, grey).view()));
 }
 
 }  // namespace

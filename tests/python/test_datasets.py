@@ -430,7 +430,7 @@ def test_write_replaces_its_own_files_and_no_others(arm, joints, tmp_path):
 
 
 def test_files_without_episodes_or_with_few_images_are_faults(joints, tmp_path):
-    file = write_h5(tmp_path / "it.hdf5", {"qpos": recorded(joints), "depth": np.ones((3, HEIGHT, WIDTH), np.uint16)})
+    file = write_h5(tmp_path / "it.hdf5", {"qpos": recorded(joints), "depth": np.zeros((3, HEIGHT, WIDTH), np.uint16)})
     dataset = datasets.Dataset.load(describe(tmp_path, layout="robomimic"))
     for call in (dataset.groups, dataset.read):
         refuses(r"no group data/\*", lambda: call(file))

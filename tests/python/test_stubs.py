@@ -36,31 +36,35 @@ def test_mypy_finds_in_the_module_what_the_stubs_say():
     assert not [line for line in found if not any(e in line for e in expected)]
 
 
-def test_examples_are_typed():
+@pytest.fixture(scope="module")
+def mypy(tmp_path_factory):
+    """Runs mypy; these tests share a cache. Returns what it printed."""
     pytest.importorskip("mypy")
+    cache = tmp_path_factory.mktemp("mypy")
+    return lambda *words, **options: subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache, *words], capture_output=True, text=True,
+        **options).stdout
+
+
+def test_the_packages_own_python_is_typed(mypy):
+    told = mypy("-p", "penumbra", cwd=PACKAGE.parent)
+    assert "checked 10 source files" in told, told
+    assert not [line for line in told.splitlines() if ".py:" in line], told
+
+
+def test_examples_are_typed(mypy):
     scripts = sorted((ROOT / "examples" / "python").glob("*.py"))
     assert len(scripts) > 3
-    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-incremental", *scripts],
-                          capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
-
-
-def test_the_packages_own_python_is_typed():
-    pytest.importorskip("mypy")
-    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-incremental", "-p", "penumbra"],
-                          capture_output=True, text=True, cwd=PACKAGE.parent)
-    assert "checked 10 source files" in done.stdout, done.stdout
-    assert not [line for line in done.stdout.splitlines() if ".py:" in line], done.stdout
+    told = mypy(*scripts)
+    assert told.startswith("Success"), told
 
 
 @only_in_full
-def test_wrong_use_does_not_pass_mypy(tmp_path):
-    pytest.importorskip("mypy")
+def test_wrong_use_does_not_pass_mypy(mypy, tmp_path):
     script = tmp_path / "wrong.py"
-    script.write_text("import penumbra\n" "penumbra.LabelRule(front_min_width='7')\n" "penumbra.Frame(None)\n")
-    done = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-incremental", script],
-                          capture_output=True, text=True)
-    assert done.stdout.count("error:") == 2, done.stdout
+    script.write_text("import penumbra\npenumbra.LabelRule(front_min_width='7')\npenumbra.Frame(None)\n")
+    told = mypy(script)
+    assert told.count("error:") == 2, told
 
 
 def test_everything_is_documented():
