@@ -337,5 +337,6 @@ def test_bad_arguments_are_one_line(arguments, word, tmp_path):
     (tmp_path / "quote.txt").write_text("recording\nanother's\n")
     (tmp_path / "loop").symlink_to("loop")
     told = run_python("-m", "penumbra.batch", *arguments, status=2, cwd=tmp_path).stderr
-    assert any(word in line for line in told.splitlines()[-2:]), told
-    assert "Traceback" not in told
+    assert any(word in line for line in told.splitlines() if "penumbra: " in line or "error: " in line), told
+    # On a busy machine Dask prints tracebacks of its own, of workers that it waits for in vain.
+    assert not [line for line in told.splitlines() if line.startswith("  File") and "/penumbra/" in line], told
