@@ -19,7 +19,7 @@
 #include <io/files/pose_file.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/run/calibration_input.hpp>
-#include <io/web/calibration_page.hpp>
+#include <io/web/calibration_pictures.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -160,14 +160,13 @@ int execute(const CalibrateArguments& arguments) {
       folder->add("camera_pose.csv", [&](const std::filesystem::path& part) {
         io::write_pose_csv(part, found.T_parent_camera);
       });
-    folder->add_text("report.html", io::calibration_page({.input = arguments.input.input.path,
-                                                          .frames = input.frames,
-                                                          .camera = input.camera,
-                                                          .robot = robot,
-                                                          .options = options},
-                                                         found));
-    folder->add_text("calibration.json",
-                     io::calibration_json(found, robot, options.camera_parent) + "\n");
+    const std::string json =
+        io::calibration_json(arguments.input.input.path, found, robot, options.camera_parent) +
+        "\n";
+    folder->add_text("report.html",
+                     io::report_page(json, io::calibration_pictures(input.frames, input.camera,
+                                                                    robot, options, found)));
+    folder->add_text("calibration.json", json);
     folder->finish();
   }
   if (!found.is_good()) {

@@ -13,7 +13,6 @@
 #include <apps/penumbra/text.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/run/look_ahead_input.hpp>
-#include <io/web/look_ahead_page.hpp>
 #include <io/web/moment_painter.hpp>
 
 namespace penumbra::app {
@@ -108,13 +107,14 @@ int execute(const LookAheadArguments& arguments) {
   }
   std::cout << "looked ahead in " << fixed(1e3 * elapsed.count(), 1) << " ms\n";
   if (!folder) return 0;
-  std::vector<std::vector<io::MomentPicture>> pictures;
+  std::vector<io::PagePicture> pictures;
   io::MomentPainter painter(input.robot, input.cameras.front(), input.color.view(), input.targets,
                             input.pose);
   for (std::size_t i = 0; i < motions.size(); ++i)
-    pictures.push_back(painter.pictures(motions[i].trajectory, forecasts[i]));
-  folder->add_text("report.html", io::look_ahead_page(result, pictures));
-  folder->add_text("look_ahead.json", io::look_ahead_json(result) + "\n");
+    painter.add_pictures(motions[i].trajectory, forecasts[i], i, pictures);
+  const std::string json = io::look_ahead_json(result) + "\n";
+  folder->add_text("report.html", io::report_page(json, pictures));
+  folder->add_text("look_ahead.json", json);
   folder->finish();
   return 0;
 }

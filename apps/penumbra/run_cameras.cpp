@@ -16,7 +16,7 @@
 #include <io/files/camera_views.hpp>
 #include <io/run/output_bag.hpp>
 #include <io/run/output_folder.hpp>
-#include <io/web/camera_views_page.hpp>
+#include <io/web/report_page.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -148,8 +148,9 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
   }
   const io::CameraViews views = io::fuse_views(arguments.session.input.path.string(), runs);
   print_counts(io::counts_of(views), cameras.size());
-  if (arguments.output.report_page) folder.add_text("report.html", io::camera_views_page(views));
-  folder.add_text("views.json", io::views_json(views));
+  const std::string json = io::views_json(views);
+  if (arguments.output.report_page) folder.add_text("report.html", io::report_page(json));
+  folder.add_text("views.json", json);
   folder.finish();
   std::cout << "all cameras: " << (out / "views.json").string() << '\n';
   return status;

@@ -17,7 +17,7 @@
 #include <io/files/result_folder.hpp>
 #include <io/files/view_planning_report.hpp>
 #include <io/run/planning_input.hpp>
-#include <io/web/view_planning_page.hpp>
+#include <io/web/report_page.hpp>
 
 namespace penumbra::app {
 namespace {
@@ -107,8 +107,9 @@ int execute(const ViewPlanningArguments& arguments) {
             << " s: " << fixed(static_cast<double>(renders) / elapsed.count(), 0)
             << " per second\n";
   if (!folder) return 0;
-  folder->add_text("report.html", io::view_planning_page(plan));
-  folder->add_text("view_planning.json", io::view_planning_json(plan) + "\n");
+  const std::string json = io::view_planning_json(plan) + "\n";
+  folder->add_text("report.html", io::report_page(json));
+  folder->add_text("view_planning.json", json);
   folder->finish();
   return 0;
 }

@@ -29,7 +29,7 @@ Json rows_of(const auto& matrix) {
 
 }  // namespace
 
-std::string calibration_json(const Calibration& found, const Robot& robot,
+std::string calibration_json(const std::string& input, const Calibration& found, const Robot& robot,
                              const std::string& camera_parent) {
   Json frames = Json::array(), links = Json::object(), joints = Json::object();
   for (const FrameFit& frame : found.frames)
@@ -44,12 +44,14 @@ std::string calibration_json(const Calibration& found, const Robot& robot,
   for (std::size_t j = 0; j < found.joint_offsets.size(); ++j)
     joints[robot.variables()[j]] = estimate_json(found.joint_offsets[j]);
   Json json = {{"penumbra", PENUMBRA_VERSION},
+               {"input", input},
                {"good", found.is_good()},
                {"faults", found.faults},
                {"notes", found.notes},
                {"advice", found.advice},
                {"camera_parent", camera_parent.empty() ? robot.links().front() : camera_parent},
                {"T_parent_camera", rows_of(found.T_parent_camera.matrix())},
+               {"pose", pose_json(found.T_parent_camera)},
                {"covariance", rows_of(found.covariance)},
                {"position_error_95_m", found.position_error()},
                {"rotation_error_95_rad", found.rotation_error()},

@@ -8,8 +8,8 @@
 
 namespace penumbra::io {
 
-/// Returns calibration.json.
-[[nodiscard]] std::string calibration_json(const Calibration& found, const Robot& robot,
-                                           const std::string& camera_parent);
+/// Returns calibration.json. `input`: as the user named it.
+[[nodiscard]] std::string calibration_json(const std::string& input, const Calibration& found,
+                                           const Robot& robot, const std::string& camera_parent);
 
 }  // namespace penumbra::io

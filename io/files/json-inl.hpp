@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
 #include <penumbra/calibration/watch.hpp>
@@ -25,6 +26,13 @@ Json or_null(const std::optional<T>& value) {
 /// Returns one line. Replaces bytes that are not UTF-8, which names from files may hold.
 inline std::string json_text(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// Returns [x, y, z, qx, qy, qz, qw].
+inline Json pose_json(const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond q(pose.linear());
+  const auto& t = pose.translation();
+  return {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
 }
 
 /// Returns "renderer" of report.json.

@@ -32,11 +32,9 @@ Json seen_json(const ViewPlan& plan, std::size_t candidate) {
 
 Json candidate_json(const ViewPlan& plan, std::size_t i) {
   const CameraCandidate& candidate = plan.candidates[i];
-  const Eigen::Vector3d at = candidate.T_link_camera.translation();
-  const Eigen::Quaterniond q(candidate.T_link_camera.linear());
   return {{"name", candidate.name},
           {"link", or_null(candidate.link)},
-          {"pose", {at.x(), at.y(), at.z(), q.x(), q.y(), q.z(), q.w()}},
+          {"pose", pose_json(candidate.T_link_camera)},
           {"targets", seen_json(plan, i)},
           {"first_unknown", or_null(plan.views.unknown(i))}};
 }

@@ -139,7 +139,7 @@ std::string OutputFolder::add_page() {
            ": not written, as report.json is larger than " +
            std::to_string(most_report_page_bytes >> 20U) + " MB; choose fewer frames with --frames";
   folder_.add_text("report.html", report_page(read_whole_file(report_file_, most_report_page_bytes),
-                                              key_frames_.json()));
+                                              key_frames_.pictures()));
   return {};
 }
 

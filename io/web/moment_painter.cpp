@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <cstdio>
+#include <utility>
 
 #include <io/files/picture.hpp>
 #include <io/files/target_overlay.hpp>
-#include <io/web/html-inl.hpp>
 #include <io/web/moment_painter.hpp>
 
 namespace penumbra::io {
@@ -17,6 +19,12 @@ Rgb8 mixed(Rgb8 a, Rgb8 b) {
     return static_cast<std::uint8_t>((x + y) / 2);
   };
   return {half(a.r, b.r), half(a.g, b.g), half(a.b, b.b)};
+}
+
+std::string seconds(double value) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.2f", value);
+  return text.data();
 }
 
 Verdict verdict_at(const CameraForecast& forecast, double time) {
@@ -59,8 +67,9 @@ MomentPainter::MomentPainter(const Robot& robot, const ForecastCamera& camera,
   T_root_camera_ = T_root_link[parent_] * T_parent_camera_;
 }
 
-std::vector<MomentPicture> MomentPainter::pictures(const Trajectory& trajectory,
-                                                   std::span<const TargetForecast> forecasts) {
+void MomentPainter::add_pictures(const Trajectory& trajectory,
+                                 std::span<const TargetForecast> forecasts, std::size_t motion,
+                                 std::vector<PagePicture>& page) {
   std::vector<std::pair<double, std::string>> moments;
   for (const TargetForecast& forecast : forecasts)
     for (const VerdictInterval& each : forecast.cameras.front().intervals)
@@ -68,18 +77,16 @@ std::vector<MomentPicture> MomentPainter::pictures(const Trajectory& trajectory,
         moments.emplace_back(0.5 * (each.begin + each.end),
                              forecast.name + " is hidden" +
                                  (each.by.empty() ? "" : " by " + each.by) + " from " +
-                                 number(each.begin, 2) + " to " + number(each.end, 2) + " s");
+                                 seconds(each.begin) + " to " + seconds(each.end) + " s");
   std::ranges::sort(moments);
   if (moments.size() > most_moments) moments.resize(most_moments);
   moments.emplace_back(trajectory.duration(),
-                       "the end, at " + number(trajectory.duration(), 2) + " s");
-  std::vector<MomentPicture> pictures;
+                       "the end, at " + seconds(trajectory.duration()) + " s");
   std::vector<double> positions(robot_.variables().size());
   for (const auto& [time, caption] : moments) {
     trajectory.at(time, positions);
-    pictures.push_back({caption, draw(positions, forecasts, time)});
+    page.push_back({motion, picture_uri(draw(positions, forecasts, time).view()), caption});
   }
-  return pictures;
 }
 
 Image<Rgb8> MomentPainter::draw(std::span<const double> positions,

@@ -12,7 +12,7 @@
 #include <penumbra/scene/look_ahead.hpp>
 
 #include <io/files/overlay_painter.hpp>
-#include <io/web/look_ahead_page.hpp>
+#include <io/web/report_page.hpp>
 
 namespace penumbra::io {
 
@@ -24,9 +24,10 @@ class MomentPainter {
   MomentPainter(const Robot& robot, const ForecastCamera& camera, ImageView<const Rgb8> color,
                 std::span<const ForecastTarget> targets, const RobotPose& start);
 
-  /// Returns pictures of the first camera where a target gets hidden, a few, and of the end.
-  [[nodiscard]] std::vector<MomentPicture> pictures(const Trajectory& trajectory,
-                                                    std::span<const TargetForecast> forecasts);
+  /// Adds pictures of the first camera where a target gets hidden, a few, and of the end, to a
+  /// page. `motion`: the trajectory's index there.
+  void add_pictures(const Trajectory& trajectory, std::span<const TargetForecast> forecasts,
+                    std::size_t motion, std::vector<PagePicture>& page);
 
  private:
   [[nodiscard]] Image<Rgb8> draw(std::span<const double> positions,

@@ -2,19 +2,33 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
-namespace penumbra::io {
+#include <penumbra/base/image.hpp>
 
-/// The start of a report page. A file with another start is not replaced.
-inline constexpr std::string_view report_page_start = "<!doctype html>\n<!-- penumbra run -->\n";
+namespace penumbra::io {
 
 /// The largest report, because browsers do not show larger pages well.
 inline constexpr std::size_t most_report_page_bytes = std::size_t{64} << 20U;
 
-/// Returns the page of a run as one file: the built-in template with report.json and the key frames
-/// (KeyFrames::json).
-[[nodiscard]] std::string report_page(std::string_view report, std::string_view key_frames);
+/// A picture of a page.
+struct PagePicture {
+  std::size_t index;         ///< of the frame, or of the motion, that it shows
+  std::string uri;           ///< "data:image/jpeg;base64,..."
+  std::string caption = {};  ///< plain text
+};
+
+/// Encodes bytes by RFC 4648, with padding.
+[[nodiscard]] std::string base64(std::span<const std::byte> bytes);
+
+/// Returns a picture's URI, which holds it as a JPEG.
+[[nodiscard]] std::string picture_uri(ImageView<const Rgb8> image);
+
+/// Returns report.html as one file: the built-in page with a command's JSON and pictures.
+/// web/src/report/main.ts lists the commands that it shows.
+[[nodiscard]] std::string report_page(std::string_view json,
+                                      std::span<const PagePicture> pictures = {});
 
 }  // namespace penumbra::io

@@ -26,12 +26,6 @@ Json add_mesh(const TriangleMesh& mesh, std::string& geometry) {
   return json;
 }
 
-Json pose_json(const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond q(pose.rotation());
-  const auto& t = pose.translation();
-  return {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
-}
-
 Scene scene_of(std::uint64_t version, const std::string& root, Json links, std::string geometry) {
   const Json json{
       {"server", server_id()}, {"version", version}, {"root", root}, {"links", std::move(links)}};

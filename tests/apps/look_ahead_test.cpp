@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // penumbra look-ahead on the tiny recording, whose board moves along the optical axis.
+#include "../support/page_json.hpp"
 #include "fixtures.hpp"
 
 #include <io/ros/moveit_messages.hpp>
@@ -46,8 +47,13 @@ TEST_F(LookAheadTest, TellsWhenAndByWhatATargetIsHidden) {
   EXPECT_NEAR(all[2]["begin_s"], visible_from, border);
   EXPECT_EQ(all[2]["end_s"], 1.0);
   EXPECT_EQ(seen()["now"][0]["verdict"], "hidden");
-  expect_has(read_file(out() / "report.html"),
-             {"<title>Look ahead", "knob", "<svg", "data:image/jpeg"});
+  const std::string page = read_file(out() / "report.html");
+  EXPECT_EQ(page_json(page, "penumbra-report"), seen());
+  const Json pictures = page_json(page, "penumbra-pictures");
+  ASSERT_EQ(pictures.size(), 2U);
+  expect_has(std::string(pictures[0]["caption"]), {"knob is hidden by board from 0.00 to 0.4"});
+  EXPECT_EQ(pictures[1]["caption"], "the end, at 1.00 s");
+  expect_has(std::string(pictures[1]["image"]), {"data:image/jpeg"});
 }
 
 TEST_F(LookAheadTest, ReadsMessagesAndBags) {

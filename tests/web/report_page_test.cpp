@@ -11,13 +11,14 @@
 
 #include <penumbra/pipeline/frame.hpp>
 
+#include <io/files/result_folder.hpp>
 #include <io/web/key_frames.hpp>
 #include <io/web/report_page.hpp>
 
 namespace penumbra::test {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 TEST(ReportPage, HoldsReportAndKeyFrames) {
   const TemporaryFolder folder;
@@ -26,7 +27,7 @@ TEST(ReportPage, HoldsReportAndKeyFrames) {
   ASSERT_EQ(penumbra({"run", folder.path(), "-o", out, "--report"}).status, 0);
   const std::string page = read_file(out / "report.html");
   EXPECT_EQ(page_json(page, "penumbra-report"), json::parse(read_file(out / "report.json")));
-  const json frames = page_json(page, "penumbra-frames");
+  const json frames = page_json(page, "penumbra-pictures");
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[0]["index"], 0);
   EXPECT_EQ(frames[1]["index"], 2);
@@ -45,14 +46,16 @@ TEST(ReportPage, HoldsReportAndKeyFrames) {
 
 TEST(ReportPage, NamesCannotEndItsScripts) {
   const json report{{"input", "</script><script>alert(1)</script><!-- "}};
-  const std::string page = io::report_page(report.dump(), "[]");
+  const std::vector<io::PagePicture> pictures = {{0, "data:", "</script>\xff"}};
+  const std::string page = io::report_page(report.dump(), pictures);
   EXPECT_EQ(page.find("alert(1)</script>"), std::string::npos);
   EXPECT_EQ(page_json(page, "penumbra-report"), report);
-  EXPECT_TRUE(page.starts_with(io::report_page_start));
+  EXPECT_EQ(page_json(page, "penumbra-pictures")[0]["caption"], "</script>\ufffd");
+  EXPECT_TRUE(page.starts_with(io::page_begin));
 }
 
-/// A report whose verdict changes every `period` frames.
-json key_frames_of(std::size_t frames, std::size_t period) {
+/// The key frames of a report whose verdict changes every `period` frames.
+std::vector<std::size_t> key_frames_of(std::size_t frames, std::size_t period) {
   io::KeyFrames key_frames;
   const Image<Rgb8> picture(16, 8);
   for (std::size_t i = 0; i < frames; ++i) {
@@ -63,18 +66,18 @@ json key_frames_of(std::size_t frames, std::size_t period) {
     report.targets = {&target, 1};
     key_frames.add(report, picture.view());
   }
-  return json::parse(key_frames.json());
+  std::vector<std::size_t> indices;
+  for (const io::PagePicture& each : key_frames.pictures()) indices.push_back(each.index);
+  return indices;
 }
 
 TEST(KeyFrames, AreFirstLastAndChanges) {
-  std::vector<std::size_t> indices;
-  for (const json& frame : key_frames_of(100, 30)) indices.push_back(frame["index"]);
-  EXPECT_EQ(indices, (std::vector<std::size_t>{0, 30, 60, 90, 99}));
+  EXPECT_EQ(key_frames_of(100, 30), (std::vector<std::size_t>{0, 30, 60, 90, 99}));
   EXPECT_EQ(key_frames_of(1, 1).size(), 1U);
-  const json many = key_frames_of(1000, 1);
+  const auto many = key_frames_of(1000, 1);
   EXPECT_EQ(many.size(), io::KeyFrames::most_frames);
-  EXPECT_EQ(many.front()["index"], 0);
-  EXPECT_EQ(many.back()["index"], 999);
+  EXPECT_EQ(many.front(), 0U);
+  EXPECT_EQ(many.back(), 999U);
   EXPECT_EQ(key_frames_of(0, 1).size(), 0U);
 }
 

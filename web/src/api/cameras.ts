@@ -18,6 +18,9 @@ export interface FusedTarget {
   readonly reason: string | null;
   readonly best: string | null;
   readonly point: Vec3 | null;
+  /** Null: the cameras agree. */
+  readonly contradiction: object | null;
+  readonly views: readonly { readonly camera: string; readonly verdict: Verdict }[];
 }
 
 /** The targets that were judged at one stamp. */
@@ -26,7 +29,10 @@ export interface FusedFrame {
   readonly targets: readonly FusedTarget[];
 }
 
+/** views.json. */
 export interface Views {
+  readonly penumbra: string;
+  readonly input: string;
   readonly cameras: readonly string[];
   readonly frames: readonly FusedFrame[];
 }

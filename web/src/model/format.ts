@@ -28,6 +28,31 @@ export const seconds = (value: number | null | undefined, digits = 2): string =>
 export const vector = (value: readonly number[] | null | undefined, digits = 3): string =>
   value ? value.map((part) => part.toFixed(digits)).join('  ') : unknownText;
 
+/** @param scale what a value of 1 is shown as */
+export const scaled = (
+  value: number | null | undefined,
+  scale: number,
+  digits: number,
+  unit: string,
+): string => (known(value) ? `${(scale * value).toFixed(digits)}${unit}` : unknownText);
+
+export const degrees = 180 / Math.PI;
+
+export interface Estimate {
+  readonly value: number;
+  /** Standard deviation. */
+  readonly sigma: number;
+}
+
+/** Returns the value with twice its standard deviation; null: it was not estimated. */
+export const estimate = (
+  of: Estimate | null | undefined,
+  scale: number,
+  digits: number,
+  unit: string,
+): string | null =>
+  of ? `${withError(scale * of.value, 2 * scale * of.sigma, digits)}${unit}` : null;
+
 const withError = (value: number, error: number, digits: number): string =>
   `${value.toFixed(digits)} ± ${error.toFixed(digits)}`;
 

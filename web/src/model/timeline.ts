@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The data of the timeline, reduced to at most one column per pixel.
-import type { FrameReport, TargetReport } from '../api/types';
+import type { FrameReport, TargetReport, Verdict } from '../api/types';
 import { percent, unknownText } from './format';
 import { verdictOf } from './labels';
 
@@ -32,6 +32,11 @@ export function tracksOf(frames: readonly FrameReport[]): Track[] {
   });
   return [...byName].map(([name, samples]) => ({ name, samples }));
 }
+
+export const countOf = (
+  samples: readonly (Pick<TargetReport, 'verdict'> | null)[],
+  verdict: Verdict,
+): number => samples.filter((sample) => sample && verdictOf(sample) === verdict).length;
 
 /** Returns the fraction that is hidden, by the robot or by other objects; null if not known. */
 export const hiddenFraction = (target: TargetReport): number | null =>

@@ -7,27 +7,21 @@ import { element } from '../view/dom';
 import { frameDetails } from '../view/frame_panel';
 import { targetDetails, targetList } from '../view/target_panel';
 import { verdictIcon } from '../view/verdict_icon';
-import { diagnosisOf, headOf, notesOf, targetTiles, tilesOf } from './summary';
+import { card, section, tableCard, type Picture } from './parts';
+import { diagnosisOf, notesOf, runHead, targetTiles, tilesOf } from './summary';
 import { targetsTable, verdictList } from './targets_table';
 
-export interface KeyFrame {
-  /** Index in the report's frames. */
-  readonly index: number;
-  /** A data: URL. */
-  readonly image: string;
-}
-
-/** The page; its timeline, tables and images select a frame and a target. */
+/** The report of a run; its timeline, tables and images select a frame and a target. */
 export class ReportPage {
   private frame = 0;
   private target: string | null;
+  readonly content: readonly Node[];
   private readonly details = element('div', 'report-details');
   private readonly timeline: TimelineView;
 
   constructor(
-    host: HTMLElement,
     private readonly report: Report,
-    images: readonly KeyFrame[],
+    images: readonly Picture[],
   ) {
     const chart = element('div');
     chart.id = 'timeline';
@@ -43,8 +37,8 @@ export class ReportPage {
       numberOf: (frame: number) => this.numberOf(frame),
       seek: (frame: number) => this.seek(frame),
     };
-    host.replaceChildren(
-      headOf(report),
+    this.content = [
+      runHead(report),
       ...diagnosisOf(report, (index) =>
         this.seek(report.frames.findIndex((frame) => frame.index === index)),
       ),
@@ -59,7 +53,7 @@ export class ReportPage {
       ),
       ...(images.length ? [section('Key frames', this.gallery(images))] : []),
       section('Stage times', stageTable(report)),
-    );
+    ];
     this.select(this.target);
     document.addEventListener('keydown', (event) => this.key(event));
   }
@@ -69,7 +63,7 @@ export class ReportPage {
   }
 
   /** Returns the key frames; a click shows a frame in the timeline. */
-  private gallery(images: readonly KeyFrame[]): HTMLElement {
+  private gallery(images: readonly Picture[]): HTMLElement {
     const figures = images.flatMap(({ index, image }) => {
       const frame = this.report.frames[index];
       if (!frame) return [];
@@ -126,18 +120,11 @@ export class ReportPage {
   }
 }
 
-const section = (title: string, ...content: Node[]): HTMLElement =>
-  element('section', '', element('h2', '', title), ...content);
-
-const card = (title: string, content: Node): HTMLElement =>
-  element('div', 'panel card', element('h3', '', title), content);
-
-function stageTable({ summary }: Report): HTMLElement {
-  const row = (tag: 'th' | 'td', cells: readonly string[]): HTMLElement =>
-    element('tr', '', ...cells.map((cell) => element(tag, '', cell)));
-  const rows = Object.entries(summary?.timing_ms ?? {}).map(([stage, time]) =>
-    row('td', [stage, ...[time?.median, time?.p99, time?.max].map(milliseconds)]),
+const stageTable = ({ summary }: Report): HTMLElement =>
+  tableCard(
+    ['stage', 'median', 'p99', 'max'],
+    Object.entries(summary?.timing_ms ?? {}).map(([stage, time]) => [
+      stage,
+      ...[time?.median, time?.p99, time?.max].map(milliseconds),
+    ]),
   );
-  const table = element('table', '', row('th', ['stage', 'median', 'p99', 'max']), ...rows);
-  return element('div', 'panel card scroll', table);
-}

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { FrameReport, Report, Summary, TargetReport, Verdict } from '../api/types';
+import type { FrameReport, Report, Summary, TargetReport } from '../api/types';
 import { count, milliseconds, percent, seconds, stamp, turnedText } from '../model/format';
 import { verdictNames, verdictOf, verdicts } from '../model/labels';
 import { notesOf as notesWithoutDiagnosis, plainText, setupText } from '../model/notes';
 import {
+  countOf,
   hiddenFraction,
   hidersOf,
   mostHidden,
@@ -13,19 +14,14 @@ import {
 } from '../model/timeline';
 import { element } from '../view/dom';
 import { verdictIcon } from '../view/verdict_icon';
+import { headOf, notes } from './parts';
 
-export function headOf(report: Report): HTMLElement {
+export function runHead(report: Report): HTMLElement {
   const { backend = '?', isa, device } = report.renderer ?? {};
   const renderer = device ?? [backend, isa].filter(Boolean).join(', ');
   const first = report.frames.find((frame) => frame.stamp_ns !== null);
   const when = first ? ` · from ${stamp(first.stamp_ns)}` : '';
-  return element(
-    'header',
-    '',
-    element('h1', '', 'Penumbra report'),
-    element('p', 'input', report.input),
-    element('p', 'hint', `Penumbra ${report.penumbra} · ${renderer}${when}`),
-  );
+  return headOf('Penumbra report', report, ` · ${renderer}${when}`);
 }
 
 export function tilesOf({ frames, summary }: Report): HTMLElement {
@@ -78,13 +74,11 @@ export function targetTiles(tracks: readonly Track[]): HTMLElement {
 function targetTile({ name, samples }: Track): HTMLElement {
   const known = samples.filter((sample) => sample !== null);
   const worst = known.reduce<TargetReport | null>(worse, known[0] ?? null);
-  const countOf = (verdict: Verdict): number =>
-    known.filter((sample) => verdictOf(sample) === verdict).length;
-  const others = verdicts.filter((verdict) => verdict !== 'visible' && countOf(verdict) > 0);
+  const others = verdicts.filter((one) => one !== 'visible' && countOf(known, one) > 0);
   const made = tile(
     name,
-    `visible ${countOf('visible')} of ${known.length}`,
-    others.map((verdict) => `${verdictNames[verdict]} ${countOf(verdict)}`).join(', '),
+    `visible ${countOf(known, 'visible')} of ${known.length}`,
+    others.map((verdict) => `${verdictNames[verdict]} ${countOf(known, verdict)}`).join(', '),
   );
   if (worst) made.firstElementChild?.prepend(verdictIcon(verdictOf(worst)));
   const most = mostHidden(samples);
@@ -124,14 +118,11 @@ export function diagnosisOf({ summary }: Report, seek: (index: number) => void):
 
 /** Returns the run's notes, faults and missing links. */
 export function notesOf({ summary }: Report): HTMLElement[] {
-  const lines = [
+  return notes([
     ...notesWithoutDiagnosis(summary).map(plainText),
     ...(summary?.faults ?? []).map(textOf),
     ...(summary?.missing_links ?? []).map((link) => `not rendered: ${textOf(link)}`),
-  ];
-  if (lines.length === 0) return [];
-  const items = lines.map((line) => element('li', '', line));
-  return [element('section', 'notes', element('h2', '', 'Notes'), element('ul', '', ...items))];
+  ]);
 }
 
 function textOf(value: unknown): string {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-import type { Source, TargetReport, Verdict } from '../api/types';
+import type { Source, TargetReport } from '../api/types';
 import { percent } from '../model/format';
-import { verdictNames, verdictOf, verdicts } from '../model/labels';
+import { verdictOf, verdicts } from '../model/labels';
 import {
+  countOf,
   hiddenFraction,
   hiddenText,
   hidersOf,
@@ -13,7 +14,7 @@ import {
   type Track,
 } from '../model/timeline';
 import { element } from '../view/dom';
-import { verdictIcon } from '../view/verdict_icon';
+import { tableCard, tableDetails, verdictCell } from './parts';
 
 const sources: readonly Source[] = ['measured', 'predicted', 'held', 'lost'];
 const maxOnsets = 12;
@@ -26,34 +27,22 @@ interface Frames {
 /** Returns per target the number of frames of each verdict, the worst occlusion, and all onsets. */
 export function targetsTable(tracks: readonly Track[], frames: Frames): HTMLElement {
   if (tracks.length === 0) return element('p', 'hint', 'No targets.');
-  const head = element('tr', '', element('th', '', 'target'));
   const counted = verdicts.filter((verdict) =>
-    tracks.some(({ samples }) => samples.some((one) => one && verdictOf(one) === verdict)),
+    tracks.some(({ samples }) => countOf(samples, verdict) > 0),
   );
-  for (const verdict of counted)
-    head.append(element('th', '', verdictIcon(verdict), verdictNames[verdict]));
-  head.append(element('th', '', 'max hidden'));
-  for (const title of ['by', 'position', 'starts in frame'])
-    head.append(element('th', 'text', title));
-  const table = element('table', '', head);
-  for (const track of tracks) table.append(rowOf(track, counted, frames));
-  return element('div', 'panel card scroll', table);
-}
-
-function rowOf(track: Track, counted: readonly Verdict[], frames: Frames): HTMLTableRowElement {
-  const row = element('tr', '', element('th', '', track.name));
-  for (const verdict of counted) {
-    const count = track.samples.filter((sample) => sample && verdictOf(sample) === verdict).length;
-    row.append(element('td', count ? '' : 'none', String(count)));
-  }
-  const worst = mostHidden(track.samples);
-  row.append(
-    element('td', '', percent(worst && hiddenFraction(worst))),
-    element('td', 'text', (worst && hidersOf(worst)[0]) ?? ''),
-    element('td', 'text', handledText(track)),
-    element('td', 'text', ...onsetButtons(track, frames)),
-  );
-  return row;
+  const rows = tracks.map((track) => {
+    const worst = mostHidden(track.samples);
+    return [
+      track.name,
+      ...counted.map((verdict) => String(countOf(track.samples, verdict))),
+      percent(worst && hiddenFraction(worst)),
+      (worst && hidersOf(worst)[0]) ?? '',
+      handledText(track),
+      onsetButtons(track, frames),
+    ];
+  });
+  const more = ['max hidden', 'by', 'position', 'starts in frame'];
+  return tableCard(['target', ...counted.map(verdictCell), ...more], rows);
 }
 
 function handledText(track: Track): string {
@@ -77,27 +66,15 @@ function onsetButtons(track: Track, { numberOf, seek }: Frames): (Node | string)
 
 /** Lists what each target is, and behind which links, from frame to frame; closed at first. */
 export function verdictList(tracks: readonly Track[], frames: Frames): HTMLElement {
-  const head = element('tr', '', element('th', '', 'frames'));
-  for (const title of ['verdict', 'hidden']) head.append(element('th', 'text', title));
   const lists = tracks.map((track) => {
-    const table = element('table', '', head.cloneNode(true));
-    for (const { from, to } of runsOf(track.samples.map(stateOf))) {
+    const rows = runsOf(track.samples.map(stateOf)).flatMap(({ from, to }) => {
       const sample = track.samples.slice(from, to).reduce(worse);
-      if (!sample) continue;
+      if (!sample) return [];
       const button = element('button', 'small', spanOf(from, to, frames));
       button.addEventListener('click', () => frames.seek(from));
-      table.append(
-        element(
-          'tr',
-          '',
-          element('td', '', button),
-          element('td', 'text', verdictIcon(verdictOf(sample)), verdictNames[verdictOf(sample)]),
-          element('td', 'text', hiddenText(sample)),
-        ),
-      );
-    }
-    const title = element('summary', '', `${track.name}, frame by frame`);
-    return element('details', 'panel card scroll', title, table);
+      return [[[button], verdictCell(verdictOf(sample)), hiddenText(sample)]];
+    });
+    return tableDetails(`${track.name}, frame by frame`, ['frames', 'verdict', 'hidden'], rows);
   });
   return element('div', '', ...lists);
 }

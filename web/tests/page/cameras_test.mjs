@@ -2,44 +2,17 @@
 // The page of several cameras: all of them at one instant, and the verdicts over all of them.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, test } from 'node:test';
-import { desktop, example, phone, program, showsFrame } from './browser.mjs';
+import { desktop, phone, program, showsFrame } from './browser.mjs';
+import { makeCell } from './cell.mjs';
 import { served } from './served.mjs';
 
-/** Returns the shipped example with a second camera, 0.1 s later and turned aside. */
-function makeCell() {
-  const cell = mkdtempSync(path.join(tmpdir(), 'cell-'));
-  cpSync(example, cell, { recursive: true });
-  const files =
-    '{info: camera_info.yaml, parent: base_link, pose: POSE, depth: "depth/%d.png", color: "color/%d.png"}';
-  const pose = readFileSync(path.join(example, 'camera_pose.csv'), 'utf8');
-  const rows = pose.trim().split('\n');
-  const moved = rows.map((row, index) => {
-    const values = row.split(',');
-    if (index === 0) values[3] = String(Number(values[3]) + 0.2);
-    return values.join(',');
-  });
-  writeFileSync(path.join(cell, 'aside.csv'), `${moved.join('\n')}\n`);
-  writeFileSync(
-    path.join(cell, 'recording.yaml'),
-    `robot:
-  urdf: arm_description/arm.urdf
-  packages: {arm_description: arm_description}
-cameras:
-  left: ${files.replace('POSE', 'camera_pose.csv')}
-  right: ${files.replace('POSE', 'aside.csv')}
-frames: {joints: joint_states.csv}
-targets: targets.yaml
-`,
-  );
-  execFileSync(program, ['run', cell, '-o', path.join(cell, 'out')]);
-  return cell;
-}
-
-const cell = makeCell();
+const cell = mkdtempSync(path.join(tmpdir(), 'cell-'));
+makeCell(cell);
+execFileSync(program, ['run', cell, '-o', path.join(cell, 'out')]);
 after(() => rmSync(cell, { recursive: true }));
 const { frames } = JSON.parse(readFileSync(path.join(cell, 'out/views.json'), 'utf8'));
 const { withPage } = served(cell);

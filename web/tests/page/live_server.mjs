@@ -32,6 +32,10 @@ export async function playLive(page, url) {
     missing: [],
     answers: true,
     parts: [],
+    changed: () => {}, // a connection or a request came
+  };
+  const until = async (isTrue) => {
+    while (!isTrue()) await new Promise((resolve) => (state.changed = resolve));
   };
   await page.route('**/api/session', (route) => {
     if (!state.answers) return route.abort('timedout');
@@ -49,19 +53,20 @@ export async function playLive(page, url) {
   await page.routeWebSocket('**/api/live', (socket) => {
     state.socket = socket;
     ++state.connections;
+    state.changed();
     socket.onMessage((text) => {
       const message = JSON.parse(text);
       if (message.type === 'want') state.parts = message.with;
       else if (message.type === 'ready') ++state.requested;
+      state.changed();
     });
   });
 
+  state.connected = (times) => until(() => state.connections >= times);
+
   /** Sends a frame after the page requested one. */
   state.send = async ({ age = 20, rate = 10, damage = false, verdict } = {}) => {
-    for (let tries = 0; state.requested <= state.sent; ++tries) {
-      if (tries > 500) throw new Error('the page requests no frame');
-      await new Promise((resolve) => setTimeout(resolve, 20));
-    }
+    await until(() => state.requested > state.sent);
     const targets = head.frame.targets.map((target) => ({
       ...target,
       verdict: verdict ?? target.verdict,

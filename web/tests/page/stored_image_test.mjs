@@ -268,12 +268,16 @@ test('a wide image fills its pane', { skip: !existsSync(wide) && `no ${wide}` },
   const server = await serve(folder);
   const { page, faults, close } = await open(shared.browser, server.url);
   await showsFrame(page, 0);
-  await page.waitForTimeout(300);
+  await page.waitForFunction(() => {
+    const [frame, stage] = ['image-frame', 'image-stage'].map((id) =>
+      document.getElementById(id).getBoundingClientRect(),
+    );
+    return frame.width * frame.height > 0.95 * stage.width * stage.height;
+  });
   const [frame, stage, scene] = await Promise.all(
     ['#image-frame', '#image-stage', '#scene'].map((id) => page.locator(id).boundingBox()),
   );
   assert.ok(Math.abs(frame.width / frame.height - 16 / 9) < 0.01);
-  assert.ok(frame.width * frame.height > 0.95 * stage.width * stage.height);
   assert.ok(scene.width > 300, 'the scene keeps a place');
   assert.deepEqual(faults, []);
   await close();

@@ -2,24 +2,23 @@
 // The page of a stored recording: frames, timeline, numbers.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { desktop, drawn, showsFrame } from './browser.mjs';
+import { desktop, drawn, open, showsFrame, stopTime } from './browser.mjs';
 import { changedFraction } from './pictures.mjs';
 import { frameShown, served } from './served.mjs';
 
 const step = process.env.PENUMBRA_FULL ? 1 : 4; // compares the numbers of every step-th frame
-// Until the first frame is shown; the short run shares two cores with other programs.
-const maxSeconds = process.env.PENUMBRA_FULL ? 2 : 10;
+const maxSeconds = 2; // until the first frame is shown, on an idle machine
 
 const shared = served();
 const { withPage } = shared;
 
-test(`loads in less than ${maxSeconds} seconds`, async () => {
+test('loads, with PENUMBRA_FULL in less than two seconds', async () => {
   // The first load includes the browser's start; of the others the best one counts.
   const loads = [];
   for (let i = 0; i < 4; ++i)
     await withPage('/', desktop, (_, { seconds }) => void loads.push(seconds));
   console.log(`first frame after ${loads.map((seconds) => seconds.toFixed(2)).join(', ')} s`);
-  assert.ok(Math.min(...loads.slice(1)) < maxSeconds, `${loads} s`);
+  if (process.env.PENUMBRA_FULL) assert.ok(Math.min(...loads.slice(1)) < maxSeconds, `${loads} s`);
 });
 
 test('the numbers of all targets are those of report.json', () =>
@@ -55,7 +54,7 @@ test('the numbers of all targets are those of report.json', () =>
     assert.ok(compared > (12 / step) * 4 * 12, `${compared} numbers`);
   }));
 
-test('steps, jumps and plays', () =>
+test('steps and jumps', () =>
   withPage('/', desktop, async (page) => {
     await page.click('#step-forward');
     await showsFrame(page, 1);
@@ -70,23 +69,38 @@ test('steps, jumps and plays', () =>
     await showsFrame(page, 11);
     await page.click('#first');
     await showsFrame(page, 0);
-    await page.selectOption('#speed', '4');
-    await page.keyboard.press(' ');
-    await showsFrame(page, 11);
-    assert.equal(await page.locator('html').getAttribute('class'), '', 'it pauses at the end');
-    await page.selectOption('#speed', '0.25');
-    await page.keyboard.press(' '); // from the start again
-    await page.waitForFunction(() => {
-      const frame = Number(document.getElementById('frame-number').textContent);
-      return frame > 0 && frame < 11;
-    });
-    await page.click('#play');
-    await page.locator('html:not(.playing)').waitFor();
-    await page.waitForTimeout(500); // the frame that was being fetched
-    const at = await frameShown(page);
-    await page.waitForTimeout(500);
-    assert.equal(await frameShown(page), at);
   }));
+
+test('plays at the speed that is selected, until the end or a pause', async () => {
+  const { page, faults, close } = await open(shared.browser, shared.server.url, desktop, (one) =>
+    stopTime(one.context()),
+  );
+  const shows = (number) =>
+    page.waitForFunction(
+      (expected) => document.getElementById('frame-number').textContent === String(expected),
+      number,
+    );
+  await page.selectOption('#speed', '4'); // of 10 Hz
+  await page.keyboard.press(' ');
+  for (let frame = 1; frame < 12; ++frame) {
+    await page.clock.runFor(30);
+    await shows(frame);
+  }
+  await page.locator('html:not(.playing)').waitFor(); // it pauses at the end
+  await page.selectOption('#speed', '0.25');
+  await page.keyboard.press(' '); // from the start again
+  await shows(0);
+  await page.clock.runFor(390);
+  assert.equal(await frameShown(page), 0);
+  await page.clock.runFor(20);
+  await shows(1);
+  await page.click('#play');
+  await page.locator('html:not(.playing)').waitFor();
+  await page.clock.runFor(5000);
+  await showsFrame(page, 1);
+  assert.deepEqual(faults, []);
+  await close();
+});
 
 test('after many steps at once the last frame is displayed', () =>
   withPage('/#frame=9', desktop, async (page) => {
