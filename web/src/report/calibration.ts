@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report of a calibration.
-import { degrees, estimate, percent, scaled, vector, type Estimate } from '../model/format';
+import { degrees, estimate, percent, scaled, type Estimate } from '../model/format';
 import { element } from '../view/dom';
 import {
   gallery,
@@ -83,10 +83,12 @@ export function calibrationPage(of: CalibrationReport, pictures: readonly Pictur
 /** Returns the estimates that were made, with twice their standard deviations. */
 function estimates(of: CalibrationReport): string[][] {
   const { focal, masks, pose } = of;
+  const listed = (values: readonly number[], digits: number): string =>
+    values.map((value) => value.toFixed(digits)).join(', ');
   const shift = [masks?.depth_shift_right_px, masks?.depth_shift_down_px];
   const rows: (readonly [string, string | null])[] = [
-    [`camera’s position in ${of.camera_parent}`, `${vector(pose.slice(0, 3), 5)} m`],
-    ['quaternion xyzw', vector(pose.slice(3), 6)],
+    [`camera’s position in ${of.camera_parent}`, `${listed(pose.slice(0, 3), 5)} m`],
+    ['quaternion xyzw', listed(pose.slice(3), 6)],
     [
       '95 % region',
       `${scaled(of.position_error_95_m, 1e3, 1, ' mm')}, ` +

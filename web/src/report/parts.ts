@@ -54,7 +54,7 @@ export function table(head: readonly Cell[], rows: readonly (readonly Cell[])[])
   const classes = head.map((_, i) => (rows.every((row) => isNumber(row[i])) ? '' : 'text'));
   const rowOf = (tag: 'th' | 'td', cells: readonly Cell[]): HTMLElement => {
     const made = cells.map((cell, i) => {
-      const className = `${classes[i] ?? ''} ${cell === '0' ? 'none' : ''}`.trim();
+      const className = `${classes[i] ?? ''} ${i > 0 && cell === '0' ? 'none' : ''}`.trim();
       return element(tag, className, ...(typeof cell === 'string' ? [cell] : cell));
     });
     return element('tr', '', ...made);

@@ -108,7 +108,7 @@ test('calibrate: estimates, residuals and pictures', async () => {
     assert.equal(found['depth scale'], `${plusMinus(result.depth_scale, 100, 2)} %`);
     assert.equal(found['outline is larger by'], `${plusMinus(result.outline_px, 1, 1)} px`);
     const at = result.T_parent_camera.slice(0, 3).map((row) => row[3].toFixed(5));
-    assert.equal(found['camera’s position in base_link'], `${at.join('  ')} m`);
+    assert.equal(found['camera’s position in base_link'], `${at.join(', ')} m`);
     const region = `${(1000 * result.position_error_95_m).toFixed(1)} mm, `;
     assert.ok(found['95 % region'].startsWith(region));
     assert.deepEqual(
