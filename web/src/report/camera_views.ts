@@ -4,7 +4,7 @@ import type { Views } from '../api/cameras';
 import { verdicts } from '../model/labels';
 import { countOf } from '../model/timeline';
 import { element } from '../view/dom';
-import { barLegend, bars, headOf, hint, section, tableCard, verdictCell } from './parts';
+import { barLegend, bars, headOf, hint, section, tableSection, verdictCell } from './parts';
 
 export function cameraViewsPage(of: Views): Node[] {
   const all = of.frames.flatMap(({ targets }) => targets);
@@ -23,7 +23,7 @@ export function cameraViewsPage(of: Views): Node[] {
   ]);
   return [
     headOf(`Targets over ${of.cameras.length} cameras`, of),
-    tableCard(['target', ...verdicts.map(verdictCell), 'contradictions'], counts),
+    ...tableSection('Targets', ['target', ...verdicts.map(verdictCell), 'contradictions'], counts),
     section(
       'Over time',
       hint('The images of all cameras, from left to right. ', ...barLegend()),
