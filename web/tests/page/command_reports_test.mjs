@@ -26,8 +26,9 @@ const names = {
   partial: 'partly hidden',
   hidden: 'hidden',
   unknown: 'unknown',
+  out_of_view: 'out of view',
+  held: 'carried',
 };
-Object.assign(names, { out_of_view: 'out of view', held: 'carried' });
 let browser, folder, input;
 
 before(async () => {
@@ -272,15 +273,14 @@ test('view-planning: best sets, shares and verdicts over time', async () => {
     const bold = await page.locator('td b').allTextContents();
     assert.deepEqual(bold.sort(), [...result.best.at(-1).cameras].sort());
     const rows = result.candidates.length + 1;
-    result.best[0] &&
-      Object.keys(result.best[0].visible).forEach((_, t) => {
-        assert.equal(bars[t * rows][0], 'best set');
-        result.candidates.forEach(({ name, targets: all }, c) => {
-          const runs = all[t].by_frame.match(/(.)\1*/g);
-          const wanted = runs.map((run) => `${run.length} ${letters[run[0]]}`).join();
-          assert.deepEqual(bars[t * rows + c + 1], [name, wanted]);
-        });
+    Object.keys(result.best[0].visible).forEach((_, t) => {
+      assert.equal(bars[t * rows][0], 'best set');
+      result.candidates.forEach(({ name, targets: all }, c) => {
+        const runs = all[t].by_frame.match(/(.)\1*/g);
+        const wanted = runs.map((run) => `${run.length} ${letters[run[0]]}`).join();
+        assert.deepEqual(bars[t * rows + c + 1], [name, wanted]);
       });
+    });
     assert.equal(bars[0][1], `${result.frames.length} visible`, 'of the best set');
     assert.ok(await page.getByText('Frame 0 to 11').isVisible());
   });

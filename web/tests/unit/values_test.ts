@@ -9,6 +9,7 @@ import { FrameCache } from '../../src/model/frame_cache';
 import { labelColor, labelStyles } from '../../src/model/labels';
 import { notesOf } from '../../src/model/notes';
 import { waitOf } from '../../src/model/timeline';
+import { lessSeen, moreSeen } from '../../src/report/parts';
 import { niceStep } from '../../src/timeline/charts';
 
 const packet = { byteLength: 100 } as Packet;
@@ -86,4 +87,14 @@ test('the diagnosis is not among the notes', () => {
   const summary = { notes: [message, 'another'], diagnosis: { message } } as unknown as Summary;
   assert.deepEqual(notesOf(summary), ['another']);
   assert.deepEqual(notesOf(null), []);
+});
+
+test('of several verdicts a bar shows the one in which least is seen, a set of cameras most', () => {
+  const order = ['unknown', 'out_of_view', 'held', 'hidden', 'partial', 'visible'] as const;
+  order.forEach((less, i) => {
+    for (const more of order.slice(i)) {
+      assert.deepEqual([lessSeen(less, more), lessSeen(more, less)], [less, less]);
+      assert.deepEqual([moreSeen(less, more), moreSeen(more, less)], [more, more]);
+    }
+  });
 });
