@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../support/errors.hpp"
-
-#include <algorithm>
-#include <string>
-
-#include <gtest/gtest.h>
+#include "../support/test.hpp"
 
 #include <penumbra/base/simd_target.hpp>
 
-namespace penumbra {
+namespace penumbra::test {
 namespace {
 
 TEST(SimdTarget, NamesAreDistinctAndLeadBackToThemselves) {
@@ -21,10 +16,10 @@ TEST(SimdTarget, NamesAreDistinctAndLeadBackToThemselves) {
 }
 
 TEST(SimdTarget, UnknownNameIsAnErrorThatListsTheTargets) {
-  const std::string message = test::message_of([] { static_cast<void>(simd_target("AVX9")); });
-  EXPECT_TRUE(test::holds(message, "'AVX9'"));
-  for (const auto& name : simd_target_names()) EXPECT_TRUE(test::holds(message, name));
+  const std::string message = message_of([] { (void)simd_target("AVX9"); });
+  EXPECT_TRUE(holds(message, "'AVX9'"));
+  for (const auto& name : simd_target_names()) EXPECT_TRUE(holds(message, name));
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

@@ -1,33 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../support/errors.hpp"
 #include "../support/temporary_folder.hpp"
-
-#include <filesystem>
-#include <string>
-
-#include <gtest/gtest.h>
+#include "../support/test.hpp"
 
 #include <penumbra/base/whole_file-inl.hpp>
 
-namespace penumbra {
+namespace penumbra::test {
 namespace {
 
 class WholeFile : public testing::Test {
  protected:
   static void expect_refused(const std::filesystem::path& file, const std::string& why) {
-    const std::string message =
-        test::message_of([&] { static_cast<void>(read_whole_file(file, FileLimit::text)); });
+    const std::string message = message_of([&] { (void)read_whole_file(file, FileLimit::text); });
     EXPECT_TRUE(message.starts_with(file.string() + ": ")) << message;
-    EXPECT_TRUE(test::holds(message, why));
+    EXPECT_TRUE(holds(message, why));
   }
 
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(WholeFile, IsReadUpToItsLimit) {
   const std::filesystem::path file = folder_.write("a", std::string("x\0\r\ny", 5));
   EXPECT_EQ(read_whole_file(file, 5), std::string("x\0\r\ny", 5));
-  EXPECT_THROW(static_cast<void>(read_whole_file(file, 4)), InputError);
+  EXPECT_THROW((void)read_whole_file(file, 4), InputError);
   EXPECT_EQ(read_whole_file(folder_.write("empty", ""), 0), "");
 }
 
@@ -50,4 +44,4 @@ TEST_F(WholeFile, OfTheKernelHasNoContent) {
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

@@ -1,23 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../support/errors.hpp"
-#include "../support/random.hpp"
 #include "lens_samples.hpp"
 
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include <Eigen/LU>
-#include <gtest/gtest.h>
 
-#include <penumbra/camera/distortion.hpp>
-
-namespace penumbra {
+namespace penumbra::test {
 namespace {
-
-using test::Lens;
 
 constexpr double focal = 1000;  // pixels: turns points of the plane z = 1 into pixels
 constexpr double round_trip_px = 1e-9;
@@ -25,8 +12,8 @@ constexpr double round_trip_px = 1e-9;
 // and the inverse magnifies rounding by its reciprocal.
 constexpr double near_the_edge = 0.999;
 
-void expect_round_trip(const Lens& sample, const Distortion& lens, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d distorted = lens.distort(p);
+void expect_round_trip(const Lens& sample, const Distortion& lens, const Vector2d& p) {
+  const Vector2d distorted = lens.distort(p);
   const auto back = lens.undistort(distorted);
   ASSERT_TRUE(back) << sample.name << ' ' << p.transpose();
   EXPECT_LT(focal * (lens.distort(*back) - distorted).norm(), round_trip_px)
@@ -55,9 +42,9 @@ TEST(Distortion, KnowsRosNames) {
 }
 
 TEST(Distortion, ItsCoefficientsMakeItAgain) {
-  auto random = test::seeded_random(5);
+  auto random = seeded_random(5);
   for (int i = 0; i < 100; ++i) {
-    const Lens sample = test::random_lens(random);
+    const Lens sample = random_lens(random);
     const Distortion lens = sample.distortion();
     EXPECT_EQ(Distortion(to_string(lens.model()), lens.coefficients()), lens) << sample.name;
   }
@@ -67,20 +54,19 @@ TEST(Distortion, ItsCoefficientsMakeItAgain) {
 TEST(Distortion, DerivativeAgreesWithDifferences) {
   constexpr double h = 1e-5;
   constexpr double close = 1e-6;  // third derivatives of up to some 1e3, times h^2
-  auto random = test::seeded_random(6);
+  auto random = seeded_random(6);
   for (int i = 0; i < 1000; ++i) {
-    const Lens sample = test::random_lens(random);
+    const Lens sample = random_lens(random);
     const Distortion lens = sample.distortion();
-    const Eigen::Vector2d p = test::random_point_inside(lens, 0.9, random);
+    const Vector2d p = random_point_inside(lens, 0.9, random);
     for (int axis = 0; axis < 2; ++axis) {
-      const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(axis);
-      const Eigen::Vector2d difference =
-          (lens.distort(p + step) - lens.distort(p - step)) / (2 * h);
+      const Vector2d step = h * Vector2d::Unit(axis);
+      const Vector2d difference = (lens.distort(p + step) - lens.distort(p - step)) / (2 * h);
       EXPECT_LT((lens.derivative(p).col(axis) - difference).norm(), close)
           << sample.model << ' ' << p.transpose();
     }
   }
-  for (const Lens& sample : test::typical_lenses())
+  for (const Lens& sample : typical_lenses())
     EXPECT_EQ(sample.distortion().derivative({0, 0}), Eigen::Matrix2d::Identity());
 }
 
@@ -113,11 +99,11 @@ TEST(Distortion, MaxRadiusIsWhereTheModelStopsGrowing) {
   // equidistant counts angles: 1 - 3 theta^2 / 3
   EXPECT_NEAR(radius("equidistant", {-1.0 / 3, 0, 0, 0}), std::tan(1.0), precise);
   EXPECT_EQ(radius("equidistant", {-0.1, 0, 0, 0}),
-            std::numeric_limits<double>::infinity());  // the fold lies at 105 degrees
+            inf);  // the fold lies at 105 degrees
 }
 
 TEST(Distortion, AbsurdCoefficientsMapNothingOrSomethingButDoNotHang) {
-  auto random = test::seeded_random(2);
+  auto random = seeded_random(2);
   std::uniform_real_distribution<double> exponent(-320, 308);
   for (int i = 0; i < 500; ++i) {
     std::vector<double> k(8);
@@ -129,19 +115,18 @@ TEST(Distortion, AbsurdCoefficientsMapNothingOrSomethingButDoNotHang) {
         EXPECT_LE(p->norm(), lens.max_radius() * (1 + 1e-12));
       }
   }
-  EXPECT_FALSE(
-      Distortion("plumb_bob", std::vector<double>{0.1, 0, 0, 0, 0}).undistort({std::nan(""), 0}));
+  EXPECT_FALSE(Distortion("plumb_bob", std::vector<double>{0.1, 0, 0, 0, 0}).undistort({nan, 0}));
 }
 
 TEST(Distortion, UndistortUndoesDistort) {
-  auto random = test::seeded_random(3);
-  std::vector<Lens> lenses = test::typical_lenses();
-  for (int i = 0; i < 500; ++i) lenses.push_back(test::random_lens(random));
+  auto random = seeded_random(3);
+  std::vector<Lens> lenses = typical_lenses();
+  for (int i = 0; i < 500; ++i) lenses.push_back(random_lens(random));
   for (const Lens& sample : lenses) {
     const Distortion lens = sample.distortion();
-    EXPECT_EQ(lens.undistort({0, 0}).value(), Eigen::Vector2d(0, 0));
+    EXPECT_EQ(lens.undistort({0, 0}).value(), Vector2d(0, 0));
     for (int i = 0; i < 100; ++i)
-      expect_round_trip(sample, lens, test::random_point_inside(lens, near_the_edge, random));
+      expect_round_trip(sample, lens, random_point_inside(lens, near_the_edge, random));
   }
 }
 
@@ -149,19 +134,19 @@ TEST(Distortion, UndistortUndoesDistort) {
 // the image of the disc is refused, also with tangential terms: such points have no inverse within
 // the radius, as a dense search finds.
 TEST(Distortion, IsOneToOneInsideAndSilentOutside) {
-  auto random = test::seeded_random(5);
+  auto random = seeded_random(5);
   std::uniform_real_distribution<double> angle(0, 2 * std::numbers::pi);
   for (int i = 0; i < 300; ++i) {
-    const Lens sample = test::random_lens(random);
+    const Lens sample = random_lens(random);
     const Distortion lens = sample.distortion();
     for (int j = 0; j < 50; ++j) {
-      const Eigen::Vector2d p = test::random_point_inside(lens, near_the_edge, random);
+      const Vector2d p = random_point_inside(lens, near_the_edge, random);
       EXPECT_GT(lens.derivative(p).determinant(), 0) << sample.model;
     }
     if (!(lens.max_radius() < 1e3)) continue;
     const double a = angle(random);
-    const Eigen::Vector2d rim = lens.max_radius() * Eigen::Vector2d(std::cos(a), std::sin(a));
-    const Eigen::Vector2d edge = lens.distort(rim);
+    const Vector2d rim = lens.max_radius() * Vector2d(std::cos(a), std::sin(a));
+    const Vector2d edge = lens.distort(rim);
     if (!(edge.norm() < 1e3)) continue;  // a pole: the image has no edge
     EXPECT_FALSE(lens.undistort(edge * 1.000001)) << sample.model << ' ' << edge.transpose();
     EXPECT_TRUE(lens.undistort(edge * 0.999999)) << sample.model << ' ' << edge.transpose();
@@ -169,4 +154,4 @@ TEST(Distortion, IsOneToOneInsideAndSilentOutside) {
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

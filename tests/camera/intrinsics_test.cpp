@@ -1,38 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../support/errors.hpp"
-#include "../support/random.hpp"
-
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
+#include "../support/test.hpp"
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 
-namespace penumbra {
+namespace penumbra::test {
 namespace {
 
 constexpr double rounding = 1e-9;  // pixels; thousands of units in the last place of what is tested
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 TEST(Intrinsics, PixelCentresAreAtIntegers) {
   const Intrinsics camera(640, 480, 500, 510, 320, 240);
-  EXPECT_EQ(camera.ray(320, 240), Eigen::Vector3d(0, 0, 1));
-  EXPECT_EQ(camera.ray(820, -270), Eigen::Vector3d(1, -1, 1));
-  EXPECT_EQ(camera.project({0.5, 1.0, 2.0}), Eigen::Vector2d(445, 495));
+  EXPECT_EQ(camera.ray(320, 240), Vector3d(0, 0, 1));
+  EXPECT_EQ(camera.ray(820, -270), Vector3d(1, -1, 1));
+  EXPECT_EQ(camera.project({0.5, 1.0, 2.0}), Vector2d(445, 495));
 }
 
 TEST(Intrinsics, ProjectUndoesRay) {
-  auto random = test::seeded_random(1);
+  auto random = seeded_random(1);
   std::uniform_real_distribution<double> pixel(-5000, 5000);
   std::uniform_real_distribution<double> focal_length(1, 3000);
   std::uniform_real_distribution<double> depth(0.01, 10);
   for (int i = 0; i < 1000; ++i) {
     const Intrinsics camera(10, 10, focal_length(random), focal_length(random), pixel(random),
                             pixel(random));
-    const Eigen::Vector2d p(pixel(random), pixel(random));
+    const Vector2d p(pixel(random), pixel(random));
     EXPECT_LT((camera.project(depth(random) * camera.ray(p.x(), p.y())) - p).norm(), rounding);
   }
 }
@@ -55,7 +47,7 @@ TEST(Intrinsics, RefusesWhatIsNoCamera) {
     EXPECT_THROW(Intrinsics(1, 1, 1, 1, bad, 0), InputError) << bad;
     EXPECT_THROW(Intrinsics(1, 1, 1, 1, 0, bad), InputError) << bad;
   }
-  test::expect_refused([] { Intrinsics(640, 480, -500, 510, 320, 240); }, {"fx = -500"});
+  expect_refused([] { Intrinsics(640, 480, -500, 510, 320, 240); }, {"fx = -500"});
 }
 
 // A block of pixels covers the square of rays that its pixels cover, and its centre is the
@@ -67,8 +59,7 @@ TEST(Intrinsics, BinnedPixelIsTheMiddleOfItsBlock) {
   EXPECT_EQ(binned.height(), 241);
   for (const int u : {0, 1, 200})
     for (const int v : {0, 7, 240}) {
-      const Eigen::Vector3d middle =
-          0.5 * (full.ray(3 * u, 2 * v) + full.ray(3 * u + 2, 2 * v + 1));
+      const Vector3d middle = 0.5 * (full.ray(3 * u, 2 * v) + full.ray(3 * u + 2, 2 * v + 1));
       EXPECT_LT((binned.ray(u, v) - middle).norm(), rounding);
     }
   EXPECT_EQ(full.binned(1, 1), full);
@@ -113,4 +104,4 @@ TEST(Camera, ChecksItsRange) {
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../support/random.hpp"
 #include "lens_samples.hpp"
 
-#include <cmath>
-#include <cstdint>
-#include <numeric>
-#include <optional>
-#include <string>
-
-#include <gtest/gtest.h>
-
-#include <penumbra/base/error.hpp>
 #include <penumbra/camera/rectification.hpp>
 
-namespace penumbra {
+namespace penumbra::test {
 namespace {
 
 // Half a pixel's diagonal is 0.707; the rest is for the lens's bending within a pixel.
-constexpr double worst_px = 0.75;
-constexpr double most_half_angle = 1.3;
+constexpr double worst_px = 0.75, most_half_angle = 1.3;
 
 Camera camera_with(const Intrinsics& intrinsics, const Distortion& lens) {
   return {intrinsics, lens, {}, {}};
@@ -27,39 +16,36 @@ Camera camera_with(const Intrinsics& intrinsics, const Distortion& lens) {
 Camera random_camera(const Distortion& lens, std::mt19937_64& random) {
   std::uniform_int_distribution<int> size(30, 130);
   std::uniform_real_distribution<double> unit(0, 1);
-  const int width = size(random);
-  const int height = size(random);
+  const int width = size(random), height = size(random);
   const double fx = width * (0.4 + 1.2 * unit(random));
   const Intrinsics k(width, height, fx, fx * (0.9 + 0.2 * unit(random)),
                      width * (1.4 * unit(random) - 0.2), height * (1.4 * unit(random) - 0.2));
   return camera_with(k, lens);
 }
 
-Eigen::Vector2d ray_of(const Intrinsics& pinhole, std::int32_t index) {
+Vector2d ray_of(const Intrinsics& pinhole, std::int32_t index) {
   const int row = index / pinhole.width();
   return pinhole.ray(index % pinhole.width(), row).head<2>();
 }
 
 /// Raw image point of an undistorted point, in pixels.
-Eigen::Vector2d raw_point(const Camera& camera, const Eigen::Vector2d& ray) {
-  const Eigen::Vector2d p = camera.distortion.distort(ray);
+Vector2d raw_point(const Camera& camera, const Vector2d& ray) {
+  const Vector2d p = camera.distortion.distort(ray);
   return camera.intrinsics.project({p.x(), p.y(), 1});
 }
 
 void check_raw_to_pinhole(const Camera& camera, const Rectification& maps) {
   const Intrinsics& k = camera.intrinsics;
   int mapped = 0;
-  for (int v = 0; v < k.height(); ++v) {
-    for (int u = 0; u < k.width(); ++u) {
-      const auto ray = camera.distortion.undistort(k.ray(u, v).head<2>());
-      const bool reached = ray && std::atan(ray->norm()) <= maps.half_angle();
-      const std::int32_t index = maps.raw_to_pinhole()(u, v);
-      ASSERT_EQ(reached, index != Rectification::no_pixel) << u << ' ' << v;
-      if (!reached) continue;
-      ++mapped;
-      const Eigen::Vector2d seen = raw_point(camera, ray_of(maps.pinhole(), index));
-      ASSERT_LT((seen - Eigen::Vector2d(u, v)).norm(), worst_px) << u << ' ' << v;
-    }
+  for (const auto [u, v] : each_pixel(k)) {
+    const auto ray = camera.distortion.undistort(k.ray(u, v).head<2>());
+    const bool reached = ray && std::atan(ray->norm()) <= maps.half_angle();
+    const std::int32_t index = maps.raw_to_pinhole()(u, v);
+    ASSERT_EQ(reached, index != Rectification::no_pixel) << u << ' ' << v;
+    if (!reached) continue;
+    ++mapped;
+    const Vector2d seen = raw_point(camera, ray_of(maps.pinhole(), index));
+    ASSERT_LT((seen - Vector2d(u, v)).norm(), worst_px) << u << ' ' << v;
   }
   ASSERT_GT(mapped, 0);
 }
@@ -70,28 +56,24 @@ void check_pinhole_to_raw(const Camera& camera, const Rectification& maps) {
   const ImageView<const std::int32_t> map = maps.pinhole_to_raw();
   ASSERT_EQ(map.width, p.width());
   ASSERT_EQ(map.height, p.height());
-  for (int v = 0; v < p.height(); ++v) {
-    for (int u = 0; u < p.width(); ++u) {
-      const Eigen::Vector2d ray = p.ray(u, v).head<2>();
-      const Eigen::Vector2d point = raw_point(camera, ray).array().round();
-      const bool seen = ray.norm() <= reach && point.minCoeff() >= 0 &&
-                        point.x() < camera.intrinsics.width() &&
-                        point.y() < camera.intrinsics.height();
-      const std::int32_t index = map(u, v);
-      ASSERT_EQ(seen, index != Rectification::no_pixel) << u << ' ' << v;
-      if (!seen) continue;
-      ASSERT_EQ(index % camera.intrinsics.width(), point.x());
-      ASSERT_EQ(index / camera.intrinsics.width(), point.y());
-    }
+  for (const auto [u, v] : each_pixel(p)) {
+    const Vector2d ray = p.ray(u, v).head<2>();
+    const Vector2d point = raw_point(camera, ray).array().round();
+    const bool seen = ray.norm() <= reach && point.minCoeff() >= 0 &&
+                      point.x() < camera.intrinsics.width() &&
+                      point.y() < camera.intrinsics.height();
+    const std::int32_t index = map(u, v);
+    ASSERT_EQ(seen, index != Rectification::no_pixel) << u << ' ' << v;
+    if (!seen) continue;
+    ASSERT_EQ(index % camera.intrinsics.width(), point.x());
+    ASSERT_EQ(index / camera.intrinsics.width(), point.y());
   }
 }
 
-std::size_t pixels(const Intrinsics& k) {
-  return static_cast<std::size_t>(k.width()) * static_cast<std::size_t>(k.height());
-}
+std::size_t pixels(const Intrinsics& k) { return std::size_t(k.width()) * std::size_t(k.height()); }
 
 TEST(Rectification, MapsOfTypicalLenses) {
-  for (const test::Lens& sample : test::typical_lenses()) {
+  for (const Lens& sample : typical_lenses()) {
     SCOPED_TRACE(sample.name);
     const Intrinsics k(200, 150, 100, 101, 101.3, 73.2);
     const Camera camera = camera_with(k, sample.distortion());
@@ -105,11 +87,11 @@ TEST(Rectification, MapsOfTypicalLenses) {
 }
 
 TEST(Rectification, MapsOfRandomCamerasAndLenses) {
-  auto random = test::seeded_random(21);
+  auto random = seeded_random(21);
   int made = 0;
   int cut = 0;  // lenses that stretch too much, mostly before a pole
   for (int i = 0; i < 60; ++i) {
-    const test::Lens sample = test::random_lens(random);
+    const Lens sample = random_lens(random);
     const Camera camera = random_camera(sample.distortion(), random);
     std::optional<Rectification> maps;
     try {
@@ -164,10 +146,10 @@ TEST(Rectification, StretchesOfNoRealLensAreCut) {
 }
 
 TEST(Rectification, RefusesALensThatReachesNoPixel) {
-  const Camera camera = camera_with(Intrinsics(640, 480, 500, 500, -900, 240),
-                                    test::typical_lenses().front().distortion());
+  const Camera camera =
+      camera_with(Intrinsics(640, 480, 500, 500, -900, 240), typical_lenses().front().distortion());
   EXPECT_THROW(Rectification maps(camera), InputError);
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

@@ -1,27 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Labels of points against Embree's rays and closed forms.
+#include "../support/test.hpp"
 #include "allocations.hpp"
 #include "embree_oracle.hpp"
-#include "errors.hpp"
-#include "random.hpp"
 #include "scene.hpp"
 #include "shapes.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/cloud/cloud_labels.hpp>
 
 namespace penumbra::test {
 namespace {
-
-using Eigen::Vector3d;
 
 constexpr double tolerance = 0.02;  // metres
 
@@ -38,12 +26,12 @@ struct Surface {
 /// Embree looks forwards only: one scene for each direction of the axes.
 class AllAround {
  public:
-  AllAround(std::span<const Body> bodies, std::span<const Eigen::Isometry3d> poses) {
+  AllAround(std::span<const Body> bodies, std::span<const Isometry3d> poses) {
     for (std::size_t i = 0; i < 6; ++i) {
-      const Vector3d axis = (i < 3 ? 1.0 : -1.0) * Vector3d::Unit(static_cast<int>(i % 3));
+      const Vector3d axis = (i < 3 ? 1.0 : -1.0) * Vector3d::Unit(int(i % 3));
       turns_.emplace_back(turn(axis, Vector3d::UnitZ()));
-      std::vector<Eigen::Isometry3d> turned;
-      for (const Eigen::Isometry3d& pose : poses) turned.push_back(turns_.back() * pose);
+      std::vector<Isometry3d> turned;
+      for (const Isometry3d& pose : poses) turned.push_back(turns_.back() * pose);
       oracles_.emplace_back(bodies, turned);
     }
   }
@@ -51,7 +39,7 @@ class AllAround {
   [[nodiscard]] std::optional<Surface> first(const Vector3d& direction) const {
     Eigen::Index axis = 0;
     direction.cwiseAbs().maxCoeff(&axis);
-    const auto i = static_cast<std::size_t>(axis + (direction[axis] > 0 ? 0 : 3));
+    const auto i = std::size_t(axis + (direction[axis] > 0 ? 0 : 3));
     const Vector3d turned = turns_[i] * direction;
     const auto hit = oracles_[i].first_hit(turned / turned.z(), 0.0);
     if (!hit) return std::nullopt;
@@ -67,7 +55,7 @@ class AllAround {
 class Points {
  public:
   void add(const Vector3d& point) {
-    for (int i = 0; i < 3; ++i) values_.push_back(static_cast<float>(point[i]));
+    for (int i = 0; i < 3; ++i) values_.push_back(float(point[i]));
     values_.push_back(1.0F);
   }
   [[nodiscard]] Vector3d operator[](std::size_t i) const { return view()[i].cast<double>(); }
@@ -80,18 +68,13 @@ class Points {
   std::vector<float> values_;
 };
 
-Vector3d random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> number;
-  return Vector3d(number(random), number(random), number(random)).normalized();
-}
-
 /// Bodies of many kinds around the origin, none around it.
 Scene random_scene(std::mt19937_64& random) {
   Scene scene;
   std::uniform_real_distribution<float> size(0.05F, 0.4F);
   std::uniform_real_distribution<double> distance(0.8, 3.0);
   const auto place = [&](const TriangleMesh& mesh) {
-    Eigen::Isometry3d pose = random_pose(random, Vector3d::Zero(), Vector3d::Zero());
+    Isometry3d pose = random_pose(random, Vector3d::Zero(), Vector3d::Zero());
     pose.translation() = distance(random) * random_direction(random);
     scene.add(mesh, pose);
   };
@@ -111,11 +94,11 @@ std::vector<Vector3d> random_directions(std::mt19937_64& random, const Scene& sc
   const std::vector<Body> bodies = scene.bodies();
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (const PreparedMesh& mesh : bodies[i].meshes)
-      for (const Eigen::Vector3f& vertex : mesh.vertices)
+      for (const Vector3f& vertex : mesh.vertices)
         corners.push_back((scene.poses[i] * vertex.cast<double>()).normalized());
   std::uniform_int_distribution<std::size_t> any(0, corners.size() - 1);
   std::vector<Vector3d> directions;
-  directions.reserve(static_cast<std::size_t>(count));
+  directions.reserve(std::size_t(count));
   for (int i = 0; i < count; ++i)
     directions.push_back(
         i % 2 == 0 ? random_direction(random)
@@ -160,9 +143,8 @@ TEST(CloudLabels, AreThoseOfEmbreesRays) {
     CloudLabeller labeller(scene.bodies(), rule_of(0.0));
     // The sensor stands elsewhere in the points' frame; all at the same places seen from it.
     const Vector3d origin(0.5 * round, -0.25 * round, 0.125 * round);
-    std::vector<Eigen::Isometry3d> poses;
-    for (const Eigen::Isometry3d& pose : scene.poses)
-      poses.push_back(Eigen::Translation3d(origin) * pose);
+    std::vector<Isometry3d> poses;
+    for (const Isometry3d& pose : scene.poses) poses.push_back(Translation3d(origin) * pose);
     Points points, moved;
     for (const Vector3d& direction : random_directions(random, scene, 20'000)) {
       points.add(random_range(random, oracle.first(direction)) * direction);
@@ -181,11 +163,11 @@ TEST(CloudLabels, AreThoseOfEmbreesRays) {
         fits_one = fits(label, found.links[i], range,
                         oracle.first(point + rounding * random_direction(random)));
       ASSERT_TRUE(fits_one) << "round " << round << ", point " << points[i].transpose()
-                            << ", label " << static_cast<int>(label) << ", link " << found.links[i];
+                            << ", label " << int(label) << ", link " << found.links[i];
     }
   }
   for (const Label label : {Label::clear, Label::front, Label::occluded, Label::beyond})
-    EXPECT_GT(counts[static_cast<std::size_t>(label)], 5'000);
+    EXPECT_GT(counts[std::size_t(label)], 5'000);
 }
 
 TEST(CloudLabels, FringeIsWhatABeamMixesWithTheRobot) {
@@ -209,8 +191,7 @@ TEST(CloudLabels, FringeIsWhatABeamMixesWithTheRobot) {
       for (int ring = 0; ring <= 8; ++ring)
         for (int k = 0; k < 24; ++k) {
           const Vector3d across = point.unitOrthogonal();
-          const Vector3d nearby =
-              Eigen::AngleAxisd(k * std::numbers::pi / 12, point / range) * across;
+          const Vector3d nearby = AngleAxisd(k * std::numbers::pi / 12, point / range) * across;
           const auto surface = oracle.first(point / range + within * ring / 8 * nearby);
           if (surface && surface->range - tolerance <= range && range <= surface->range + 0.5)
             return true;
@@ -236,7 +217,7 @@ TEST(CloudLabels, FringeIsWhatABeamMixesWithTheRobot) {
 TEST(CloudLabels, WithoutRaysAreByDistance) {
   std::mt19937_64 random = seeded_random(44);
   Scene scene;
-  const Eigen::Isometry3d pose = random_pose(random, {1, 1, 1}, {2, 2, 2});
+  const Isometry3d pose = random_pose(random, {1, 1, 1}, {2, 2, 2});
   scene.add(box({0.3F, 0.2F, 0.5F}), pose);
   CloudLabeller labeller(scene.bodies(), rule_of(0.0));
   Points points;
@@ -249,8 +230,7 @@ TEST(CloudLabels, WithoutRaysAreByDistance) {
     const double distance = q.max(0.0).matrix().norm() - tolerance;
     if (std::abs(distance) < rounding) continue;
     on += distance < 0 ? 1 : 0;
-    ASSERT_EQ(found.labels[i],
-              static_cast<std::uint8_t>(distance < 0 ? Label::occluded : Label::clear));
+    ASSERT_EQ(found.labels[i], std::uint8_t(distance < 0 ? Label::occluded : Label::clear));
     ASSERT_EQ(found.links[i], distance < 0 ? 1 : 0);
   }
   EXPECT_GT(on, 1'000);
@@ -261,16 +241,15 @@ TEST(CloudLabels, PointsWithoutMeasurementAreUnknown) {
   scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
   CloudLabeller labeller(scene.bodies());
   Points points;
-  points.add({0, 0, std::numeric_limits<double>::quiet_NaN()});
-  points.add({0, std::numeric_limits<double>::infinity(), 1});
+  points.add({0, 0, nan});
+  points.add({0, inf, 1});
   points.add({0.5, 0, 0});     // the origin
   points.add({0.5, 1e-6, 0});  // and that in another frame
   points.add({3e38, -3e38, 3e38});
   points.add({0, 0, 1.5});
   const CloudLabels& found = labeller.label(points.view(), {0.5, 0, 0}, scene.poses);
-  for (std::size_t i = 0; i < 5; ++i)
-    EXPECT_EQ(found.labels[i], static_cast<std::uint8_t>(Label::unknown));
-  EXPECT_EQ(found.labels[5], static_cast<std::uint8_t>(Label::clear));
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(found.labels[i], std::uint8_t(Label::unknown));
+  EXPECT_EQ(found.labels[5], std::uint8_t(Label::clear));
 }
 
 TEST(CloudLabels, SensorInsideABodyLeavesAllUnknown) {
@@ -282,7 +261,7 @@ TEST(CloudLabels, SensorInsideABodyLeavesAllUnknown) {
   points.add({0, 0, 3});
   const CloudLabels& found = labeller.label(points.view(), {0, 1.05, 0}, scene.poses);
   EXPECT_EQ(found.enclosing, std::optional<std::size_t>(1));
-  EXPECT_EQ(found.labels[0], static_cast<std::uint8_t>(Label::unknown));
+  EXPECT_EQ(found.labels[0], std::uint8_t(Label::unknown));
   EXPECT_EQ(labeller.label(points.view(), {0, 1.115, 0}, scene.poses).enclosing, 1U) << "too near";
   EXPECT_FALSE(labeller.label(points.view(), {0, 0, 0}, scene.poses).enclosing);
 }
@@ -294,7 +273,7 @@ TEST(CloudLabels, BadUseIsRefused) {
   EXPECT_THROW((CloudLabeller(scene.bodies(), {.tolerance = {-1, 0, 0}})), InputError);
   CloudLabeller labeller(scene.bodies());
   EXPECT_THROW(labeller.label({}, Vector3d::Zero(), {}), std::invalid_argument);
-  scene.poses[0].translation().x() = std::numeric_limits<double>::quiet_NaN();
+  scene.poses[0].translation().x() = nan;
   EXPECT_THROW(labeller.label({}, Vector3d::Zero(), scene.poses), std::invalid_argument);
   scene.poses[0].matrix().setZero();
   EXPECT_THROW(labeller.label({}, Vector3d::Zero(), scene.poses), std::invalid_argument);
@@ -307,9 +286,9 @@ TEST(CloudLabels, AllocateNothingOnceWarm) {
   Points points;
   for (const Vector3d& direction : random_directions(random, scene, 5'000))
     points.add(2.0 * direction);
-  static_cast<void>(labeller.label(points.view(), Vector3d::Zero(), scene.poses));
+  (void)labeller.label(points.view(), Vector3d::Zero(), scene.poses);
   const std::size_t before = allocations();
-  static_cast<void>(labeller.label(points.view(), Vector3d::Zero(), scene.poses));
+  (void)labeller.label(points.view(), Vector3d::Zero(), scene.poses);
   EXPECT_EQ(allocations(), before);
 }
 

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scans of robots that move, or whose pose is not wholly known, against closed forms.
-#include "errors.hpp"
+#include "../support/test.hpp"
 #include "shapes.hpp"
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/cloud/cloud_pipeline.hpp>
 #include <penumbra/mesh/primitives.hpp>
@@ -19,12 +10,9 @@
 namespace penumbra::test {
 namespace {
 
-using Eigen::Vector3d;
-
 constexpr double bar_tolerance = 0.02;  // metres
 constexpr double turning_speed = 2.0;   // rad/s
-constexpr std::int64_t millisecond = 1'000'000;
-constexpr std::int64_t scan_begin = 5'000 * millisecond;
+constexpr std::int64_t scan_begin = 5'000 * ms;
 
 /// A bar, 1 m long and 0.1 m wide and high, that turns in the plane around the middle of its end,
 /// and a block above it that slides up.
@@ -49,7 +37,7 @@ CloudConfig config() {
 }
 
 double angle_at(std::int64_t stamp) {
-  return 1.0 + turning_speed * 1e-9 * static_cast<double>(stamp - scan_begin);
+  return 1.0 + turning_speed * 1e-9 * double(stamp - scan_begin);
 }
 
 /// The bar turns at turning_speed, up to a last stamp.
@@ -65,8 +53,8 @@ PoseAt turning(std::int64_t last = std::numeric_limits<std::int64_t>::max()) {
 
 struct Cloud {
   void add(const Vector3d& point, std::int64_t time) {
-    for (int i = 0; i < 3; ++i) values.push_back(static_cast<float>(point[i]));
-    times.push_back(static_cast<std::int32_t>(time));
+    for (int i = 0; i < 3; ++i) values.push_back(float(point[i]));
+    times.push_back(std::int32_t(time));
   }
   [[nodiscard]] Scan scan() const {
     return {.stamp = scan_begin,
@@ -80,19 +68,13 @@ struct Cloud {
 
 /// Where the ray from the sensor in a direction meets the bar at a stamp, in the sensor's frame.
 std::optional<Vector3d> bar_hit(const Vector3d& direction, std::int64_t stamp) {
-  const Eigen::Isometry3d T_bar_sensor =
-      Eigen::AngleAxisd(-angle_at(stamp), Vector3d::UnitZ()) * Eigen::Translation3d(0, -2, 0);
+  const Isometry3d T_bar_sensor =
+      AngleAxisd(-angle_at(stamp), Vector3d::UnitZ()) * Translation3d(0, -2, 0);
   const Vector3d origin = T_bar_sensor.translation() - Vector3d(0.5, 0, 0);
   const Vector3d along = T_bar_sensor.linear() * direction;
-  const Vector3d half(0.5, 0.05, 0.05);
-  double enters = 0.0, leaves = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const double a = (-half[i] - origin[i]) / along[i], b = (half[i] - origin[i]) / along[i];
-    enters = std::max(enters, std::min(a, b));
-    leaves = std::min(leaves, std::max(a, b));
-  }
-  if (!(enters < leaves) || enters == 0.0) return std::nullopt;
-  return enters * direction;
+  const auto enters = enter_box(origin, along, {0.5, 0.05, 0.05});
+  if (!enters || *enters == 0.0) return std::nullopt;
+  return *enters * direction;
 }
 
 /// A scan of 100 ms from the left to the right, in which the bar turns by 0.2 rad; behind it is a
@@ -101,7 +83,7 @@ std::size_t make_sweep(Cloud& cloud) {
   constexpr int columns = 2'000, rows = 20;
   std::size_t of_bar = 0;
   for (int column = 0; column < columns; ++column) {
-    const std::int64_t time = 100 * millisecond * column / columns;
+    const std::int64_t time = 100 * ms * column / columns;
     for (int row = 0; row < rows; ++row) {
       const Vector3d direction =
           Vector3d(0.5 - 1.0 * column / columns, 1.0, 0.06 * row / rows - 0.03).normalized();
@@ -114,7 +96,7 @@ std::size_t make_sweep(Cloud& cloud) {
 }
 
 std::size_t count(const CloudReport& report, Label label) {
-  return report.points[static_cast<std::size_t>(label)];
+  return report.points[std::size_t(label)];
 }
 
 TEST(CloudPipeline, FollowsTheRobotDuringAScan) {
@@ -128,18 +110,17 @@ TEST(CloudPipeline, FollowsTheRobotDuringAScan) {
   EXPECT_GE(report.parts, 20U);
   // Within a part the bar's outline moves by half a centimetre.
   constexpr double at_outlines = 0.02;
-  const double found =
-      static_cast<double>(count(report, Label::occluded) + count(report, Label::beyond));
-  EXPECT_NEAR(found, static_cast<double>(of_bar), at_outlines * static_cast<double>(of_bar));
-  EXPECT_LT(static_cast<double>(count(report, Label::beyond)), at_outlines * found);
-  EXPECT_LT(static_cast<double>(count(report, Label::front)), at_outlines * found);
+  const double found = double(count(report, Label::occluded) + count(report, Label::beyond));
+  EXPECT_NEAR(found, double(of_bar), at_outlines * double(of_bar));
+  EXPECT_LT(double(count(report, Label::beyond)), at_outlines * found);
+  EXPECT_LT(double(count(report, Label::front)), at_outlines * found);
 
   // As if all were measured at once.
   Scan at_once = cloud.scan();
   at_once.times = {};
   const CloudReport& wrong = pipeline.process(at_once, turning());
   EXPECT_EQ(wrong.parts, 1U);
-  EXPECT_LT(static_cast<double>(count(wrong, Label::occluded)), 0.7 * static_cast<double>(of_bar));
+  EXPECT_LT(double(count(wrong, Label::occluded)), 0.7 * double(of_bar));
 }
 
 TEST(CloudPipeline, SeesAMotionThatTurnsBack) {
@@ -148,7 +129,7 @@ TEST(CloudPipeline, SeesAMotionThatTurnsBack) {
   CloudPipeline pipeline(bar_robot(), config());
   const CloudReport& report =
       pipeline.process(cloud.scan(), [](std::int64_t stamp, RobotPose& pose) {
-        const double time = 1e-9 * static_cast<double>(stamp - scan_begin);
+        const double time = 1e-9 * double(stamp - scan_begin);
         pose = {};
         pose.positions = {turning_speed * std::abs(time - 0.05), 0.0};
       });
@@ -176,8 +157,7 @@ TEST(CloudPipeline, WithoutPosesOfTheWholeScanNoPointIsTrusted) {
   Cloud cloud;
   make_sweep(cloud);
   CloudPipeline pipeline(bar_robot(), config());
-  const CloudReport& report =
-      pipeline.process(cloud.scan(), turning(scan_begin + 90 * millisecond));
+  const CloudReport& report = pipeline.process(cloud.scan(), turning(scan_begin + 90 * ms));
   EXPECT_EQ(report.status, FrameStatus::stale_joints);
   EXPECT_TRUE(holds(report.message, "joint 'turn' is stale"));
   EXPECT_EQ(count(report, Label::unknown), cloud.times.size());
@@ -213,7 +193,7 @@ TEST(CloudPipeline, AJointWithoutStatesTakesWhatItMovesAlone) {
   PoseHistory history(robot);
   const std::string turn[] = {"turn"};
   const double level[] = {0.0};
-  for (const std::int64_t stamp : {scan_begin - millisecond, scan_begin + millisecond})
+  for (const std::int64_t stamp : {scan_begin - ms, scan_begin + ms})
     history.add_joints(stamp, turn, level);
   PoseLookup lookup(robot, {});
   const CloudReport& report = pipeline.process(
@@ -274,7 +254,7 @@ TEST(CloudPipeline, SaysWhatIsWrongWithACloud) {
   };
   EXPECT_TRUE(holds(fault({.stamp = scan_begin}), "no points"));
   Cloud none;
-  for (int i = 0; i < 5'000; ++i) none.add(Vector3d::Constant(std::nan("")), 0);
+  for (int i = 0; i < 5'000; ++i) none.add(Vector3d::Constant(nan), 0);
   EXPECT_TRUE(holds(fault(none.scan()), "no point of the cloud is a measurement"));
   Cloud millimetres = few_points();
   for (float& value : millimetres.values) value *= 1000.0F;
@@ -302,17 +282,6 @@ TEST(CloudPipeline, MergedCloudsHaveNoRays) {
       (std::vector{Label::occluded, Label::occluded, Label::clear, Label::clear, Label::clear}));
 }
 
-/// Where a ray of length 1 from the sensor enters a box whose edges lie along the axes.
-std::optional<double> box_entry(const Vector3d& ray, const Vector3d& centre, const Vector3d& half) {
-  double enters = 0.0, leaves = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const double a = (centre[i] - half[i]) / ray[i], b = (centre[i] + half[i]) / ray[i];
-    enters = std::max(enters, std::min(a, b));
-    leaves = std::min(leaves, std::max(a, b));
-  }
-  return enters < leaves ? std::optional(enters) : std::nullopt;
-}
-
 /// The bar before a box before a wall; the bar points to the sensor's right.
 struct BoxScene {
   Vector3d centre{0.5, 3.0, 0.0}, half{0.2, 0.1, 0.2};
@@ -326,8 +295,8 @@ struct BoxScene {
       for (int j = 0; j < steps; ++j) {
         const Vector3d ray =
             Vector3d(0.4 * (i + 0.5) / steps, 1.0, 0.4 * (j + 0.5) / steps - 0.2).normalized();
-        const auto bar = box_entry(ray, {0.5, 2.0, 0.0}, {0.5, 0.05, 0.05});
-        const auto box = box_entry(ray, centre, half);
+        const auto bar = enter_box(Vector3d(-0.5, -2.0, 0.0), ray, {0.5, 0.05, 0.05});
+        const auto box = enter_box(-centre, ray, half);
         on_box += box ? 1 : 0;
         behind_bar += box && bar ? 1 : 0;
         cloud.add(ray * (bar ? *bar : box && is_there ? *box : 4.0 / ray.y()), 0);
@@ -360,9 +329,9 @@ TEST(CloudPipeline, JudgesBoxesAsTheRaysSeeThem) {
     return report.targets[0];
   };
   BoxScene scene;
-  static_cast<void>(scene.scan());
+  (void)scene.scan();
   ASSERT_GT(scene.on_box, 3'000U);
-  const double hidden = static_cast<double>(scene.behind_bar) / static_cast<double>(scene.on_box);
+  const double hidden = double(scene.behind_bar) / double(scene.on_box);
   const TargetReport partial = judge(BoxScene(), standing({}));
   EXPECT_EQ(partial.verdict, Verdict::partial);
   EXPECT_EQ(partial.judgement->inside, scene.on_box);
@@ -370,20 +339,15 @@ TEST(CloudPipeline, JudgesBoxesAsTheRaysSeeThem) {
   EXPECT_EQ(partial.judgement->blame.front().name, "bar");
   EXPECT_DOUBLE_EQ(partial.judgement->blame.front().fraction, hidden);
 
-  BoxScene small;
-  small.half = {0.1, 0.1, 0.03};
-  EXPECT_EQ(judge(small, standing({})).verdict, Verdict::hidden);
-  BoxScene aside;
-  aside.centre = {0.5, 3.0, 0.35};
+  EXPECT_EQ(judge({.half = {0.1, 0.1, 0.03}}, standing({})).verdict, Verdict::hidden);
+  const BoxScene aside{.centre = {0.5, 3.0, 0.35}};
   EXPECT_EQ(judge(aside, standing({})).verdict, Verdict::visible);
   BoxScene absent = aside;
   absent.is_there = false;
   const TargetReport past = judge(absent, standing({}));
   EXPECT_EQ(past.verdict, Verdict::unknown);
   EXPECT_TRUE(holds(past.reason, "looks past"));
-  BoxScene elsewhere;
-  elsewhere.centre = {-5.0, 3.0, 0.0};
-  EXPECT_TRUE(holds(judge(elsewhere, standing({})).reason, "0 measured rays"));
+  EXPECT_TRUE(holds(judge({.centre = {-5.0, 3.0, 0.0}}, standing({})).reason, "0 measured rays"));
   const TargetReport no_pose = judge(BoxScene(), turning(0));
   EXPECT_EQ(no_pose.verdict, Verdict::unknown);
   EXPECT_TRUE(holds(no_pose.reason, "joint 'turn' is stale"));
@@ -414,7 +378,7 @@ TEST(CloudPipeline, BadConfigurationsAreRefused) {
   wrong = config();
   wrong.T_parent_sensor.linear() *= 2.0;
   EXPECT_THROW(CloudPipeline(bar_robot(), wrong), InputError);
-  EXPECT_THROW(static_cast<void>(CloudRule::for_sensor("eyes")), InputError);
+  EXPECT_THROW((void)CloudRule::for_sensor("eyes"), InputError);
 }
 
 }  // namespace

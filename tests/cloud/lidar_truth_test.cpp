@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Labels of lidar scans of robots in a room, against MuJoCo's rays at each point's own time.
 // bench/lidar_study.cpp has more cases and more points.
+#include "../support/test.hpp"
 #include "lidar_scenes.hpp"
-
-#include <iostream>
-#include <numbers>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/cloud/cloud_tuning.hpp>
 
@@ -38,7 +34,7 @@ Scores scores(const LidarRobot& robot, const LidarMount& mount, bool moves, int 
   const JointMotion path = lidar_motion(robot, world.robot(), Wave::sine, 5);
   Scores out;
   for (int i = 0; i < scans; ++i) {
-    const auto rays = rays_of(static_cast<std::size_t>(i));
+    const auto rays = rays_of(std::size_t(i));
     const double begin = 0.71 * i;
     const JointMotion motion = moves ? path : [still = path(begin)](double) { return still; };
     world.place_objects(motion, begin, begin + rays.back().time);
@@ -56,22 +52,18 @@ std::vector<LidarRay> spin(std::size_t) {
   return spinning_lidar(32, 1024, std::numbers::pi / 10.0);
 }
 
-LidarMount mount_at(const std::string& link, const Eigen::Vector3d& at,
-                    const Eigen::AngleAxisd& turned) {
-  LidarMount mount{link, Eigen::Isometry3d(turned)};
+LidarMount mount_at(const std::string& link, const Vector3d& at, const AngleAxisd& turned) {
+  LidarMount mount{link, Isometry3d(turned)};
   mount.T_parent_sensor.translation() = at;
   return mount;
 }
 
-double fraction(std::size_t count, std::size_t of) {
-  return static_cast<double>(count) / static_cast<double>(of);
-}
+double fraction(std::size_t count, std::size_t of) { return double(count) / double(of); }
 
 TEST(LidarTruth, ArmsThatMoveNeedTheTimesOfThePoints) {
   const auto [with_times, without] =
       scores(lidar_arms(2),
-             mount_at("cell", {1.5, 0.2, 1.0},
-                      Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ())),
+             mount_at("cell", {1.5, 0.2, 1.0}, AngleAxisd(std::numbers::pi, Vector3d::UnitZ())),
              true, 4, spin);
   ASSERT_GT(with_times.robot, 3000U);
   EXPECT_LT(fraction(with_times.left, with_times.robot), left_by_parts);
@@ -84,7 +76,7 @@ TEST(LidarTruth, LidarOnAnArmThatMovesNeedsThemToo) {
   const auto [with_times, without] =
       scores(lidar_arms(1),
              mount_at("1_forearm", {0.12, 0.0, 0.15},
-                      Eigen::AngleAxisd(-std::numbers::pi / 2.0, Eigen::Vector3d::UnitX())),
+                      AngleAxisd(-std::numbers::pi / 2.0, Vector3d::UnitX())),
              true, 2, rosette_lidar);
   ASSERT_GT(with_times.robot, 10000U);
   EXPECT_LT(fraction(with_times.left, with_times.robot), left_by_parts);
@@ -95,15 +87,14 @@ TEST(LidarTruth, LidarOnAnArmThatMovesNeedsThemToo) {
 
 /// Two arms that move, before a sensor.
 struct TunedWorld {
-  LidarMount mount = mount_at("cell", {1.5, 0.2, 1.0},
-                              Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
+  LidarMount mount =
+      mount_at("cell", {1.5, 0.2, 1.0}, AngleAxisd(std::numbers::pi, Vector3d::UnitZ()));
   LidarWorld world{lidar_arms(2), mount, 7};
   JointMotion motion = lidar_motion(lidar_arms(2), world.robot(), Wave::sine, 7);
 
   /// `shift`: by how much the sensor's pose is wrong.
-  CloudPipeline pipeline(const CloudRule& rule,
-                         const Eigen::Vector3d& shift = Eigen::Vector3d::Zero()) const {
-    const Eigen::Isometry3d T = Eigen::Translation3d(shift) * mount.T_parent_sensor;
+  CloudPipeline pipeline(const CloudRule& rule, const Vector3d& shift = Vector3d::Zero()) const {
+    const Isometry3d T = Translation3d(shift) * mount.T_parent_sensor;
     return {world.robot(), {.rule = rule, .sensor_parent = mount.parent, .T_parent_sensor = T}};
   }
   CloudTuning tune(CloudPipeline pipeline, double noise) {
@@ -138,20 +129,18 @@ TEST(LidarTruth, NoiseAndBeamAreMeasured) {
 }
 
 TEST(LidarTruth, AWrongPoseIsNotTunedAway) {
-  for (const Eigen::Vector3d& shift : {Eigen::Vector3d(0.05, 0, 0), Eigen::Vector3d(0, 0.1, 0)}) {
+  for (const Vector3d& shift : {Vector3d(0.05, 0, 0), Vector3d(0, 0.1, 0)}) {
     TunedWorld arms;
     const CloudTuning tuning = arms.tune(arms.pipeline({}, shift), 0.01);
     ASSERT_FALSE(tuning.problems.empty()) << tuning.deviation;
-    EXPECT_NE(tuning.problems[0].find("correct the sensor's pose"), std::string::npos)
-        << tuning.problems[0];
+    EXPECT_TRUE(holds(tuning.problems[0], "correct the sensor's pose"));
   }
 }
 
 TEST(LidarTruth, QuadrupedThatStands) {
-  const auto [score, same] =
-      scores(lidar_quadruped(),
-             mount_at("trunk", {0.0, 0.0, 0.19}, Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitY())),
-             false, 1, spin);
+  const auto [score, same] = scores(
+      lidar_quadruped(), mount_at("trunk", {0.0, 0.0, 0.19}, AngleAxisd(0.4, Vector3d::UnitY())),
+      false, 1, spin);
   ASSERT_GT(score.robot, 5000U);
   ASSERT_GT(score.veil, 50U);
   EXPECT_LT(fraction(score.left, score.robot), tail);

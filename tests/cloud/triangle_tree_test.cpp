@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "random.hpp"
+#include "../support/test.hpp"
 #include "shapes.hpp"
-
-#include <gtest/gtest.h>
 
 #include <penumbra/mesh/triangle_tree.hpp>
 
 namespace penumbra::test {
 namespace {
-
-using Eigen::Vector3d;
 
 constexpr double corner_rounding = 1e-6;  // metres, of corners in float32
 

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The clean-up on scenes with a known answer.
+// The clean-up and the fringe on scenes with a known answer.
 #include "scene.hpp"
 
-#include <gtest/gtest.h>
-
-#include <penumbra/labels/labels.hpp>
-
-namespace penumbra {
+namespace penumbra::test {
 namespace {
 
-using test::Scene;
-
-class Cleanup : public testing::TestWithParam<std::string> {
+class Cleanup : public IsaTest {
  protected:
   static constexpr int width = 160, height = 96;
   static constexpr float wall = 2.0f, robot = 1.0f, object = 0.9f;
@@ -25,21 +19,18 @@ class Cleanup : public testing::TestWithParam<std::string> {
   }
 
   static void fill(Image<float>& image, float z, int u0, int v0, int u1, int v1) {
-    for (int v = v0; v < v1; ++v)
-      for (int u = u0; u < u1; ++u) image(u, v) = z;
+    for (const auto [u, v] : each_pixel(u0, v0, u1, v1)) image(u, v) = z;
   }
 
   std::size_t front_pixels() {
     Classifier classifier(width, height, LabelRule{}, GetParam());
-    return classifier.classify(scene.view(), scene.metres.view())
-        .pixels[static_cast<std::size_t>(Label::front)];
+    return classifier.classify(scene.view(), scene.metres.view()).pixels[std::size_t(Label::front)];
   }
 
   Scene scene;
 };
 
-INSTANTIATE_TEST_SUITE_P(Isa, Cleanup, testing::ValuesIn(simd_target_names()),
-                         [](const auto& isa) { return isa.param; });
+PENUMBRA_FOR_EACH_ISA(Cleanup);
 
 TEST_P(Cleanup, DropsWhatIsNarrow) {
   fill(scene.metres, object, 60, 10, 66, 60);  // six pixels wide, front_min_width is 7
@@ -78,5 +69,128 @@ TEST_P(Cleanup, UntouchedTilesBesideTheRobotSupportItsObjects) {
   EXPECT_EQ(front_pixels(), 90u);
 }
 
+// The fringe on scenes whose answer is known: a robot of vertical sides before a far wall, whose
+// depth the sensor carries sideways.
+
+constexpr int image_width = 320, image_height = 96;
+constexpr int robot_end = 100;  // the robot covers columns [40, 100)
+constexpr float robot_z = 1.0f, wall_z = 2.5f;
+
+LabelRule with_reach(int pixels) {
+  LabelRule rule;
+  rule.fringe_reach = pixels;
+  return rule;
+}
+
+/// The robot in rows [20, 76), seen where it is, and the wall.
+Scene robot_before_wall() {
+  Scene scene(image_width, image_height);
+  std::fill_n(scene.metres.data(), scene.metres.size(), wall_z);
+  for (int v = 20; v < 76; ++v)
+    for (int u = 40; u < robot_end; ++u) scene.robot(u, v) = scene.metres(u, v) = robot_z;
+  scene.mark_tiles();
+  return scene;
+}
+
+/// What the sensor measures in columns [u0, u1) of the robot's rows.
+void see(Scene& scene, int u0, int u1, float depth) {
+  for (const auto [u, v] : each_pixel(u0, 20, u1, 76)) scene.metres(u, v) = depth;
+}
+
+class Fringe : public IsaTest {
+ protected:
+  LabelView classify(const Scene& scene, const LabelRule& rule = {}) {
+    classifier_.emplace(image_width, image_height, rule, GetParam());
+    return classifier_->classify(scene.view(), scene.metres.view());
+  }
+
+  /// Columns [u0, u1) of a row of fringe; {0, 0}: none.
+  static std::pair<int, int> fringe_columns(const LabelView& view, int v) {
+    const auto is_fringe = [&](int u) { return view.labels(u, v) == std::uint8_t(Label::fringe); };
+    int u0 = 0;
+    while (u0 < image_width && !is_fringe(u0)) ++u0;
+    int u1 = u0;
+    while (u1 < image_width && is_fringe(u1)) ++u1;
+    return u0 == image_width ? std::pair(0, 0) : std::pair(u0, u1);
+  }
+
+ private:
+  std::optional<Classifier> classifier_;
+};
+
+TEST_P(Fringe, IsTheDepthThatTheSensorCarriedPastTheOutline) {
+  Scene scene = robot_before_wall();
+  see(scene, robot_end, robot_end + 12, robot_z);
+  const LabelView view = classify(scene);
+  EXPECT_EQ(fringe_columns(view, 48), std::pair(robot_end, robot_end + 12));
+  EXPECT_EQ(count(view, Label::fringe), 12u * 56u);
+  EXPECT_EQ(count(view, Label::clear), std::size_t(image_width * image_height - (60 + 12) * 56));
+}
+
+TEST_P(Fringe, EndsAtTheReach) {
+  Scene scene = robot_before_wall();
+  see(scene, robot_end, robot_end + 120, robot_z);
+  EXPECT_EQ(fringe_columns(classify(scene), 48), std::pair(robot_end, robot_end + 40));
+  EXPECT_EQ(fringe_columns(classify(scene, with_reach(12)), 48),
+            std::pair(robot_end, robot_end + 12));
+  EXPECT_EQ(fringe_columns(classify(scene, with_reach(0)), 48), std::pair(0, 0));
+  EXPECT_EQ(fringe_columns(classify(scene, LabelRule::paper()), 48), std::pair(0, 0));
+}
+
+TEST_P(Fringe, EndsWhereTheDepthHasLeftTheRobots) {
+  Scene scene = robot_before_wall();
+  for (int i = 0; i < 40; ++i)
+    see(scene, robot_end + i, robot_end + i + 1, robot_z + 0.003f * float(i));
+  // 3 e(1 m) = 63 mm are reached within 21 steps of 3 mm.
+  EXPECT_EQ(fringe_columns(classify(scene), 48), std::pair(robot_end, robot_end + 22));
+}
+
+TEST_P(Fringe, IsNoObjectThatStandsBesideTheRobotAtAnotherDepth) {
+  for (const float step : {-0.1f, -0.05f, 0.05f, 0.1f}) {
+    Scene scene = robot_before_wall();
+    see(scene, robot_end, robot_end + 60, robot_z + step);
+    EXPECT_EQ(count(classify(scene), Label::fringe), 0u) << step;
+  }
+}
+
+TEST_P(Fringe, DoesNotLeakThroughSingleMixedPixels) {
+  Scene scene = robot_before_wall();
+  see(scene, robot_end, robot_end + 60, robot_z + 0.03f);
+  for (int v = 24; v < 76; v += 8) {  // a ramp of two pixels from the robot to the object
+    scene.metres(robot_end, v) = robot_z + 0.01f;
+    scene.metres(robot_end + 1, v) = robot_z + 0.02f;
+  }
+  const LabelView view = classify(scene);
+  constexpr auto ramps = 4u * 7u;  // pixels of the blocks that hold them
+  EXPECT_LE(count(view, Label::fringe), ramps);
+}
+
+TEST_P(Fringe, IsNotLookedForPastWhatIsNoMeasurement) {
+  Scene scene = robot_before_wall();
+  see(scene, robot_end, robot_end + 10, 0.0f);
+  see(scene, robot_end + 10, robot_end + 20, robot_z);
+  EXPECT_EQ(count(classify(scene), Label::fringe), 0u);
+}
+
+TEST_P(Fringe, DoesNotSpreadFromWhereTheSensorSeesPastTheModel) {
+  Scene scene = robot_before_wall();
+  see(scene, robot_end - 6, robot_end, wall_z);  // the model is larger than the robot there
+  const LabelView view = classify(scene);
+  EXPECT_EQ(count(view, Label::beyond), 6u * 56u);
+  EXPECT_EQ(count(view, Label::fringe), 0u);
+}
+
+TEST_P(Fringe, ReachesTheImagesBorder) {
+  Scene scene(image_width, image_height);
+  std::fill_n(scene.metres.data(), scene.metres.size(), robot_z);
+  for (const auto [u, v] : each_pixel(0, 0, 4, 4)) scene.robot(u, v) = robot_z;
+  scene.mark_tiles();
+  const LabelView view = classify(scene, with_reach(255));
+  EXPECT_EQ(view.labels(0, image_height - 1), std::uint8_t(Label::fringe));
+  EXPECT_EQ(view.labels(200, image_height - 1), std::uint8_t(Label::fringe));
+}
+
+PENUMBRA_FOR_EACH_ISA(Fringe);
+
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

@@ -4,20 +4,18 @@
 #include "../support/cloud_measure.hpp"
 #include "../support/data.hpp"
 #include "../support/pasted_objects.hpp"
+#include "../support/test.hpp"
 
-#include <gtest/gtest.h>
-
-namespace penumbra {
+namespace penumbra::test {
 namespace {
 
 class RealRecording : public testing::Test {
  protected:
   void SetUp() override {
     PENUMBRA_REQUIRE_DATA();
-    frames = test::load_real_frames(test::data_folder() / "xarm7_realsense");
+    frames = load_real_frames(data_folder() / "xarm7_realsense");
     ASSERT_EQ(frames.size(), 10u);
-    for (const test::RealFrame& frame : frames)
-      nearest.push_back(test::nearest_robot(frame.robot.view()));
+    for (const RealFrame& frame : frames) nearest.push_back(nearest_robot(frame.robot.view()));
   }
 
   [[nodiscard]] Classifier classifier(const LabelRule& rule = {}) const {
@@ -33,36 +31,34 @@ class RealRecording : public testing::Test {
   /// Percent of the pixels of squares of 5 cm that are front.
   double front_percent(double gap) {
     Classifier used = classifier();
-    test::Paster paster(51);
+    Paster paster(51);
     std::size_t front = 0, all = 0;
-    for (test::RealFrame& frame : frames) {
+    for (RealFrame& frame : frames)
       for (int i = 0; i < 20; ++i) {
-        paster.paste_before(frame, {test::Outline::plate, 0.05}, gap);
+        paster.paste_before(frame, {Outline::plate, 0.05}, gap);
         const LabelView labels = used.classify(frame.view(), frame.measured.view());
-        for (const int pixel : paster.on_robot())
-          front += test::label_at(labels, pixel) == Label::front;
+        for (const int pixel : paster.on_robot()) front += label_at(labels, pixel) == Label::front;
         all += paster.on_robot().size();
         paster.undo(frame);
       }
-    }
-    return test::percent(front, all);
+    return percent(front, all);
   }
 
-  std::vector<test::RealFrame> frames;
+  std::vector<RealFrame> frames;
   std::vector<tuning::NearestPixels> nearest;
 };
 
 TEST_F(RealRecording, HasHardlyAnyFalseFront) {
   Classifier used = classifier(), paper = classifier(LabelRule::paper());
   std::size_t paper_front = 0, mask = 0;
-  for (const test::RealFrame& frame : frames) {
+  for (const RealFrame& frame : frames) {
     const auto front = used.classify(frame.view(), frame.measured.view()).pixels[1];
-    EXPECT_LT(static_cast<double>(front), 0.005 * static_cast<double>(frame.mask_pixels));
+    EXPECT_LT(double(front), 0.005 * double(frame.mask_pixels));
     paper_front += paper.classify(frame.view(), frame.measured.view()).pixels[1];
     mask += frame.mask_pixels;
   }
   // The constant of the paper calls six percent front: the recording can tell rules apart.
-  EXPECT_GT(static_cast<double>(paper_front), 0.05 * static_cast<double>(mask));
+  EXPECT_GT(double(paper_front), 0.05 * double(mask));
 }
 
 TEST_F(RealRecording, ShowsObjectsBeforeTheRobot) {
@@ -77,10 +73,10 @@ TEST_F(RealRecording, HasHardlyAnyPointOfTheRobotInItsCloud) {
 
 TEST_F(RealRecording, KeepsObjectsThatTouchTheOutlineAtATrueStep) {
   Classifier used = classifier();
-  test::Paster paster(52);
-  test::Kept kept;
+  Paster paster(52);
+  Kept kept;
   for (std::size_t i = 0; i < frames.size(); ++i)
-    for (const auto outline : {test::Outline::plate, test::Outline::hand})
+    for (const auto outline : {Outline::plate, Outline::hand})
       for (const double offset : {-0.10, 0.10, -0.10, 0.10}) {
         paster.paste_beside(frames[i], nearest[i], {outline, 0.09}, 0.0, offset);
         if (paster.has_true_step(frames[i]))
@@ -93,17 +89,17 @@ TEST_F(RealRecording, KeepsObjectsThatTouchTheOutlineAtATrueStep) {
 
 TEST_F(RealRecording, FringeIsTakenFromClearPixelsAlone) {
   Classifier with = classifier(), without = classifier(without_fringe());
-  for (const test::RealFrame& frame : frames) {
+  for (const RealFrame& frame : frames) {
     const LabelView a = with.classify(frame.view(), frame.measured.view());
     const LabelView b = without.classify(frame.view(), frame.measured.view());
     std::size_t different = 0;
-    for (int pixel = 0; pixel < static_cast<int>(frame.robot.size()); ++pixel) {
-      const Label label = test::label_at(a, pixel);
-      different += (label == Label::fringe ? Label::clear : label) != test::label_at(b, pixel);
+    for (int pixel = 0; pixel < int(frame.robot.size()); ++pixel) {
+      const Label label = label_at(a, pixel);
+      different += (label == Label::fringe ? Label::clear : label) != label_at(b, pixel);
     }
     EXPECT_EQ(different, 0u);
   }
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

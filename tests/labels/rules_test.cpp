@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The labels of single pixels against the rule in closed form, on every target.
-#include "../support/errors.hpp"
-#include "../support/random.hpp"
+#include "../support/allocations.hpp"
 #include "scene.hpp"
 
-#include <bit>
-#include <cmath>
-#include <functional>
-#include <utility>
-
-#include <gtest/gtest.h>
-
-#include <penumbra/labels/labels.hpp>
-
-namespace penumbra {
+namespace penumbra::test {
 namespace {
-
-using test::Scene;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
@@ -27,7 +15,7 @@ LabelRule without_cleanup() {
   return rule;
 }
 
-class Rules : public testing::TestWithParam<std::string> {
+class Rules : public IsaTest {
  protected:
   /// The label of one pixel, seen at every position of a vector.
   Label label(const LabelRule& rule, float z, float d) {
@@ -55,8 +43,7 @@ class Rules : public testing::TestWithParam<std::string> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Isa, Rules, testing::ValuesIn(simd_target_names()),
-                         [](const auto& isa) { return isa.param; });
+PENUMBRA_FOR_EACH_ISA(Rules);
 
 TEST_P(Rules, ExactEdgesBelongToOccluded) {
   // Exact in binary: e(1) = 2^-6 + 2^-7 + 2^-8 and twice that.
@@ -117,12 +104,12 @@ TEST_P(Rules, ARobotThatIsNoNumberIsNoRobot) {
 
 TEST_P(Rules, PaperIsThePapersInequality) {
   // The paper: occluded where d >= dV - 0.01 m, for depths that the sensor measured.
-  auto random = test::seeded_random(21);
+  auto random = seeded_random(21);
   std::uniform_real_distribution<double> depth(0.3, 3.0), error(-0.03, 0.03);
   Scene scene(640, 32);
   for (std::size_t i = 0; i < scene.robot.size(); ++i) {
-    scene.robot.data()[i] = static_cast<float>(depth(random));
-    scene.metres.data()[i] = scene.robot.data()[i] + static_cast<float>(error(random));
+    scene.robot.data()[i] = float(depth(random));
+    scene.metres.data()[i] = scene.robot.data()[i] + float(error(random));
     if (i % 17 == 0) scene.metres.data()[i] = 0.0f;
   }
   scene.mark_tiles();
@@ -135,7 +122,7 @@ TEST_P(Rules, PaperIsThePapersInequality) {
     const Label expected = d == 0.0        ? Label::unknown
                            : d >= z - 0.01 ? Label::occluded
                                            : Label::front;
-    ASSERT_EQ(view.labels.data[i], static_cast<std::uint8_t>(expected)) << d << " at " << z;
+    ASSERT_EQ(view.labels.data[i], std::uint8_t(expected)) << d << " at " << z;
   }
 }
 
@@ -151,7 +138,6 @@ TEST(RuleCheck, AcceptsDefaultsPaperAndSensors) {
 }
 
 TEST(RuleCheck, RefusesAndSaysWhatItGot) {
-  const double nan = std::nan("");
   const std::pair<const char*, std::function<void(LabelRule&)>> bad[] = {
       {"tolerance -0.01,0,0",
        [](LabelRule& r) {
@@ -170,9 +156,9 @@ TEST(RuleCheck, RefusesAndSaysWhatItGot) {
          r.tolerance = {1, 0, -1e-6};
        }},
       {"tolerance inf", [](LabelRule& r) { r.tolerance.a = infinity; }},
-      {"nan", [=](LabelRule& r) { r.tolerance.c = nan; }},
+      {"nan", [](LabelRule& r) { r.tolerance.c = nan; }},
       {"factor 0.9", [](LabelRule& r) { r.beyond_factor = 0.9; }},
-      {"factor nan", [=](LabelRule& r) { r.beyond_factor = nan; }},
+      {"factor nan", [](LabelRule& r) { r.beyond_factor = nan; }},
       {"front_min_width -1", [](LabelRule& r) { r.front_min_width = -1; }},
       {"front_min_width 64", [](LabelRule& r) { r.front_min_width = 64; }},
       {"edge_margin 65", [](LabelRule& r) { r.edge_margin = 65; }},
@@ -182,15 +168,47 @@ TEST(RuleCheck, RefusesAndSaysWhatItGot) {
        [](LabelRule& r) {
          r.range = {3, 3};
        }},
-      {"range nan", [=](LabelRule& r) { r.range.near = nan; }}};
+      {"range nan", [](LabelRule& r) { r.range.near = nan; }}};
   for (const auto& [part, change] : bad) {
     LabelRule rule;
     change(rule);
-    test::expect_refused([&] { rule.check(); }, {part});
+    expect_refused([&] { rule.check(); }, {part});
     EXPECT_THROW(Classifier(8, 8, rule), InputError) << part;
   }
-  test::expect_refused([] { (void)LabelRule::for_sensor("kinect"); }, {"kinect"});
+  expect_refused([] { (void)LabelRule::for_sensor("kinect"); }, {"kinect"});
+}
+
+// One classifier over many frames: nothing of an earlier one is left, nothing is allocated.
+
+class Frames : public IsaTest {};
+
+PENUMBRA_FOR_EACH_ISA(Frames);
+
+TEST_P(Frames, LeaveNothingToTheNext) {
+  auto random = seeded_random(41);
+  constexpr int width = 300, height = 70;
+  Classifier used(width, height, LabelRule{}, GetParam());
+  for (int i = 0; i < 60; ++i) {
+    const Scene scene = random_scene(width, height, random);
+    Classifier fresh(width, height, LabelRule{}, GetParam());
+    const LabelView expected = fresh.classify(scene.view(), scene.metres.view());
+    const LabelView got = used.classify(scene.view(), scene.metres.view());
+    ASSERT_EQ(got.pixels, expected.pixels) << i;
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u) ASSERT_EQ(got.labels(u, v), expected.labels(u, v)) << i;
+  }
+}
+
+TEST_P(Frames, AllocateNothing) {
+  auto random = seeded_random(44);
+  Classifier classifier(300, 70, LabelRule{}, GetParam());
+  std::vector<Scene> scenes;
+  scenes.reserve(10);
+  for (int i = 0; i < 10; ++i) scenes.push_back(random_scene(300, 70, random));
+  const std::size_t before = allocations();
+  for (const Scene& scene : scenes) (void)classifier.classify(scene.view(), scene.metres.view());
+  EXPECT_EQ(allocations(), before);
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

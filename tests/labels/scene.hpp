@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <random>
-#include <string>
-#include <vector>
+#include "../support/test.hpp"
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/base/simd_target.hpp>
@@ -25,9 +19,8 @@ struct Scene {
 
   void mark_tiles() {
     std::fill(tiles.rows.begin(), tiles.rows.end(), 0);
-    for (int v = 0; v < height(); ++v)
-      for (int u = 0; u < width(); ++u)
-        if (robot(u, v) > 0.0f) tiles.mark(u, v, u, v);
+    for (const auto [u, v] : each_pixel(*this))
+      if (robot(u, v) > 0.0f) tiles.mark(u, v, u, v);
   }
 
   [[nodiscard]] VirtualDepthView view() const {
@@ -38,8 +31,8 @@ struct Scene {
     Image<std::uint16_t> image(width(), height());
     for (std::size_t i = 0; i < image.size(); ++i) {
       const float d = metres.data()[i];
-      image.data()[i] = d > 0.0f && d < 65.0f ? static_cast<std::uint16_t>(std::lround(1000.0f * d))
-                                              : std::uint16_t{0};
+      image.data()[i] =
+          d > 0.0f && d < 65.0f ? std::uint16_t(std::lround(1000.0f * d)) : std::uint16_t{0};
     }
     return image;
   }
@@ -54,7 +47,7 @@ struct Scene {
 inline Scene random_scene(int width, int height, std::mt19937_64& random) {
   Scene scene(width, height);
   const auto number = [&](double low, double high) {
-    return static_cast<float>(std::uniform_real_distribution<double>(low, high)(random));
+    return float(std::uniform_real_distribution<double>(low, high)(random));
   };
   const auto below = [&](int end) {
     return std::uniform_int_distribution<int>(0, end - 1)(random);
@@ -63,8 +56,7 @@ inline Scene random_scene(int width, int height, std::mt19937_64& random) {
     const int u0 = below(width), v0 = below(height);
     const int u1 = std::min(width, u0 + 1 + below(largest)),
               v1 = std::min(height, v0 + 1 + below(largest));
-    for (int v = v0; v < v1; ++v)
-      for (int u = u0; u < u1; ++u) image(u, v) = z;
+    for (const auto [u, v] : each_pixel(u0, v0, u1, v1)) image(u, v) = z;
   };
   for (int i = below(6); i > 0; --i) fill(scene.robot, number(0.5, 1.5), 1 + width / 2);
   for (std::size_t i = 0; i < scene.metres.size(); ++i) {
@@ -85,4 +77,15 @@ inline Scene random_scene(int width, int height, std::mt19937_64& random) {
   return scene;
 }
 
+inline std::size_t count(const LabelView& view, Label label) {
+  return view.pixels[std::size_t(label)];
+}
+
+/// A test for each SIMD target.
+class IsaTest : public ::testing::TestWithParam<std::string> {};
+
 }  // namespace penumbra::test
+
+#define PENUMBRA_FOR_EACH_ISA(suite)                                                       \
+  INSTANTIATE_TEST_SUITE_P(Isa, suite, ::testing::ValuesIn(penumbra::simd_target_names()), \
+                           [](const auto& isa) { return isa.param; })

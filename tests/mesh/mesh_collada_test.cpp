@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Collada reader: files that it refuses, and a comparison with Assimp on valid files.
-#include <array>
+#include "../support/data.hpp"
+#include "mesh_samples.hpp"
 
-#include <Eigen/Geometry>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
-#include <gtest/gtest.h>
-#include <tests/mesh/mesh_samples.hpp>
-#include <tests/support/data.hpp>
-#include <tests/support/errors.hpp>
 
-#include <penumbra/base/error.hpp>
 #include <penumbra/mesh/mesh_file.hpp>
 #include <penumbra/mesh/weld.hpp>
 
-namespace penumbra {
+namespace penumbra::test {
 namespace {
 
 // Assimp reads decimal numbers with an error of some units in the last place.
@@ -33,7 +28,7 @@ Measures measure(const TriangleMesh& mesh) {
   Measures m;
   m.triangles = mesh.triangles.size();
   for (const auto& t : mesh.triangles) {
-    std::array<Eigen::Vector3d, 3> p;
+    std::array<Vector3d, 3> p;
     for (std::size_t k = 0; k < 3; ++k) {
       p[k] = mesh.vertices[t[k]].cast<double>();
       m.bounds.extend(p[k]);
@@ -53,7 +48,7 @@ TriangleMesh read_by_assimp(const std::filesystem::path& file) {
   TriangleMesh mesh;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     const aiMesh& part = *scene->mMeshes[i];
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    const auto first = std::uint32_t(mesh.vertices.size());
     for (unsigned k = 0; k < part.mNumVertices; ++k)
       mesh.vertices.emplace_back(part.mVertices[k].x, part.mVertices[k].y, part.mVertices[k].z);
     for (unsigned k = 0; k < part.mNumFaces; ++k) {
@@ -80,8 +75,8 @@ void expect_as_assimp(const std::filesystem::path& file) {
 
 /// A file whose primitive runs over the corners of a plane rectangle.
 std::string with_primitive(const std::string& primitive) {
-  std::string text = test::replaced(test::collada("<unit meter=\"0.5\"/>", test::collada_node()),
-                                    "0 0 0 2 0 0 0 3 0 0 0 4", "0 0 1 2 0 1 2 3 2 0 3 2");
+  std::string text = replaced(collada("<unit meter=\"0.5\"/>"), "0 0 0 2 0 0 0 3 0 0 0 4",
+                              "0 0 1 2 0 1 2 3 2 0 3 2");
   const std::size_t begin = text.find("<triangles");
   return text.replace(begin, text.find("</mesh>") - begin, primitive);
 }
@@ -96,9 +91,9 @@ class Collada : public ::testing::Test {
   }
   /// The sample with one place changed.
   void expect_refused(const std::string& what, const std::string& by, const std::string& why) {
-    expect_refused(test::replaced(test::collada("", test::collada_node()), what, by), why);
+    expect_refused(replaced(collada(), what, by), why);
   }
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(Collada, ReadsAsAssimpDoes) {
@@ -107,7 +102,7 @@ TEST_F(Collada, ReadsAsAssimpDoes) {
       "<rotate>0.6 0 0.8 40</rotate><node><scale>1 2 3</scale><translate>1 2 3</translate>"
       "<instance_geometry url=\"#tet\"/></node></node><node><translate>9 0 0</translate>"
       "<instance_node url=\"#a\"/></node>";
-  expect_as_assimp(folder_.write("t.dae", test::collada("<unit meter=\"0.0254\"/>", nodes)));
+  expect_as_assimp(folder_.write("t.dae", collada("<unit meter=\"0.0254\"/>", nodes)));
   const std::string uv =
       "<input semantic=\"TEXCOORD\" source=\"#p\" offset=\"0\" set=\"0\"/>"
       "<input semantic=\"VERTEX\" source=\"#v\" offset=\"1\"/>";
@@ -128,7 +123,7 @@ TEST_F(Collada, RealFilesReadAsAssimpDoes) {
   expect_as_assimp(std::filesystem::path(PENUMBRA_SOURCE_DIR) /
                    "examples/arm_over_table/arm_description/meshes/upper_arm.dae");
   PENUMBRA_REQUIRE_DATA();
-  const auto folder = test::data_folder() / "robots/ur5e/ur_description/meshes/ur5e/visual";
+  const auto folder = data_folder() / "robots/ur5e/ur_description/meshes/ur5e/visual";
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     expect_as_assimp(entry.path());
 }
@@ -145,33 +140,32 @@ TEST_F(Collada, TransformsThatAreNotReadMatterOnlyToGeometry) {
   const std::string look = "<lookat>0 0 9 0 0 0 0 1 0</lookat>";
   const std::string skew = "<skew>45 0 1 0 1 0 0</skew>";
   for (const std::string& transform : {look, skew}) {
-    expect_refused(test::collada("", test::collada_node(transform)), "it moves geometry");
-    expect_refused(test::collada("", "<node>" + transform + test::collada_node() + "</node>"),
+    expect_refused(collada("", collada_node(transform)), "it moves geometry");
+    expect_refused(collada("", "<node>" + transform + collada_node() + "</node>"),
                    "it moves geometry");
     const std::string camera =
         "<node id=\"c\">" + transform + "<node/><instance_camera url=\"#x\"/></node>";
-    EXPECT_EQ(load_mesh(folder_.write("c.dae", test::collada("", camera + test::collada_node())))
-                  .triangles.size(),
-              4U);
+    EXPECT_EQ(
+        load_mesh(folder_.write("c.dae", collada("", camera + collada_node()))).triangles.size(),
+        4U);
   }
   for (const std::string bad : {"<translate>1 2</translate>", "<translate>1 2 3 4</translate>",
                                 "<translate>1 2 nan</translate>", "<rotate>0 0 0 90</rotate>",
                                 "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 1 1</matrix>",
                                 "<scale>1 1 x</scale>", "<translat>1 2 3</translat>"})
-    expect_refused(test::collada("", test::collada_node(bad)), "damaged");
+    expect_refused(collada("", collada_node(bad)), "damaged");
 }
 
 TEST_F(Collada, WhatASceneShowsMustBeThereAndRigid) {
-  const std::string text = test::collada("", test::collada_node());
-  expect_refused(test::replaced(text, "<scene>", "<scenery>"), "XML");
-  expect_refused(test::replaced(text, "url=\"#s\"", "url=\"#t\""), "#t");
-  expect_refused(
-      test::replaced(text, "<geometry ", "<geometry id=\"tet\"><mesh/></geometry><geometry "),
-      "two elements have the id");
-  expect_refused(test::replaced(text, "instance_geometry", "instance_controller"), "skin");
-  expect_refused(test::replaced(text, "#tet", "#a\nb"), "#a b");
+  const std::string text = collada();
+  expect_refused(replaced(text, "<scene>", "<scenery>"), "XML");
+  expect_refused(replaced(text, "url=\"#s\"", "url=\"#t\""), "#t");
+  expect_refused(replaced(text, "<geometry ", "<geometry id=\"tet\"><mesh/></geometry><geometry "),
+                 "two elements have the id");
+  expect_refused(replaced(text, "instance_geometry", "instance_controller"), "skin");
+  expect_refused(replaced(text, "#tet", "#a\nb"), "#a b");
   expect_refused("<html></html>", "a Collada file has <COLLADA>");
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

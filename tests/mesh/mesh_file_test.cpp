@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cctype>
-
-#include <gtest/gtest.h>
-#include <tests/mesh/mesh_samples.hpp>
-#include <tests/mesh/signed_volume.hpp>
+#include "../support/test.hpp"
+#include "mesh_samples.hpp"
+#include "signed_volume.hpp"
 
 #include <penumbra/mesh/mesh_file.hpp>
+#include <penumbra/mesh/mesh_formats-inl.hpp>
 #include <penumbra/mesh/prepared_mesh.hpp>
 
-namespace penumbra {
+namespace penumbra::test {
 namespace {
 
 constexpr double float_rounding = 1e-5;  // of volumes of a few cubic metres from float corners
 
-Eigen::Vector3f upper_corner(const TriangleMesh& mesh) {
-  Eigen::Vector3f corner = mesh.vertices.front();
+Vector3f upper_corner(const TriangleMesh& mesh) {
+  Vector3f corner = mesh.vertices.front();
   for (const auto& v : mesh.vertices) corner = corner.cwiseMax(v);
   return corner;
 }
@@ -25,10 +23,9 @@ void expect_tetrahedron(const TriangleMesh& mesh, double unit = 1.0) {
   EXPECT_EQ(mesh.vertices.size(), 4U);
   EXPECT_EQ(mesh.triangles.size(), 4U);
   EXPECT_TRUE(PreparedMesh(mesh).watertight);
-  const Eigen::Vector3f corner = (Eigen::Vector3d(2, 3, 4) * unit).cast<float>();
+  const Vector3f corner = (Vector3d(2, 3, 4) * unit).cast<float>();
   EXPECT_TRUE(upper_corner(mesh).isApprox(corner, 1e-6F)) << upper_corner(mesh).transpose();
-  EXPECT_NEAR(test::signed_volume(mesh) / (unit * unit * unit), test::tetrahedron_volume,
-              float_rounding);
+  EXPECT_NEAR(signed_volume(mesh) / (unit * unit * unit), tetrahedron_volume, float_rounding);
 }
 
 class MeshFile : public ::testing::Test {
@@ -36,40 +33,42 @@ class MeshFile : public ::testing::Test {
   TriangleMesh load(const std::string& name, const std::string& bytes) {
     return load_mesh(folder_.write(name, bytes));
   }
-  TriangleMesh load_collada(const std::string& asset, const std::string& nodes) {
-    return load("a.dae", test::collada(asset, nodes));
+  TriangleMesh load_collada(const std::string& asset = "",
+                            const std::string& nodes = collada_node()) {
+    return load("a.dae", collada(asset, nodes));
   }
-  test::TemporaryFolder folder_;
+  TemporaryFolder folder_;
 };
 
 std::string upper(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::toupper(c));
+  for (char& c : text) c = char(std::toupper(c));
   return text;
 }
 
 TEST_F(MeshFile, EveryFormatGivesTheSameSolid) {
-  folder_.write("a.bin", test::gltf_buffer());
-  for (const auto& [name, bytes] : test::samples())
+  folder_.write("a.bin", gltf_buffer());
+  for (const auto& [name, bytes] : samples())
     for (const std::string& file : {name, upper(name)}) {
       SCOPED_TRACE(file);
       expect_tetrahedron(load(file, bytes));
     }
 }
 
+/// The text with its lines ended otherwise.
+std::string with_line_ends(const std::string& text, const std::string& line_end) {
+  std::string result;
+  for (const char c : text) result += c == '\n' ? line_end : std::string(1, c);
+  return result;
+}
+
 TEST_F(MeshFile, AsciiStlTakesWhatExportersWrite) {
-  std::string text = test::ascii_stl(test::tetrahedron());
+  const std::string text = ascii_stl(tetrahedron());
   expect_tetrahedron(load("upper.stl", upper(text)));
-  std::string crlf;
-  for (const char c : text) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
-  expect_tetrahedron(load("crlf.stl", crlf));
-  std::string nan = text;
-  nan.replace(nan.find("normal 0 0 0"), 12, "normal nan -nan(ind) 1.#IND");
-  expect_tetrahedron(load("nan.stl", nan));
-  std::string tiny = text;
-  tiny.replace(tiny.find("0.000000"), 8, "+1.0e-60");
-  EXPECT_EQ(load("tiny.stl", tiny).triangles.size(), 4U);
-  EXPECT_NEAR(test::signed_volume(load("two.stl", text + text)), 2 * test::tetrahedron_volume,
-              float_rounding);
+  expect_tetrahedron(load("crlf.stl", with_line_ends(text, "\r\n")));
+  expect_tetrahedron(
+      load("nan.stl", replaced(text, "normal 0 0 0", "normal nan -nan(ind) 1.#IND")));
+  EXPECT_EQ(load("tiny.stl", replaced(text, "0.000000", "+1.0e-60")).triangles.size(), 4U);
+  EXPECT_NEAR(signed_volume(load("two.stl", text + text)), 2 * tetrahedron_volume, float_rounding);
 }
 
 TEST_F(MeshFile, ObjNumbersMayBeWrittenAsTheFormatAllows) {
@@ -92,11 +91,8 @@ TEST_F(MeshFile, ObjNumbersMayBeWrittenAsTheFormatAllows) {
 }
 
 TEST_F(MeshFile, ObjLinesMayEndAsOnAnySystem) {
-  for (const char* line_end : {"\n", "\r\n", "\r"}) {
-    std::string text;
-    for (const char c : test::obj()) text += c == '\n' ? std::string(line_end) : std::string(1, c);
-    expect_tetrahedron(load("a.obj", text));
-  }
+  for (const char* line_end : {"\n", "\r\n", "\r"})
+    expect_tetrahedron(load("a.obj", with_line_ends(obj(), line_end)));
 }
 
 /// The tetrahedron with coordinates of type T and indices of type Index, among other data.
@@ -114,7 +110,7 @@ std::string ply_of(const std::string& type, const std::string& index_type, bool 
     if (big_endian) std::reverse(raw.begin(), raw.end());
     bytes += raw;
   };
-  const TriangleMesh mesh = test::tetrahedron();
+  const TriangleMesh mesh = tetrahedron();
   put(std::uint32_t{2});
   for (const double view : {0.5, 1.5}) put(view);
   for (const auto& v : mesh.vertices) {
@@ -148,59 +144,148 @@ TEST_F(MeshFile, FoldedQuadsAreRead) {
 }
 
 TEST_F(MeshFile, ColladaUnitIsAppliedOnce) {
-  expect_tetrahedron(load_collada("", test::collada_node()));
-  expect_tetrahedron(load_collada("<unit name=\"meter\" meter=\"1\"/>", test::collada_node()));
-  expect_tetrahedron(load_collada("<unit name=\"meter\"/>", test::collada_node()));
-  expect_tetrahedron(load_collada("<unit name=\"mm\" meter=\"0.001\"/>", test::collada_node()),
-                     0.001);
+  expect_tetrahedron(load_collada());
+  expect_tetrahedron(load_collada("<unit name=\"meter\" meter=\"1\"/>"));
+  expect_tetrahedron(load_collada("<unit name=\"meter\"/>"));
+  expect_tetrahedron(load_collada("<unit name=\"mm\" meter=\"0.001\"/>"), 0.001);
   const TriangleMesh moved = load_collada("<unit name=\"inch\" meter=\"0.0254\"/>",
-                                          test::collada_node("<translate>10 0 0</translate>"));
-  EXPECT_TRUE(upper_corner(moved).isApprox(Eigen::Vector3f(12, 3, 4) * 0.0254F, 1e-6F));
+                                          collada_node("<translate>10 0 0</translate>"));
+  EXPECT_TRUE(upper_corner(moved).isApprox(Vector3f(12, 3, 4) * 0.0254F, 1e-6F));
 }
 
 TEST_F(MeshFile, ColladaUpAxisIsIgnored) {
   for (const std::string axis : {"X_UP", "Y_UP", "Z_UP"}) {
     SCOPED_TRACE(axis);
-    expect_tetrahedron(load_collada("<up_axis>" + axis + "</up_axis>", test::collada_node()));
-    expect_tetrahedron(
-        load_collada("<unit meter=\"0.1\"/><up_axis>" + axis + "</up_axis>", test::collada_node()),
-        0.1);
+    expect_tetrahedron(load_collada("<up_axis>" + axis + "</up_axis>"));
+    expect_tetrahedron(load_collada("<unit meter=\"0.1\"/><up_axis>" + axis + "</up_axis>"), 0.1);
   }
 }
 
 TEST_F(MeshFile, MirroredNodesAreWoundAgain) {
-  const TriangleMesh mesh = load_collada("", test::collada_node("<scale>-1 1 1</scale>"));
-  EXPECT_NEAR(test::signed_volume(mesh), test::tetrahedron_volume, float_rounding);
+  const TriangleMesh mesh = load_collada("", collada_node("<scale>-1 1 1</scale>"));
+  EXPECT_NEAR(signed_volume(mesh), tetrahedron_volume, float_rounding);
   EXPECT_FLOAT_EQ(upper_corner(mesh).x(), 0.0F);
-  const TriangleMesh twice = load_collada("", test::collada_node("<scale>-1 -1 1</scale>"));
-  EXPECT_NEAR(test::signed_volume(twice), test::tetrahedron_volume, float_rounding);
-  const TriangleMesh gltf = load("m.glb", test::glb(",\"scale\":[1,-1,1]"));
-  EXPECT_NEAR(test::signed_volume(gltf), test::tetrahedron_volume, float_rounding);
+  const TriangleMesh twice = load_collada("", collada_node("<scale>-1 -1 1</scale>"));
+  EXPECT_NEAR(signed_volume(twice), tetrahedron_volume, float_rounding);
+  const TriangleMesh gltf = load("m.glb", glb(",\"scale\":[1,-1,1]"));
+  EXPECT_NEAR(signed_volume(gltf), tetrahedron_volume, float_rounding);
 }
 
 TEST_F(MeshFile, GltfBuffersMayLieInTheFile) {
   const std::string buffer =
       "AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAQEAAAAAAAAAAAAAAAAAAAIBAAAACAA"
       "EAAAABAAMAAAADAAIAAQACAAMA";
-  expect_tetrahedron(
-      load("a.gltf",
-           test::gltf_json(",\"uri\":\"data:application/octet-stream;base64," + buffer + "\"")));
+  expect_tetrahedron(load(
+      "a.gltf", gltf_json(",\"uri\":\"data:application/octet-stream;base64," + buffer + "\"")));
 }
 
 TEST_F(MeshFile, GltfStripsAndFansAreRead) {
   for (const std::string mode : {"5", "6"}) {
     std::string bytes =
-        test::gltf_json(",\"uri\":\"a.bin\"", ",\"matrix\":[0,2,0,0,-2,0,0,0,0,0,2,0,1,0,0,1]");
+        gltf_json(",\"uri\":\"a.bin\"", ",\"matrix\":[0,2,0,0,-2,0,0,0,0,0,2,0,1,0,0,1]");
     bytes.replace(bytes.find("\"indices\":1"), 11, "\"mode\":" + mode);
-    folder_.write("a.bin", test::gltf_buffer());
+    folder_.write("a.bin", gltf_buffer());
     const TriangleMesh mesh = load("a.gltf", bytes);
     EXPECT_EQ(mesh.triangles.size(), 2U) << mode;
-    EXPECT_TRUE(upper_corner(mesh).isApprox(Eigen::Vector3f(1, 4, 8), 1e-6F));
+    EXPECT_TRUE(upper_corner(mesh).isApprox(Vector3f(1, 4, 8), 1e-6F));
     // Four corners without indices: the strip's second triangle is 1 3 2, the fan's 0 2 3.
-    const Eigen::Vector3f last = mesh.vertices[mesh.triangles[1][0]];
-    EXPECT_TRUE(last.isApprox(mode == "5" ? Eigen::Vector3f(1, 4, 0) : Eigen::Vector3f(1, 0, 0)));
+    const Vector3f last = mesh.vertices[mesh.triangles[1][0]];
+    EXPECT_TRUE(last.isApprox(mode == "5" ? Vector3f(1, 4, 0) : Vector3f(1, 0, 0)));
   }
 }
 
+using Points = std::vector<Vector2d>;
+
+constexpr double area_rounding = 1e-5;  // of areas of a few square metres from float corners
+
+double shoelace(const Points& points) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector2d& a = points[i];
+    const Vector2d& b = points[(i + 1) % points.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return twice / 2.0;
+}
+
+TriangleMesh cut(const Points& points, const Isometry3d& place) {
+  TriangleMesh mesh;
+  for (const Vector2d& p : points)
+    mesh.vertices.push_back((place * Vector3d(p.x(), p.y(), 0.0)).cast<float>());
+  std::vector<std::uint32_t> corners(points.size());
+  std::iota(corners.begin(), corners.end(), 0U);
+  mesh_formats::append_polygon(corners, mesh);
+  return mesh;
+}
+
+/// The triangles are wound as the polygon is and together have its area: they cover it once.
+void expect_covered(const Points& points, const Isometry3d& place) {
+  const TriangleMesh mesh = cut(points, place);
+  EXPECT_EQ(mesh.triangles.size(), points.size() - 2);
+  const Vector3d normal = place.linear().col(2) * (shoelace(points) < 0.0 ? -1.0 : 1.0);
+  double area = 0.0;
+  for (const auto& t : mesh.triangles) {
+    const Vector3d a = mesh.vertices[t[0]].cast<double>();
+    const Vector3d twice =
+        (mesh.vertices[t[1]].cast<double>() - a).cross(mesh.vertices[t[2]].cast<double>() - a);
+    EXPECT_GT(twice.dot(normal), -area_rounding);
+    area += twice.norm() / 2.0;
+  }
+  EXPECT_NEAR(area, std::abs(shoelace(points)), area_rounding);
+}
+
+Isometry3d random_place(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  Isometry3d place = Isometry3d::Identity();
+  place.linear() =
+      Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random))
+          .normalized()
+          .toRotationMatrix();
+  return place;
+}
+
+TEST(Polygon, RandomStarsAreCoveredOnce) {
+  auto random = seeded_random(21);
+  std::uniform_real_distribution<double> radius(0.1, 1.0);
+  for (int trial = 0; trial < 300; ++trial) {
+    Points points;
+    const std::size_t corners = 3 + random() % 40;
+    for (std::size_t i = 0; i < corners; ++i) {
+      const double angle = 2.0 * std::numbers::pi * double(i) / double(corners);
+      points.emplace_back(radius(random) * Vector2d(std::cos(angle), std::sin(angle)));
+    }
+    if (trial % 2 == 0) std::reverse(points.begin(), points.end());
+    SCOPED_TRACE(trial);
+    expect_covered(points, random_place(random));
+  }
+}
+
+TEST(Polygon, CombsAndCornersOnALineAreCoveredOnce) {
+  auto random = seeded_random(22);
+  Points comb;
+  for (int i = 0; i < 50; ++i) comb.emplace_back(0.02 * i, i % 2 == 0 ? 0.0 : 0.9);
+  comb.emplace_back(1.0, 1.0);
+  comb.emplace_back(0.0, 1.0);
+  expect_covered(comb, random_place(random));
+  expect_covered({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}},
+                 Isometry3d::Identity());
+  expect_covered({{0, 0}, {1, 0}, {1, 0}, {1, 1}, {0, 1}}, Isometry3d::Identity());
+}
+
+TEST(Polygon, ALargeOneIsCutQuickly) {
+  Points circle;
+  for (int i = 0; i < 4000; ++i)
+    circle.emplace_back(std::cos(i * std::numbers::pi / 2000),
+                        std::sin(i * std::numbers::pi / 2000));
+  expect_covered(circle, Isometry3d::Identity());
+  circle.emplace_back(1.0, -1e-4);
+  EXPECT_THROW(cut(circle, Isometry3d::Identity()), mesh_formats::FormatError);
+}
+
+TEST(Polygon, OneThatCrossesItselfIsCut) {
+  const Points crossing{{0, 0}, {2, 1}, {2, 0}, {0, 1}, {-1, 0.5}};
+  EXPECT_EQ(cut(crossing, Isometry3d::Identity()).triangles.size(), 3U);
+}
+
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

@@ -1,32 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-#include <functional>
-#include <iostream>
-#include <limits>
-#include <numbers>
+#include "signed_volume.hpp"
 
-#include <gtest/gtest.h>
-#include <tests/mesh/signed_volume.hpp>
-
-#include <penumbra/base/error.hpp>
 #include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/mesh/primitives.hpp>
 
-namespace penumbra {
+namespace penumbra::test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double silhouette_limit = 1e-4;  // metres
 constexpr double radii[] = {1e-6, 1e-4, 0.001, 0.02, 0.05, 0.3, 2.0};
 
-using Distance = std::function<double(const Eigen::Vector3d&)>;
+using Distance = std::function<double(const Vector3d&)>;
 
-double capsule_distance(const Eigen::Vector3d& p, double radius, double length) {
+double capsule_distance(const Vector3d& p, double radius, double length) {
   const double z = std::max(0.0, std::abs(p.z()) - length / 2.0);
   return std::hypot(p.x(), p.y(), z) - radius;
 }
 
-double cylinder_distance(const Eigen::Vector3d& p, double radius, double length) {
+double cylinder_distance(const Vector3d& p, double radius, double length) {
   const double side = std::hypot(p.x(), p.y()) - radius;
   const double end = std::abs(p.z()) - length / 2.0;
   if (side > 0.0 && end > 0.0) return std::hypot(side, end);
@@ -38,9 +30,9 @@ double surface_error(const TriangleMesh& mesh, const Distance& distance) {
   constexpr int steps = 6;
   double worst = 0.0;
   for (const auto& t : mesh.triangles) {
-    const Eigen::Vector3d a = mesh.vertices[t[0]].cast<double>();
-    const Eigen::Vector3d b = mesh.vertices[t[1]].cast<double>() - a;
-    const Eigen::Vector3d c = mesh.vertices[t[2]].cast<double>() - a;
+    const Vector3d a = mesh.vertices[t[0]].cast<double>();
+    const Vector3d b = mesh.vertices[t[1]].cast<double>() - a;
+    const Vector3d c = mesh.vertices[t[2]].cast<double>() - a;
     for (int i = 0; i <= steps; ++i)
       for (int j = 0; i + j <= steps; ++j)
         worst = std::max(worst, std::abs(distance(a + b * i / steps + c * j / steps)));
@@ -57,16 +49,16 @@ void expect_solid(const TriangleMesh& mesh, double volume, double area, const Di
   EXPECT_EQ(prepared.triangles.size(), mesh.triangles.size()) << "no degenerate triangle";
   EXPECT_EQ(prepared.patches.size(), 1U);
   EXPECT_TRUE(prepared.watertight);
-  EXPECT_GT(test::signed_volume(mesh), 0.0);
-  EXPECT_NEAR(test::signed_volume(mesh), volume, area * primitive_error + 1e-6 * volume);
+  EXPECT_GT(signed_volume(mesh), 0.0);
+  EXPECT_NEAR(signed_volume(mesh), volume, area * primitive_error + 1e-6 * volume);
 }
 
 TEST(MeshPrimitives, Box) {
-  const Eigen::Vector3d size(0.3, 0.02, 1.5);
+  const Vector3d size(0.3, 0.02, 1.5);
   const TriangleMesh box = make_box(size);
   EXPECT_EQ(box.triangles.size(), 12U);
   expect_solid(box, size.prod(), 0.0,
-               [&](const Eigen::Vector3d& p) { return (p.cwiseAbs() - size / 2.0).maxCoeff(); });
+               [&](const Vector3d& p) { return (p.cwiseAbs() - size / 2.0).maxCoeff(); });
 }
 
 TEST(MeshPrimitives, Sphere) {
@@ -74,7 +66,7 @@ TEST(MeshPrimitives, Sphere) {
     const TriangleMesh sphere = make_sphere(r);
     std::cout << "sphere " << r << " m: " << sphere.triangles.size() << " triangles\n";
     expect_solid(sphere, 4.0 / 3.0 * pi * r * r * r, 4.0 * pi * r * r,
-                 [=](const Eigen::Vector3d& p) { return capsule_distance(p, r, 0.0); });
+                 [=](const Vector3d& p) { return capsule_distance(p, r, 0.0); });
   }
 }
 
@@ -83,24 +75,21 @@ TEST(MeshPrimitives, Cylinder) {
     const TriangleMesh cylinder = make_cylinder(r, 0.4);
     std::cout << "cylinder " << r << " m: " << cylinder.triangles.size() << " triangles\n";
     expect_solid(cylinder, pi * r * r * 0.4, 2.0 * pi * r * 0.4,
-                 [=](const Eigen::Vector3d& p) { return cylinder_distance(p, r, 0.4); });
+                 [=](const Vector3d& p) { return cylinder_distance(p, r, 0.4); });
   }
 }
 
 TEST(MeshPrimitives, Capsule) {
-  for (const double r : radii) {
+  for (const double r : radii)
     for (const double length : {0.0, 0.001, 0.4}) {
       const TriangleMesh capsule = make_capsule(r, length);
       const double volume = pi * r * r * (4.0 / 3.0 * r + length);
       expect_solid(capsule, volume, 2.0 * pi * r * (2.0 * r + length),
-                   [=](const Eigen::Vector3d& p) { return capsule_distance(p, r, length); });
+                   [=](const Vector3d& p) { return capsule_distance(p, r, length); });
     }
-  }
 }
 
 TEST(MeshPrimitives, SizesThatAreNoneAreRefused) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double inf = std::numeric_limits<double>::infinity();
   for (const double bad : {0.0, -1.0, nan, inf}) {
     EXPECT_THROW((void)make_box({1, bad, 1}), InputError);
     EXPECT_THROW((void)make_sphere(bad), InputError);
@@ -115,4 +104,4 @@ TEST(MeshPrimitives, SizesThatAreNoneAreRefused) {
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

@@ -2,12 +2,7 @@
 #pragma once
 
 #include "../support/temporary_folder.hpp"
-
-#include <cstdint>
-#include <cstring>
-#include <stdexcept>
-#include <string>
-#include <vector>
+#include "../support/test.hpp"
 
 #include <penumbra/mesh/triangle_mesh.hpp>
 
@@ -38,7 +33,7 @@ void put(std::string& bytes, T value) {
 inline std::string binary_stl(const TriangleMesh& mesh, std::string header = "binary") {
   header.resize(80, ' ');
   std::string bytes = header;
-  put(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  put(bytes, std::uint32_t(mesh.triangles.size()));
   for (const auto& t : mesh.triangles) {
     bytes.append(12, '\0');
     for (const std::uint32_t corner : t)
@@ -92,8 +87,13 @@ inline std::string binary_ply() {
   return bytes;
 }
 
+inline std::string collada_node(const std::string& transform = "", const std::string& id = "n") {
+  return "<node id=\"" + id + "\">" + transform + "<instance_geometry url=\"#tet\"/></node>";
+}
+
 /// `asset` is the content of <asset>, `nodes` that of the scene.
-inline std::string collada(const std::string& asset, const std::string& nodes) {
+inline std::string collada(const std::string& asset = "",
+                           const std::string& nodes = collada_node()) {
   return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"
          "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">\n"
          "<asset>" +
@@ -113,17 +113,13 @@ inline std::string collada(const std::string& asset, const std::string& nodes) {
          "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>\n";
 }
 
-inline std::string collada_node(const std::string& transform = "", const std::string& id = "n") {
-  return "<node id=\"" + id + "\">" + transform + "<instance_geometry url=\"#tet\"/></node>";
-}
-
 inline std::string gltf_buffer() {
   std::string buffer;
   const TriangleMesh mesh = tetrahedron();
   for (const auto& v : mesh.vertices)
     for (int axis = 0; axis < 3; ++axis) put(buffer, v[axis]);
   for (const auto& t : mesh.triangles)
-    for (const std::uint32_t corner : t) put(buffer, static_cast<std::uint16_t>(corner));
+    for (const std::uint32_t corner : t) put(buffer, std::uint16_t(corner));
   return buffer;
 }
 
@@ -149,10 +145,10 @@ inline std::string glb(const std::string& node = "") {
   const std::string buffer = gltf_buffer();
   std::string bytes = "glTF";
   put(bytes, std::uint32_t{2});
-  put(bytes, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + buffer.size()));
-  put(bytes, static_cast<std::uint32_t>(json.size()));
+  put(bytes, std::uint32_t(12 + 8 + json.size() + 8 + buffer.size()));
+  put(bytes, std::uint32_t(json.size()));
   bytes += "JSON" + json;
-  put(bytes, static_cast<std::uint32_t>(buffer.size()));
+  put(bytes, std::uint32_t(buffer.size()));
   bytes += std::string("BIN\0", 4) + buffer;
   return bytes;
 }

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
-#include <Eigen/Geometry>
+#include "../support/test.hpp"
 
 #include <penumbra/mesh/triangle_mesh.hpp>
 
 /// Brute force over all triangles, in double.
 namespace penumbra::test {
-
-using Eigen::Vector3d;
 
 inline std::array<Vector3d, 3> corners(const TriangleMesh& mesh, std::size_t i) {
   const auto& t = mesh.triangles[i];
@@ -30,7 +22,7 @@ inline double segment_distance(const Vector3d& p, const Vector3d& a, const Vecto
 inline double triangle_distance(const Vector3d& p, const std::array<Vector3d, 3>& t) {
   const Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
   bool inside = true;
-  double distance = std::numeric_limits<double>::infinity();
+  double distance = inf;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vector3d& a = t[k];
     const Vector3d& b = t[(k + 1) % 3];
@@ -41,7 +33,7 @@ inline double triangle_distance(const Vector3d& p, const std::array<Vector3d, 3>
 }
 
 inline double distance(const TriangleMesh& mesh, const Vector3d& p) {
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = inf;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     nearest = std::min(nearest, triangle_distance(p, corners(mesh, i)));
   return nearest;
@@ -61,9 +53,7 @@ inline std::vector<Crossing> crossings(const TriangleMesh& mesh, const Vector3d&
     b -= p;
     c -= p;
     // Signs on shared edges do not matter to random rays.
-    const double u = ray.dot(b.cross(c));
-    const double v = ray.dot(c.cross(a));
-    const double w = ray.dot(a.cross(b));
+    const double u = ray.dot(b.cross(c)), v = ray.dot(c.cross(a)), w = ray.dot(a.cross(b));
     const bool leaves = u > 0.0 && v > 0.0 && w > 0.0;
     if (!leaves && !(u < 0.0 && v < 0.0 && w < 0.0)) continue;
     const double t = (u * a + v * b + w * c).dot(ray) / ((u + v + w) * ray.squaredNorm());
@@ -84,14 +74,8 @@ inline int windings(const TriangleMesh& mesh, const Vector3d& p) {
 inline Vector3d random_point(const TriangleMesh& mesh, std::mt19937_64& random) {
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const auto [a, b, c] = corners(mesh, random() % mesh.triangles.size());
-  const double u = std::sqrt(share(random));
-  const double v = share(random);
+  const double u = std::sqrt(share(random)), v = share(random);
   return (1 - u) * a + u * (1 - v) * b + u * v * c;
-}
-
-inline Vector3d random_direction(std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
-  return Vector3d(normal(random), normal(random), normal(random)).normalized();
 }
 
 }  // namespace penumbra::test

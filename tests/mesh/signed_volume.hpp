@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Geometry>
+#include "../support/test.hpp"
 
 #include <penumbra/mesh/triangle_mesh.hpp>
 
@@ -10,8 +10,8 @@ namespace penumbra::test {
 /// Returns the volume of closed meshes, cubic metres; positive if they are wound outwards.
 inline double signed_volume(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return 0.0;
-  const Eigen::Vector3d eye = mesh.vertices.front().cast<double>();
-  const auto at = [&](std::uint32_t i) -> Eigen::Vector3d {
+  const Vector3d eye = mesh.vertices.front().cast<double>();
+  const auto at = [&](std::uint32_t i) -> Vector3d {
     return mesh.vertices[i].cast<double>() - eye;
   };
   double sum = 0.0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../support/allocations.hpp"
 #include "slab_scene.hpp"
-
-#include <gtest/gtest.h>
-#include <tests/support/allocations.hpp>
 
 #include <penumbra/pipeline/frame_queue.hpp>
 
@@ -45,7 +43,7 @@ TEST_P(AllocationTest, OnlyStringsOfTargetsAreAllocated) {
   Pipeline pipeline(slab_robot(), camera, config);
   const Image<float> metres = scene_depth(camera, 0.0);
   const Image<std::uint16_t> millimetres = to_millimetres(metres);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Isometry3d pose = Isometry3d::Identity();
   pose.translation().z() = 0.7;
   Frame frame{.pose = {.positions = {0.0}}};
   frame.targets = {{.name = "region of pixels", .shape = RegionTarget{PixelBox{10, 80, 20, 12}}},
@@ -75,7 +73,7 @@ TEST_P(AllocationTest, OnlyStringsOfTargetsAreAllocated) {
 TEST(QueueAllocations, OnlyFramesAndTheirPosesAreAllocated) {
   const Robot robot = slab_robot();
   PoseHistory history(robot, {.joints = {.history = 0.1}, .transforms = {.history = 0.1}});
-  history.add_static_transform("base", "a_camera_with_a_long_name", Eigen::Isometry3d::Identity());
+  history.add_static_transform("base", "a_camera_with_a_long_name", Isometry3d::Identity());
   FrameQueue queue(
       robot, history,
       {.poses = {.source = PoseSource::both, .camera_frame = "a_camera_with_a_long_name"}},
@@ -84,7 +82,7 @@ TEST(QueueAllocations, OnlyFramesAndTheirPosesAreAllocated) {
   for (int i = 1; i < 400; ++i) {
     const std::int64_t stamp = std::int64_t{10'000'000} * i;
     const std::vector<double> positions{0.001 * i};
-    const Eigen::Isometry3d T(Eigen::Translation3d(0, 0, 1 + positions[0]));
+    const Isometry3d T = at(0, 0, 1 + positions[0]);
     const std::size_t before = allocations();
     history.add_joints(stamp, names, positions);
     history.add_joints(stamp, names, positions, "another publisher of the joint states");

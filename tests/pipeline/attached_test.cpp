@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies that the robot's links carry, against boxes that a formula intersects.
 #include "../support/opengl.hpp"
-#include "../support/random.hpp"
-#include "../support/run_length.hpp"
 #include "slab_scene.hpp"
-
-#include <array>
-#include <limits>
-#include <map>
-#include <utility>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/mesh/primitives.hpp>
 #include <penumbra/pipeline/frame_queue.hpp>
@@ -19,41 +10,28 @@
 namespace penumbra::test {
 namespace {
 
-const Eigen::Vector3d part_size(0.13, 0.11, 0.09);
+const Vector3d part_size(0.13, 0.11, 0.09);
 
-AttachedBody body(const std::string& name, const std::string& link, const Eigen::Vector3d& at,
-                  const Eigen::Vector3d& size = part_size) {
-  return {name, link, std::make_shared<PreparedMesh>(make_box(size)),
-          Eigen::Isometry3d(Eigen::Translation3d(at))};
+AttachedBody body(const std::string& name, const std::string& link, const Vector3d& at,
+                  const Vector3d& size = part_size) {
+  return {name, link, std::make_shared<PreparedMesh>(make_box(size)), test::at(at)};
 }
 
 /// Beside the slab, and partly before it.
 AttachedBody part() { return body("part", "slab", {0.19, 0.06, -0.08}); }
 
 /// Where part() is.
-SlabBox part_box(double slide, int link = 4) {
-  return {Eigen::Vector3d(0.19, 0.06, 0.92 + slide), part_size, link};
-}
+SlabBox part_box(double slide = 0.0) { return {Vector3d(0.19, 0.06, 0.92 + slide), part_size, 4}; }
 
-Target box_target(const char* name, const PixelBox& box) {
-  return {.name = name, .shape = RegionTarget{.region = box}};
-}
+const PixelBox behind_part{101, 61, 4, 6};
 
-class AttachedTo : public testing::TestWithParam<Backend> {
- protected:
-  void SetUp() override {
-    if (!can_draw(GetParam())) GTEST_SKIP() << no_opengl;
-  }
-};
-INSTANTIATE_TEST_SUITE_P(Backends, AttachedTo,
-                         testing::Values(Backend::cpu, Backend::gl, Backend::reference),
-                         [](const auto& test) { return std::string(to_string(test.param)); });
+PENUMBRA_BACKEND_TEST(AttachedTo);
 
 /// One on the root link is a fixture of the cell: it stands still.
 TEST_P(AttachedTo, ALinkIsDrawnWhereTheFormulaTells) {
   const Camera camera = slab_camera();
   Pipeline pipeline(slab_robot(), camera, plain_config(GetParam()));
-  const Eigen::Vector3d post(-0.3, -0.1, 1.2);
+  const Vector3d post(-0.3, -0.1, 1.2);
   const std::vector<AttachedBody> all{part(), body("lid", "plate", {0.0, 0.0, -0.2}),
                                       body("post", "base", post)};
   for (const double slide : {0.0, 0.3, -0.2})
@@ -62,21 +40,15 @@ TEST_P(AttachedTo, ALinkIsDrawnWhereTheFormulaTells) {
           part_box(slide), {{0.5, 0.1, 1.3}, part_size, 5}, {post, part_size, 6}};
       boxes.resize(count);
       const Image<float> depth = scene_depth(camera, slide, boxes);
-      const std::vector<double> positions{slide};
-      const FrameReport& report = pipeline.process(
-          {.depth = depth.view(),
-           .pose = {.positions = positions,
-                    .attached = {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)}}});
+      Frame frame = frame_of(depth, slide, {}, all);
+      frame.pose.attached.resize(count);
+      const FrameReport& report = pipeline.process(frame);
       ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
       ASSERT_EQ(report.attached.size(), count);
-      for (int v = 0; v < depth.height(); ++v)
-        for (int u = 0; u < depth.width(); ++u) {
-          const Seen seen = cast(camera.intrinsics.ray(u, v), slide, boxes);
-          ASSERT_NEAR(report.virtual_depth.depth(u, v), seen.depth, depth_tolerance)
-              << u << ',' << v;
-          ASSERT_EQ(report.virtual_depth.links(u, v), seen.link) << u << ',' << v;
-          ASSERT_EQ(report.labels(u, v) == static_cast<int>(Label::occluded), seen.link != 0);
-        }
+      expect_drawn(report.virtual_depth, [&](const auto& ray) { return cast(ray, slide, boxes); });
+      for (const auto [u, v] : each_pixel(depth))
+        ASSERT_EQ(report.labels(u, v) == int(Label::occluded),
+                  report.virtual_depth.links(u, v) != 0);
       EXPECT_EQ(report.pixels.front + report.pixels.unknown, 0U);
       for (const std::size_t i : report.attached)
         EXPECT_EQ(report.links[i], all[i - slab_robot().links().size()].name);
@@ -85,31 +57,24 @@ TEST_P(AttachedTo, ALinkIsDrawnWhereTheFormulaTells) {
 
 TEST(Attached, HidesATargetAndIsBlamed) {
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
-  const std::vector<double> positions{0.0};
-  const std::vector<AttachedBody> attached{part()};
-  const Image<float> depth = scene_depth(slab_camera(), 0.0, {part_box(0.0)});
-  const std::vector<Target> targets{box_target("behind", PixelBox{101, 61, 4, 6}),
-                                    box_target("part", PixelBox{101, 61, 4, 6})};
-  const FrameReport& report =
-      pipeline.process({.depth = depth.view(),
-                        .pose = {.positions = positions, .attached = attached},
-                        .targets = targets});
+  const Image<float> depth = scene_depth(slab_camera(), 0.0, {part_box()});
+  const FrameReport& report = pipeline.process(
+      frame_of(depth, 0.0, {region("behind", behind_part), region("part", behind_part)}, {part()}));
   EXPECT_EQ(report.targets[1].verdict, Verdict::held) << "it does not hide itself";
-  EXPECT_EQ(report.targets[1].reason, "it is attached to link 'slab'");
+  EXPECT_TRUE(holds(report.targets[1].reason, "'slab'"));
   EXPECT_EQ(report.targets[0].verdict, Verdict::hidden);
   ASSERT_EQ(report.targets[0].judgement->blame.size(), 1U);
   EXPECT_EQ(report.targets[0].judgement->blame[0].name, "part");
   DepthImage out;
   without_robot(report, out);
   const auto& rest = std::get<Image<float>>(out);
-  for (int v = 0; v < depth.height(); ++v)
-    for (int u = 0; u < depth.width(); ++u)
-      ASSERT_EQ(std::isnan(rest(u, v)),
-                cast(slab_camera().intrinsics.ray(u, v), 0.0, {part_box(0.0)}).link != 0);
+  for (const auto [u, v] : each_pixel(depth))
+    ASSERT_EQ(std::isnan(rest(u, v)),
+              cast(slab_camera().intrinsics.ray(u, v), 0.0, {part_box()}).link != 0);
 }
 
 TEST(Attached, ABodyThatCannotBeDrawnMakesNothingVisible) {
-  Eigen::Isometry3d sheared = Eigen::Isometry3d::Identity();
+  Isometry3d sheared = Isometry3d::Identity();
   sheared.linear()(0, 1) = 0.5;
   AttachedBody no_mesh = part(), empty = part(), bent = part();
   no_mesh.mesh.reset();
@@ -117,40 +82,32 @@ TEST(Attached, ABodyThatCannotBeDrawnMakesNothingVisible) {
   bent.T_link_body = sheared;
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
   const Image<float> depth = scene_depth(slab_camera(), 0.0);
-  const std::vector<double> positions{0.0};
-  const std::vector<Target> targets{box_target("free", PixelBox{5, 5, 6, 6})};
   for (const AttachedBody& wrong : {no_mesh, empty, bent, body("part", "no_link", {0, 0, 0})}) {
-    const std::vector<AttachedBody> attached{wrong};
     const FrameReport& report =
-        pipeline.process({.depth = depth.view(),
-                          .pose = {.positions = positions, .attached = attached},
-                          .targets = targets});
+        pipeline.process(frame_of(depth, 0.0, {region("free", PixelBox{5, 5, 6, 6})}, {wrong}));
     EXPECT_EQ(report.status, FrameStatus::missing_link);
-    EXPECT_NE(report.message.find("'part'"), std::string::npos) << report.message;
+    EXPECT_TRUE(holds(report.message, "'part'"));
     ASSERT_EQ(report.missing_links.size(), 1U);
     EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
     for (const std::uint8_t label : pixels_of(report.labels))
-      ASSERT_TRUE(label == unknown_label || label == static_cast<int>(Label::occluded));
+      ASSERT_TRUE(label == unknown_label || label == int(Label::occluded));
     EXPECT_EQ(report.pixels.occluded + report.pixels.unknown, depth.size());
     EXPECT_EQ(report.pixels.robot, report.pixels.occluded) << "of what is drawn";
     DepthImage out;
     without_robot(report, out);
-    for (int v = 0; v < depth.height(); ++v)
-      for (int u = 0; u < depth.width(); ++u) ASSERT_TRUE(std::isnan(std::get<1>(out)(u, v)));
+    for (const auto [u, v] : each_pixel(depth)) ASSERT_TRUE(std::isnan(std::get<1>(out)(u, v)));
   }
-  EXPECT_EQ(pipeline.process({.depth = depth.view(), .pose = {.positions = positions}}).status,
-            FrameStatus::ok);
+  EXPECT_EQ(pipeline.process(frame_of(depth)).status, FrameStatus::ok);
 }
 
 TEST(Attached, ManyOneAfterAnotherKeepTheirNames) {
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
-  const std::vector<double> positions{0.0};
   for (int i = 0; i < 200; ++i) {
     const std::vector<AttachedBody> attached{
         body("a" + std::to_string(i), "slab", {0.3, 0, 0}),
         body("b" + std::to_string(i / 50), "slab", {-0.3, 0, 0})};
     const FrameReport& report =
-        pipeline.process({.pose = {.positions = positions, .attached = attached}});
+        pipeline.process({.pose = {.positions = {0.0}, .attached = attached}});
     ASSERT_EQ(report.attached.size(), 2U);
     for (const std::size_t k : {0U, 1U})
       ASSERT_EQ(report.links[report.attached[k]], attached[k].name);
@@ -163,25 +120,19 @@ TEST(Attached, IsKeptForLateTargets) {
   PipelineConfig config = plain_config();
   config.target_history = 1.0;
   Pipeline pipeline(slab_robot(), slab_camera(), config);
-  const std::vector<double> positions{0.0};
-  const std::vector<AttachedBody> attached{part()};
-  const Image<float> with = scene_depth(slab_camera(), 0.0, {part_box(0.0)});
+  const Image<float> with = scene_depth(slab_camera(), 0.0, {part_box()});
   const Image<float> without = scene_depth(slab_camera(), 0.0);
   const auto verdict = [&](std::int64_t stamp, bool has_part, std::int64_t asked) {
-    Target target = box_target("behind", PixelBox{101, 61, 4, 6});
-    target.stamp = asked;
-    const FrameReport& report =
-        pipeline.process({.stamp = stamp,
-                          .depth = has_part ? with.view() : without.view(),
-                          .pose = {.positions = positions,
-                                   .attached = has_part ? attached : std::vector<AttachedBody>()},
-                          .targets = {target}});
-    return report.targets[0].verdict;
+    Frame frame = frame_of(has_part ? with : without, 0.0, {region("behind", behind_part)});
+    if (has_part) frame.pose.attached = {part()};
+    frame.stamp = stamp * ms;
+    frame.targets[0].stamp = asked * ms;
+    return pipeline.process(frame).targets[0].verdict;
   };
-  EXPECT_EQ(verdict(1 * ms, true, 1 * ms), Verdict::hidden);
-  EXPECT_EQ(verdict(2 * ms, false, 2 * ms), Verdict::visible);
-  EXPECT_EQ(verdict(3 * ms, false, 1 * ms), Verdict::hidden);
-  EXPECT_EQ(verdict(4 * ms, true, 3 * ms), Verdict::visible);
+  EXPECT_EQ(verdict(1, true, 1), Verdict::hidden);
+  EXPECT_EQ(verdict(2, false, 2), Verdict::visible);
+  EXPECT_EQ(verdict(3, false, 1), Verdict::hidden);
+  EXPECT_EQ(verdict(4, true, 3), Verdict::visible);
 }
 
 /// Images that wait for their pose are judged with what is attached at their stamps.
@@ -214,14 +165,14 @@ TEST(Attached, FramesOfAQueueHaveWhatIsAttachedAtTheirStamp) {
 /// Against a model that looks at all changes every time, with late ones.
 TEST(Attached, StampsDecideInAnyOrderOfMessages) {
   auto random = seeded_random(3);
-  const auto below = [&](std::uint64_t end) { return static_cast<std::int64_t>(random() % end); };
+  const auto below = [&](std::uint64_t end) { return std::int64_t(random() % end); };
   for (int trial = 0; trial < samples(50); ++trial) {
     Attachments attachments;
     std::map<std::int64_t, std::pair<std::string, bool>> changes;  // by stamp
     std::vector<AttachedBody> now;
     for (int step = 0; step < 400; ++step) {
       const std::int64_t stamp = 10 * step - below(200);
-      const std::string name(1, static_cast<char>('a' + below(4)));
+      const std::string name(1, char('a' + below(4)));
       if (changes.contains(stamp)) continue;
       const bool is_attached = below(2) == 0;
       changes[stamp] = {name, is_attached};

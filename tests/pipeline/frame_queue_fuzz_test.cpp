@@ -1,31 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frame queue against a brute-force model, under random stamps, delays, losses, reorderings and
 // jumps of the clock. Every frame must come out exactly once, and only with a pose of its stamp.
-#include "../support/random.hpp"
-#include "../support/run_length.hpp"
 #include "slab_scene.hpp"
-
-#include <algorithm>
-#include <map>
-#include <set>
-#include <tuple>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/pipeline/frame_queue.hpp>
 
 namespace penumbra::test {
 namespace {
 
-constexpr std::int64_t jump = 1000 * ms;
-constexpr std::int64_t max_gap = 25 * ms;
+constexpr std::int64_t jump = 1000 * ms, max_gap = 25 * ms;
 constexpr double slide_tolerance = 1e-9;  // metres; positions are up to 100
 
 /// Distinct before and after a jump of the clock, so that states of both cannot be mixed unseen.
-double slide_at(std::int64_t stamp, int epoch) {
-  return 1e-9 * static_cast<double>(stamp) + 37.0 * epoch;
-}
+double slide_at(std::int64_t stamp, int epoch) { return 1e-9 * double(stamp) + 37.0 * epoch; }
 
 constexpr std::size_t queue_reasons = 5;
 using Dropped = std::multiset<std::pair<std::uint64_t, DropReason>>;
@@ -159,10 +146,10 @@ class Fuzz {
                [this](const auto& frame, DropReason reason) { drop(*frame, reason); }) {}
 
   void step() {
-    now_ += static_cast<std::int64_t>(below(12)) * ms;
-    if (below(400) == 0) now_ -= static_cast<std::int64_t>(below(500)) * ms;
+    now_ += std::int64_t(below(12)) * ms;
+    if (below(400) == 0) now_ -= std::int64_t(below(500)) * ms;
     if (below(150) == 0) {
-      epoch_start_ -= 1500 * ms + static_cast<std::int64_t>(below(3000)) * ms;
+      epoch_start_ -= 1500 * ms + std::int64_t(below(3000)) * ms;
       ++epoch_;
     }
     send_joint();
@@ -188,17 +175,15 @@ class Fuzz {
   std::size_t below(std::size_t end) { return random_() % end; }
 
   FrameQueueOptions random_options() {
-    FrameQueueOptions options;
-    options.policy = below(2) == 0 ? DropPolicy::newest : DropPolicy::every;
-    options.time_offset = 1e-3 * (static_cast<double>(below(60)) - 30.0);
-    options.max_wait = 1e-3 * static_cast<double>(below(150));
-    options.max_frames = 1 + below(8);
-    return options;
+    return {.policy = below(2) == 0 ? DropPolicy::newest : DropPolicy::every,
+            .time_offset = 1e-3 * (double(below(60)) - 30.0),
+            .max_wait = 1e-3 * double(below(150)),
+            .max_frames = 1 + below(8)};
   }
 
   /// Stamps of now, or of a while ago.
   std::int64_t stamp(std::size_t most_delay_ms) {
-    return epoch_start_ + now_ - static_cast<std::int64_t>(below(most_delay_ms * 1000)) * 1000;
+    return epoch_start_ + now_ - std::int64_t(below(most_delay_ms * 1000)) * 1000;
   }
 
   void send_joint() {
@@ -241,7 +226,7 @@ class Fuzz {
 
   void drop(const Frame& frame, DropReason reason) {
     dropped_.emplace(*frame.index, reason);
-    ++drops[static_cast<std::size_t>(reason)];
+    ++drops[std::size_t(reason)];
     EXPECT_TRUE(seen_.insert(*frame.index).second) << *frame.index << " came twice";
   }
 
@@ -258,8 +243,7 @@ class Fuzz {
   FrameQueue queue_;
   Dropped dropped_;
   std::set<std::uint64_t> seen_;
-  std::int64_t now_ = 5'000 * ms;
-  std::int64_t epoch_start_ = 500'000 * ms;
+  std::int64_t now_ = 5'000 * ms, epoch_start_ = 500'000 * ms;
   std::pair<std::int64_t, int> last_pushed_{1, 0};  // stamp and its epoch
   std::vector<int> epochs_;                         // of each key's stamp
   int epoch_ = 0;
@@ -283,7 +267,7 @@ TEST(FrameQueueFuzz, DoesWhatTheModelDoesAndLosesNoFrame) {
     with_pose += fuzz.with_pose;
     without_pose += fuzz.without_pose;
   }
-  const auto many = static_cast<std::size_t>(samples(50));
+  const auto many = std::size_t(samples(50));
   for (std::size_t i = 0; i < drops.size(); ++i)
     EXPECT_GT(drops[i], many) << to_string(static_cast<DropReason>(i));
   EXPECT_GT(with_pose, 20 * many);

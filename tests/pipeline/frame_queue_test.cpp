@@ -1,13 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../support/errors.hpp"
 #include "slab_scene.hpp"
-
-#include <cmath>
-#include <memory>
-#include <optional>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/pipeline/frame_queue.hpp>
 
@@ -24,7 +16,7 @@ class QueueTest : public testing::Test {
 
   void joint(std::int64_t stamp_ms) {
     const std::string names[] = {"slide"};
-    const double positions[] = {static_cast<double>(stamp_ms) * 1e-3};
+    const double positions[] = {double(stamp_ms) * 1e-3};
     history_.add_joints(stamp_ms * ms, names, positions);
   }
 
@@ -54,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Policies, EveryPolicy,
 TEST_P(EveryPolicy, DisagreementIsKnownAtOnce) {
   make({.policy = GetParam(), .poses = {.source = PoseSource::both}});
   joint(1000);
-  history_.add_transform(1000 * ms, "base", "slab", Eigen::Isometry3d::Identity());
+  history_.add_transform(1000 * ms, "base", "slab", Isometry3d::Identity());
   image(1000, 1001);
   ASSERT_EQ(next(1001), 1000);
   EXPECT_EQ(frame_->pose.status, FrameStatus::poses_disagree);
@@ -132,7 +124,7 @@ TEST_F(QueueTest, RefusesFaultyOptions) {
   const auto refused = [&](const FrameQueueOptions& options, std::string_view part) {
     expect_refused([&] { make(options); }, {part});
   };
-  refused({.time_offset = std::nan("")}, "time_offset");
+  refused({.time_offset = nan}, "time_offset");
   refused({.time_offset = -2e9}, "time_offset");
   refused({.max_wait = -0.1}, "max_wait");
   refused({.companion_wait = -0.1}, "companion_wait");

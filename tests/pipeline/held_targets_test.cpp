@@ -2,42 +2,33 @@
 // Targets that a link picks up and puts down, against boxes that a formula intersects.
 #include "slab_scene.hpp"
 
-#include <array>
-#include <memory>
-
-#include <gtest/gtest.h>
-
-#include <penumbra/base/error.hpp>
 #include <penumbra/mesh/primitives.hpp>
 
 namespace penumbra::test {
 namespace {
 
-const Eigen::Vector3d cup_size(0.13, 0.11, 0.09);
-const Eigen::Vector3d picked(0.19, 0.06, 0.92);  // of its centre, where the slab takes it
+const Vector3d cup_size(0.13, 0.11, 0.09);
+const Vector3d picked(0.19, 0.06, 0.92);  // of its centre, where the slab takes it
 constexpr std::int64_t period = 33 * ms;
 constexpr double exact = 1e-9;  // metres: a chain of a few rotations in double
 
-Target cup(const Eigen::Vector3d& at, TargetHandling handling = {}) {
-  return {.name = "cup",
-          .shape = BoxTarget{.pose = Eigen::Isometry3d(Eigen::Translation3d(at)),
-                             .size = cup_size,
-                             .frame = ReferenceFrame::root()},
-          .handling = std::move(handling)};
+Target cup(const Vector3d& at, TargetHandling handling = {}) {
+  return {
+      .name = "cup",
+      .shape = BoxTarget{.pose = test::at(at), .size = cup_size, .frame = ReferenceFrame::root()},
+      .handling = std::move(handling)};
 }
 
 /// A cup that stands still, is carried by the slab, and stands where it was put down.
 class Carrying : public testing::Test {
  protected:
   /// Judges a frame of the scene with the cup at `at` and the slab at `slide`.
-  const FrameReport& see(const Target& target, double slide, const Eigen::Vector3d& at) {
+  const FrameReport& see(const Target& target, double slide, const Vector3d& at) {
     const SlabBox box{at, cup_size, attached_.empty() ? 0 : 4};
     depth_ = scene_depth(slab_camera(), slide, {box});
-    stamp_ += period;
-    return pipeline_.process({.stamp = stamp_,
-                              .depth = depth_.view(),
-                              .pose = {.positions = {slide}, .attached = attached_},
-                              .targets = {target}});
+    Frame frame = frame_of(depth_, slide, {target}, attached_);
+    frame.stamp = stamp_ += period;
+    return pipeline_.process(frame);
   }
 
   Pipeline pipeline_{slab_robot(), slab_camera(), plain_config()};
@@ -56,12 +47,12 @@ TEST_F(Carrying, ATargetIsHeldWhereTheLinkTakesItAndJudgedAsNewAfterwards) {
   attached_ = {pipeline_.attach_target(found, "slab")};
 
   for (const double slide : {0.0, 0.1, 0.3, 0.5}) {
-    const Eigen::Vector3d at = picked + slide * Eigen::Vector3d::UnitZ();
+    const Vector3d at = picked + slide * Vector3d::UnitZ();
     // Its given pose is still where it was picked up: that changes nothing.
     report = &see(found, slide, at);
     const TargetReport& target = report->targets[0];
     EXPECT_EQ(target.verdict, Verdict::held);
-    EXPECT_EQ(target.reason, "it is attached to link 'slab'");
+    EXPECT_TRUE(holds(target.reason, "'slab'"));
     EXPECT_FALSE(target.judgement);
     EXPECT_FALSE(target.point);
     EXPECT_EQ(target.estimate, Outcome::refused_verdict);
@@ -74,20 +65,16 @@ TEST_F(Carrying, ATargetIsHeldWhereTheLinkTakesItAndJudgedAsNewAfterwards) {
   }
 
   attached_.clear();
-  const Eigen::Vector3d down = picked + 0.5 * Eigen::Vector3d::UnitZ();
+  const Vector3d down = picked + 0.5 * Vector3d::UnitZ();
   Target absent = found;  // not found in this frame
   absent.shape = std::monostate();
   report = &see(absent, 0.7, down);
   ASSERT_TRUE(report->targets[0].handled->position);
   EXPECT_EQ(report->targets[0].handled->source, Source::held) << "the last position";
   EXPECT_LT((*report->targets[0].handled->position - down).norm(), exact);
-  const Target late = [&] {
-    Target target = found;  // of the time at which it was not yet held
-    target.estimate = TargetEstimate{.value = Eigen::Isometry3d(Eigen::Translation3d(picked)),
-                                     .stamp = 3 * period,
-                                     .frame = ReferenceFrame::root()};
-    return target;
-  }();
+  Target late = found;  // of the time at which it was not yet held
+  late.estimate =
+      TargetEstimate{.value = at(picked), .stamp = 3 * period, .frame = ReferenceFrame::root()};
   report = &see(late, 1.2, down);
   EXPECT_EQ(report->targets[0].estimate, Outcome::refused_late);
   report = &see(cup(down, handling), 1.2, down);
@@ -96,14 +83,14 @@ TEST_F(Carrying, ATargetIsHeldWhereTheLinkTakesItAndJudgedAsNewAfterwards) {
 }
 
 TEST_F(Carrying, APointBecomesItsBall) {
-  const Eigen::Vector3d at(-0.1, 0.05, 0.8), moved = at - Eigen::Vector3d(0, 0, 0.5);
+  const Vector3d at(-0.1, 0.05, 0.8), moved = at - Vector3d(0, 0, 0.5);
   Target ball = cup(at, PointTrackerConfig{});
   ball.shape = PointTarget{.position = at, .radius = 0.05};  // the camera is at the root
   ASSERT_EQ(see(ball, 1.0, at).targets[0].verdict, Verdict::visible);
   const AttachedBody body = pipeline_.attach_target(ball, "slab");
   EXPECT_EQ(body.name, "cup");
   EXPECT_EQ(body.link, "slab");
-  EXPECT_LT((body.T_link_body.translation() - (at - Eigen::Vector3d(0, 0, 2.0))).norm(), exact);
+  EXPECT_LT((body.T_link_body.translation() - (at - Vector3d(0, 0, 2.0))).norm(), exact);
   EXPECT_NEAR(body.mesh->bounds.sizes().minCoeff(), 0.1, 2 * primitive_error);
   EXPECT_NEAR(body.mesh->bounds.sizes().maxCoeff(), 0.1, 2 * primitive_error);
   attached_ = {body};
@@ -120,16 +107,13 @@ TEST(AttachTarget, TurnsWithTheLink) {
       <parent link="base"/><child link="arm"/><origin xyz="0.3 -0.1 1.2"/><axis xyz="0 0 1"/>
     </joint>)"),
                                    ".");
-  const Eigen::Vector3d pivot(0.3, -0.1, 1.2), at(0.05, 0.2, 1.1);
-  const auto turned = [](double angle) {
-    return Eigen::Isometry3d(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
-  };
-  const Eigen::Isometry3d start = Eigen::Translation3d(at) * turned(0.4);
+  const Vector3d pivot(0.3, -0.1, 1.2), at(0.05, 0.2, 1.1);
+  const auto turned = [](double angle) { return Isometry3d(AngleAxisd(angle, Vector3d::UnitZ())); };
+  const Isometry3d start = Translation3d(at) * turned(0.4);
   const double before = 0.7, after = before + 1.9;
-  const Eigen::Isometry3d end =
-      Eigen::Translation3d(pivot) * turned(after - before) * Eigen::Translation3d(-pivot) * start;
-  const Eigen::Isometry3d in_arm =
-      turned(-before) * Eigen::Translation3d(-pivot) * start;  // T_arm_root * start
+  const Isometry3d end =
+      Translation3d(pivot) * turned(after - before) * Translation3d(-pivot) * start;
+  const Isometry3d in_arm = turned(-before) * Translation3d(-pivot) * start;  // T_arm_root * start
   const Image<float> depth = scene_depth(slab_camera(), 0.9);
   const auto mesh = std::make_shared<const PreparedMesh>(make_box(cup_size));
   const TargetShape shapes[] = {
@@ -156,13 +140,13 @@ TEST(AttachTarget, TurnsWithTheLink) {
                               .targets = {target}});
         EXPECT_EQ(report.targets[0].verdict, attached.empty() ? Verdict::visible : Verdict::held);
         const auto& handled = report.targets[0].handled;
-        if (!handled) return Eigen::Isometry3d::Identity();
-        return Eigen::Isometry3d(Eigen::Translation3d(*handled->position) * *handled->orientation);
+        if (!handled) return Isometry3d::Identity();
+        return Isometry3d(Translation3d(*handled->position) * *handled->orientation);
       };
       pose_at(1 * ms, before);
       attached = {pipeline.attach_target(target, "arm")};
       EXPECT_TRUE(attached[0].T_link_body.isApprox(in_arm, exact));
-      const Eigen::Isometry3d found = pose_at(2 * ms, after);
+      const Isometry3d found = pose_at(2 * ms, after);
       EXPECT_TRUE(!is_handled || found.isApprox(end, exact));
       // From link to link it keeps the pose that it has, not the one that is given.
       const AttachedBody again = pipeline.attach_target(target, "base");
@@ -171,39 +155,38 @@ TEST(AttachTarget, TurnsWithTheLink) {
 }
 
 TEST_F(Carrying, WhatIsNotKnownIsNotAttached) {
-  const auto refuses = [&](const Target& target, const char* link, const std::string& why) {
-    try {
-      (void)pipeline_.attach_target(target, link);
-      ADD_FAILURE() << why;
-    } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find("'cup'"), std::string::npos) << error.what();
-    }
+  const auto refuses = [&](const Target& target, const char* why, const char* link = "slab") {
+    expect_refused([&] { (void)pipeline_.attach_target(target, link); }, {"'cup'", why});
   };
-  Target target = cup(picked);
-  refuses(target, "slab", "was not in the last frame");
+  const Target target = cup(picked);
+  refuses(target, "last frame");
   see(target, 1.0, picked);
-  refuses(target, "no_link", "'no_link' is not a link");
+  refuses(target, "'no_link'", "no_link");
   EXPECT_NO_THROW((void)pipeline_.attach_target(target, "slab"));
-  Target flat = target;
-  flat.shape = RegionTarget{.region = PixelBox{1, 1, 5, 5}};
-  refuses(flat, "slab", "no 3-D shape");
-  Target old = target;
-  old.stamp = stamp_ - period;
-  refuses(old, "slab", "another stamp");
-  Target missing = target;
-  missing.estimate = TargetEstimate{.value = std::monostate()};
-  refuses(missing, "slab", "not found in this frame");
-  Target faulty = target;
-  faulty.fault = "its driver failed";
-  refuses(faulty, "slab", "its driver failed");
+  const std::pair<const char*, std::function<void(Target&)>> faults[] = {
+      {"3-D shape",
+       [](Target& t) {
+         t.shape = RegionTarget{.region = PixelBox{1, 1, 5, 5}};
+       }},
+      {"stamp", [&](Target& t) { t.stamp = stamp_ - period; }},
+      {"not found", [](Target& t) { t.estimate = TargetEstimate{.value = std::monostate()}; }},
+      {"its driver failed", [](Target& t) { t.fault = "its driver failed"; }}};
+  for (const auto& [why, spoil] : faults) {
+    Target faulty = target;
+    spoil(faulty);
+    refuses(faulty, why);
+  }
   Target handled = cup(picked, PoseTrackerConfig{});
   pipeline_.forget_targets();
   handled.estimate = TargetEstimate{.value = std::monostate()};
   see(handled, 1.0, picked);
-  refuses(handled, "slab", "lost");
+  refuses(handled, "lost");
   pipeline_.process({.targets = {target}});
-  refuses(target, "slab", "the robot's pose is not known");
+  refuses(target, "pose");
+}
+
+AttachedBody attached_cup(const Isometry3d& T_link_body = Isometry3d::Identity()) {
+  return {"cup", "slab", std::make_shared<PreparedMesh>(make_box(cup_size)), T_link_body};
 }
 
 /// The verdict is that of the target's stamp; the handled pose that of the frame's.
@@ -211,23 +194,14 @@ TEST(HeldTargets, LateOnesAreHeldIfTheyWereAtTheirStamp) {
   PipelineConfig config = plain_config();
   config.target_history = 1.0;
   Pipeline pipeline(slab_robot(), slab_camera(), config);
-  const std::vector<double> positions{0.0};
-  const AttachedBody part{"cup", "slab", std::make_shared<PreparedMesh>(make_box(cup_size)),
-                          Eigen::Isometry3d(Eigen::Translation3d(0.19, 0.06, -0.08))};
   const Image<float> with = scene_depth(slab_camera(), 0.0, {{picked, cup_size, 4}});
   const Image<float> without = scene_depth(slab_camera(), 0.0);
   const auto verdict = [&](std::int64_t stamp, bool is_carried, std::int64_t asked) {
-    Target target = cup(picked);
-    target.shape = RegionTarget{.region = PixelBox{5, 5, 6, 6}};
-    target.stamp = asked * ms;
-    return pipeline
-        .process({.stamp = stamp * ms,
-                  .depth = is_carried ? with.view() : without.view(),
-                  .pose = {.positions = positions,
-                           .attached = std::vector<AttachedBody>(is_carried ? 1 : 0, part)},
-                  .targets = {target}})
-        .targets[0]
-        .verdict;
+    Frame frame = frame_of(is_carried ? with : without, 0.0, {region("cup", PixelBox{5, 5, 6, 6})});
+    if (is_carried) frame.pose.attached = {attached_cup(at(0.19, 0.06, -0.08))};
+    frame.stamp = stamp * ms;
+    frame.targets[0].stamp = asked * ms;
+    return pipeline.process(frame).targets[0].verdict;
   };
   EXPECT_EQ(verdict(1, false, 1), Verdict::visible);
   EXPECT_EQ(verdict(2, true, 1), Verdict::visible);
@@ -239,13 +213,9 @@ TEST(HeldTargets, LateOnesAreHeldIfTheyWereAtTheirStamp) {
 /// Without a depth image the carrier's pose is known; without joints nothing is.
 TEST(HeldTargets, NeedThePoseOnly) {
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
-  const std::vector<double> positions{0.0};
-  const AttachedBody part{"cup", "slab", std::make_shared<PreparedMesh>(make_box(cup_size)),
-                          Eigen::Isometry3d::Identity()};
-  const Target target = cup(picked);
-  Frame frame{.pose = {.attached = {part}}, .targets = {target}};
+  Frame frame{.pose = {.attached = {attached_cup()}}, .targets = {cup(picked)}};
   EXPECT_EQ(pipeline.process(frame).targets[0].verdict, Verdict::unknown);
-  frame.pose.positions = positions;
+  frame.pose.positions = {0.0};
   EXPECT_EQ(pipeline.process(frame).targets[0].verdict, Verdict::held);
 }
 

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "targets_fixture.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <numbers>
-#include <string_view>
-
 #include <penumbra/targets/object_renderers-inl.hpp>
 
 namespace penumbra::test {
@@ -16,29 +10,22 @@ namespace {
 /// hides those whose rays meet the robot.
 TEST(TargetsInTheRawImage, OfARenderedBoxAreThoseThatTheirRaysMeet) {
   Camera camera = slab_camera();
-  const double coefficients[] = {-0.25, 0.06, 0.001, -0.001, 0.0};
-  camera.distortion = Distortion("plumb_bob", coefficients);
+  camera.distortion = Distortion("plumb_bob", std::array{-0.25, 0.06, 0.001, -0.001, 0.0});
   const Image<float> depth = scene_depth(camera, 0.0);
   Pipeline pipeline(slab_robot(), camera, plain_config());
-  const Eigen::Vector3d middle(0.40, 0.05, 1.5), size(0.6, 0.5, 0.001);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = middle;
-  Target target{.name = "plate", .shape = BoxTarget{pose, size, {}}};
+  const Vector3d middle(0.40, 0.05, 1.5), size(0.6, 0.5, 0.001);
+  Target target{.name = "plate", .shape = BoxTarget{at(middle), size, {}}};
   target.thresholds.past_limit = 1;  // the wall is what is measured
-  const std::vector<double> positions{0.0};
-  const FrameReport& report = pipeline.process(
-      {.stamp = 1, .depth = depth.view(), .pose = {.positions = positions}, .targets = {target}});
+  const FrameReport& report = pipeline.process(frame_of(depth, 0.0, {target}));
   int covered = 0, hidden = 0;
-  for (int v = 0; v < depth.height(); ++v) {
-    for (int u = 0; u < depth.width(); ++u) {
-      const Eigen::Vector3d straight = camera.intrinsics.ray(u, v);
-      const auto ray = camera.distortion.undistort(straight.head<2>());
-      if (!ray) continue;
-      const Eigen::Vector2d off = 1.4995 * *ray - middle.head<2>();
-      if (std::abs(off.x()) > size.x() / 2 || std::abs(off.y()) > size.y() / 2) continue;
-      ++covered;
-      if (cast({ray->x(), ray->y(), 1.0}, 0.0).depth > 0.0) ++hidden;
-    }
+  for (const auto [u, v] : each_pixel(depth)) {
+    const Vector3d straight = camera.intrinsics.ray(u, v);
+    const auto ray = camera.distortion.undistort(straight.head<2>());
+    if (!ray) continue;
+    const Vector2d off = 1.4995 * *ray - middle.head<2>();
+    if (std::abs(off.x()) > size.x() / 2 || std::abs(off.y()) > size.y() / 2) continue;
+    ++covered;
+    if (cast({ray->x(), ray->y(), 1.0}, 0.0).depth > 0.0) ++hidden;
   }
   // Raw images are drawn through the pinhole image: outlines may be off by a pixel.
   const TargetReport& plate = report.targets[0];
@@ -46,7 +33,7 @@ TEST(TargetsInTheRawImage, OfARenderedBoxAreThoseThatTheirRaysMeet) {
   constexpr double outline = 0.04;  // of the plate's pixels
   EXPECT_GT(covered, 1500);
   EXPECT_GT(hidden, 300);
-  EXPECT_NEAR(static_cast<double>(plate.judgement->inside), covered, outline * covered);
+  EXPECT_NEAR(double(plate.judgement->inside), covered, outline * covered);
   EXPECT_NEAR(plate.judgement->occluded, hidden / (1.0 * covered), outline);
   EXPECT_EQ(plate.verdict, Verdict::partial);
 }
@@ -57,27 +44,23 @@ TEST(TargetsInTheRawImage, OfASmallMeshAreThoseThatItsRaysMeet) {
   constexpr double side = 24.0, outline = 0.01;  // pixels; of the plates' pixels
   constexpr double z = 1.0;
   Camera camera{Intrinsics(640, 480, 600, 600, 320, 240), {}, {}, {}};
-  const double coefficients[] = {-0.25, 0.06, 0.001, -0.001, 0.0};
-  camera.distortion = Distortion("plumb_bob", coefficients);
+  camera.distortion = Distortion("plumb_bob", std::array{-0.25, 0.06, 0.001, -0.001, 0.0});
   const Rectification rectification(camera);
   ObjectRenderers renderers(rectification.pinhole(), Backend::cpu, {}, &rectification, camera);
-  const auto half = static_cast<float>(0.5 * side * z / camera.intrinsics.fx());
+  const auto half = float(0.5 * side * z / camera.intrinsics.fx());
   const auto plate = std::make_shared<PreparedMesh>(
       TriangleMesh{{{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}},
                    {{0, 1, 2}, {0, 2, 3}}});
   int all = 0, different = 0;
   for (double x = -0.4; x <= 0.4; x += 0.0131) {
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.translation() = Eigen::Vector3d(x, 0.6 * x + 0.03, z);
+    Isometry3d pose = at(x, 0.6 * x + 0.03, z);
     const VirtualDepthView drawn = renderers.mesh(plate, pose);
     int meets = 0, covered = 0;
-    for (int v = 0; v < drawn.depth.height; ++v) {
-      for (int u = 0; u < drawn.depth.width; ++u) {
-        covered += drawn.depth(u, v) > 0.0f ? 1 : 0;
-        const auto ray = camera.distortion.undistort(camera.intrinsics.ray(u, v).head<2>());
-        const double limit = static_cast<double>(half);
-        meets += ray && (z * *ray - pose.translation().head<2>()).cwiseAbs().maxCoeff() < limit;
-      }
+    for (const auto [u, v] : each_pixel(drawn.depth)) {
+      covered += drawn.depth(u, v) > 0.0f ? 1 : 0;
+      const auto ray = camera.distortion.undistort(camera.intrinsics.ray(u, v).head<2>());
+      const double limit = double(half);
+      meets += ray && (z * *ray - pose.translation().head<2>()).cwiseAbs().maxCoeff() < limit;
     }
     all += meets;
     different += std::abs(covered - meets);
@@ -88,17 +71,15 @@ TEST(TargetsInTheRawImage, OfASmallMeshAreThoseThatItsRaysMeet) {
 
 /// Pixels of a fisheye's image whose rays meet a sphere, by the formula of equidistant lenses: also
 /// of rays that no pinhole image holds.
-int pixels_of_sphere(const Intrinsics& k, const Eigen::Vector3d& middle, double radius) {
+int pixels_of_sphere(const Intrinsics& k, const Vector3d& middle, double radius) {
   const double spread = std::asin(radius / middle.norm());
   int pixels = 0;
-  for (int v = 0; v < k.height(); ++v) {
-    for (int u = 0; u < k.width(); ++u) {
-      const Eigen::Vector2d bent = k.ray(u, v).head<2>();
-      const double angle = bent.norm();
-      Eigen::Vector3d ray(0, 0, std::cos(angle));
-      if (angle > 0.0) ray.head<2>() = bent * (std::sin(angle) / angle);
-      if (std::acos(std::clamp(ray.dot(middle.normalized()), -1.0, 1.0)) <= spread) ++pixels;
-    }
+  for (const auto [u, v] : each_pixel(k)) {
+    const Vector2d bent = k.ray(u, v).head<2>();
+    const double angle = bent.norm();
+    Vector3d ray(0, 0, std::cos(angle));
+    if (angle > 0.0) ray.head<2>() = bent * (std::sin(angle) / angle);
+    if (std::acos(std::clamp(ray.dot(middle.normalized()), -1.0, 1.0)) <= spread) ++pixels;
   }
   return pixels;
 }
@@ -106,27 +87,32 @@ int pixels_of_sphere(const Intrinsics& k, const Eigen::Vector3d& middle, double 
 /// A radius in metres takes in what a lens stretches: no less than the same disc's ellipse.
 TEST(TargetsInTheRawImage, OfARadiusInMetresGrowWithTheLens) {
   Camera camera = slab_camera();
-  const double coefficients[] = {0.3, 0.0, 0.0, 0.0, 0.0};
-  camera.distortion = Distortion("plumb_bob", coefficients);
+  camera.distortion = Distortion("plumb_bob", std::array{0.3, 0.0, 0.0, 0.0, 0.0});
   const Image<float> depth = scene_depth(camera, 0.0);
   Pipeline pipeline(slab_robot(), camera, plain_config());
-  const Eigen::Vector3d middle(0.75, 0.6, 1.5);
-  const Eigen::Vector2d bent = camera.distortion.distort(middle.head<2>() / middle.z());
-  const Eigen::Vector2d pixel = camera.intrinsics.project({bent.x(), bent.y(), 1.0});
+  const Vector3d middle(0.75, 0.6, 1.5);
+  const Vector2d bent = camera.distortion.distort(middle.head<2>() / middle.z());
+  const Vector2d pixel = camera.intrinsics.project({bent.x(), bent.y(), 1.0});
   constexpr double radius = 0.1;
-  KeypointTarget key{.pixel = pixel, .semi_axes = Eigen::Vector2d::Constant(radius)};
+  KeypointTarget key{.pixel = pixel, .semi_axes = Vector2d::Constant(radius)};
   key.in_metres = true;
   key.expected_depth = middle.z();
   const std::vector<Target> targets{{.name = "key", .shape = key},
                                     {.name = "point", .shape = PointTarget{middle, radius, {}}}};
-  const std::vector<double> positions{0.0};
-  const FrameReport& report = pipeline.process(
-      {.stamp = 1, .depth = depth.view(), .pose = {.positions = positions}, .targets = targets});
+  const FrameReport& report = pipeline.process(frame_of(depth, 0.0, targets));
   ASSERT_TRUE(report.targets[0].judgement && report.targets[1].judgement);
   const std::size_t disc = report.targets[1].judgement->covered;
   EXPECT_GT(disc, 300U);
   EXPECT_GE(report.targets[0].judgement->covered, disc);
   EXPECT_LT(report.targets[0].judgement->covered, 2 * disc);
+}
+
+Camera fisheye(double focal) {
+  const Intrinsics k = slab_camera().intrinsics;
+  return {Intrinsics(k.width(), k.height(), focal, focal, k.width() / 2.0, k.height() / 2.0),
+          Distortion("equidistant", std::array{0.0, 0.0, 0.0, 0.0}),
+          {},
+          {}};
 }
 
 struct FisheyeCounts {
@@ -136,33 +122,22 @@ struct FisheyeCounts {
 /// Cubes all around a fisheye of that focal length, pixels. Those that reach beyond its pinhole
 /// image must not look visible, nor out of view where they are seen.
 FisheyeCounts judge_around_fisheye(double focal) {
-  Camera camera = slab_camera();
+  const Camera camera = fisheye(focal);
   const int width = camera.intrinsics.width(), height = camera.intrinsics.height();
-  camera.intrinsics = Intrinsics(width, height, focal, focal, width / 2.0, height / 2.0);
-  const double coefficients[] = {0, 0, 0, 0};
-  camera.distortion = Distortion("equidistant", coefficients);
-  const Image<float> depth(width, height, static_cast<float>(wall_depth));
-  const std::vector<double> positions{0.0};
+  const Image<float> depth(width, height, float(wall_depth));
   Pipeline pipeline(slab_robot(), camera, plain_config());
   const double covered = Rectification(camera).half_angle();
   constexpr double radius = 0.15, inner = radius / std::numbers::sqrt3;  // spheres around and in it
   FisheyeCounts counts;
-  for (double angle = 0.2; angle < 2.8; angle += 0.05) {
+  for (double angle = 0.2; angle < 2.8; angle += 0.05)
     for (double about = 0.0; about < 6.28; about += 0.35) {
-      Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-      pose.translation() = Eigen::Vector3d(std::sin(angle) * std::cos(about),
-                                           std::sin(angle) * std::sin(about), std::cos(angle));
+      Isometry3d pose =
+          at(std::sin(angle) * std::cos(about), std::sin(angle) * std::sin(about), std::cos(angle));
       const int pixels = pixels_of_sphere(camera.intrinsics, pose.translation(), inner);
-      Target target{.name = "cube",
-                    .shape = BoxTarget{pose, Eigen::Vector3d::Constant(2.0 * inner), {}}};
+      Target target{.name = "cube", .shape = BoxTarget{pose, Vector3d::Constant(2.0 * inner), {}}};
       target.thresholds.past_limit = 1;  // the wall is what is measured
       pipeline.forget_targets();
-      const TargetReport& report = pipeline
-                                       .process({.stamp = 1,
-                                                 .depth = depth.view(),
-                                                 .pose = {.positions = positions},
-                                                 .targets = {target}})
-                                       .targets[0];
+      const TargetReport& report = pipeline.process(frame_of(depth, 0.0, {target})).targets[0];
       SCOPED_TRACE(testing::Message() << angle << " about " << about << ": " << pixels);
       const bool is_undrawn = report.reason.find("cannot be rendered") != std::string_view::npos;
       if (pixels > 0 && angle + std::asin(inner) > covered) {
@@ -176,7 +151,6 @@ FisheyeCounts judge_around_fisheye(double focal) {
       counts.out_of_view += report.verdict == Verdict::out_of_view ? 1 : 0;
       counts.whole += pixels > 0 && report.judgement && !is_undrawn ? 1 : 0;
     }
-  }
   return counts;
 }
 
@@ -195,45 +169,37 @@ TEST(TargetsOfAFisheye, AreOutOfViewBesideANarrowOne) {
 
 /// A plate of the robot that none of a fisheye's drawn pixels shows may hide what ends beside them.
 TEST(TargetsOfAFisheye, BesideWhatCannotBeDrawnAreAsBesideTheRobot) {
-  Camera camera = slab_camera();
+  const Camera camera = fisheye(40.0);
   const int width = camera.intrinsics.width(), height = camera.intrinsics.height();
-  camera.intrinsics = Intrinsics(width, height, 40.0, 40.0, width / 2.0, height / 2.0);
-  const double coefficients[] = {0, 0, 0, 0};
-  camera.distortion = Distortion("equidistant", coefficients);
   const Rectification rectification(camera);
   const auto drawn = rectification.raw_to_pinhole();
   int end = width / 2;  // of the drawn pixels in the middle row
   while (drawn(end, height / 2) != Rectification::no_pixel) ++end;
   ASSERT_LT(end, width - 5);
   Pipeline pipeline(slab_robot(), camera, plain_config());
-  const Image<float> depth(width, height, static_cast<float>(wall_depth));
+  const Image<float> depth(width, height, float(wall_depth));
   const auto box = [&](double u) { return PixelBox{u, height / 2.0 - 4, 6, 8}; };
   const double beside = end - 7.0;
   Target modal = region("modal", box(beside)), far = region("far", PixelBox{77, 78, 6, 8});
   std::get<RegionTarget>(modal.shape).extent = Extent::modal;
   const std::vector<Target> targets{modal, far, region("beside", box(beside)),
                                     region("in it", box(end + 1.0))};
-  const std::vector<double> positions{0.9};  // the slab is small, in the middle
-  const FrameReport& report = pipeline.process(
-      {.stamp = 1, .depth = depth.view(), .pose = {.positions = positions}, .targets = targets});
-  EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
-  EXPECT_EQ(report.targets[1].verdict, Verdict::visible);
+  // The slab is small, in the middle.
+  const FrameReport& report = pipeline.process(frame_of(depth, 0.9, targets));
+  using enum Verdict;
+  expect_verdicts(report, {unknown, visible, visible, unknown});  // amodal: all of it is seen
   EXPECT_TRUE(report.targets[1].point);
-  EXPECT_EQ(report.targets[2].verdict, Verdict::visible) << "amodal: all of it is seen";
   EXPECT_FALSE(report.targets[2].point) << "depths there may be of robot that is not drawn";
-  EXPECT_EQ(report.targets[3].verdict, Verdict::unknown);
-  EXPECT_NE(report.targets[3].reason.find("lens model"), std::string_view::npos)
-      << report.targets[3].reason;
+  EXPECT_TRUE(holds(report.targets[3].reason, "lens model"));
 }
 
 /// A lens whose pinhole image reaches far beyond what the camera saw.
 class RectifiedTargetsTest : public testing::Test {
  protected:
   RectifiedTargetsTest() : camera_(slab_camera()) {
-    const double coefficients[] = {-0.3, 0.0, 0.0, 0.0, 0.0};
-    camera_.distortion = Distortion("plumb_bob", coefficients);
-    depth_ = Image<float>(camera_.intrinsics.width(), camera_.intrinsics.height(),
-                          static_cast<float>(wall_depth));
+    camera_.distortion = Distortion("plumb_bob", std::array{-0.3, 0.0, 0.0, 0.0, 0.0});
+    depth_ =
+        Image<float>(camera_.intrinsics.width(), camera_.intrinsics.height(), float(wall_depth));
   }
 
   [[nodiscard]] Pipeline pipeline(ImageSpace image) const {
@@ -243,13 +209,7 @@ class RectifiedTargetsTest : public testing::Test {
   }
 
   TargetReport judge(Pipeline& pipeline, const Target& target) const {
-    const std::vector<double> positions{0.0};
-    return pipeline
-        .process({.stamp = 1,
-                  .depth = depth_.view(),
-                  .pose = {.positions = positions},
-                  .targets = {target}})
-        .targets[0];
+    return pipeline.process(frame_of(depth_, 0.0, {target})).targets[0];
   }
 
   Camera camera_;
@@ -270,17 +230,17 @@ TEST_F(RectifiedTargetsTest, WhereTheCameraSawNothingAreOutOfView) {
   EXPECT_EQ(black.verdict, Verdict::out_of_view);
   ASSERT_TRUE(black.judgement);
   EXPECT_EQ(black.judgement->inside, 0U);
-  EXPECT_EQ(black.judgement->covered, static_cast<std::size_t>(seen_columns));
+  EXPECT_EQ(black.judgement->covered, std::size_t(seen_columns));
   EXPECT_EQ(black.judgement->clear, 0.0);
 }
 
 TEST_F(RectifiedTargetsTest, AreInViewWhereTheyAreInTheRawImage) {
   Pipeline raw = pipeline(ImageSpace::raw), rectified = pipeline(ImageSpace::rectified);
   int in_view = 0, out_of_view = 0;
-  for (double x = -1.5; x <= 1.5; x += 0.125) {
+  for (double x = -1.5; x <= 1.5; x += 0.125)
     for (double y = -1.2; y <= 1.2; y += 0.125) {
       const auto is_seen = [&](Pipeline& by, double scale) {
-        const Eigen::Vector3d position(scale * x, scale * y, 1.0);
+        const Vector3d position(scale * x, scale * y, 1.0);
         by.forget_targets();
         const Target target{.name = "point", .shape = PointTarget{position, 0.002, {}}};
         const TargetReport report = judge(by, target);  // the raw image's corners are not covered
@@ -292,7 +252,6 @@ TEST_F(RectifiedTargetsTest, AreInViewWhereTheyAreInTheRawImage) {
       EXPECT_EQ(is_seen(rectified, 1.0), in_raw) << x << ", " << y;
       (in_raw ? in_view : out_of_view) += 1;
     }
-  }
   EXPECT_GT(in_view, 50);
   EXPECT_GT(out_of_view, 50);
 }

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An arm in motion, images that arrive 30 ms after their stamps: only the states of the stamp give
 // the right picture. Whoever takes the latest state is proven wrong on the same frames.
-#include "../support/random.hpp"
 #include "slab_scene.hpp"
-
-#include <cmath>
-#include <map>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/pipeline/frame_queue.hpp>
 
@@ -18,14 +12,12 @@ constexpr std::int64_t start = 1'700'000'000'000 * ms;
 constexpr int frames = 40;
 
 /// Up to 2 m/s: 60 mm in 30 ms, where labels tolerate 20 mm.
-double slide_at(std::int64_t stamp) {
-  return 0.4 * std::sin(5.0 * 1e-9 * static_cast<double>(stamp - start));
-}
+double slide_at(std::int64_t stamp) { return 0.4 * std::sin(5.0 * 1e-9 * double(stamp - start)); }
 
 /// How many of the robot's pixels are not labelled as what they are: the robot itself.
 double wrong_share(const FrameReport& report) {
-  return static_cast<double>(report.pixels.front + report.pixels.beyond + report.pixels.unknown) /
-         static_cast<double>(report.pixels.robot.value());
+  return double(report.pixels.front + report.pixels.beyond + report.pixels.unknown) /
+         double(report.pixels.robot.value());
 }
 
 /// What happens, by the time it does: joint states every 10 ms or so, images every 33 ms.
@@ -37,7 +29,7 @@ struct Events {
 Events make_events(std::int64_t joint_delay, std::mt19937_64& random) {
   Events events;
   for (int i = -5; i < frames * 4; ++i) {
-    const std::int64_t stamp = start + i * 10 * ms + static_cast<std::int64_t>(random() % ms);
+    const std::int64_t stamp = start + i * 10 * ms + std::int64_t(random() % ms);
     events.joints.emplace(stamp + joint_delay, stamp);
   }
   for (int i = 0; i < frames; ++i) {
@@ -54,8 +46,7 @@ class MovingArm : public testing::TestWithParam<PoseSource> {
     const std::string names[] = {"slide"};
     const double positions[] = {latest_};
     history_.add_joints(stamp, names, positions);
-    history_.add_transform(stamp, "base", "slab",
-                           Eigen::Translation3d(0, 0, 1 + latest_) * Eigen::Isometry3d::Identity());
+    history_.add_transform(stamp, "base", "slab", at(0, 0, 1 + latest_));
   }
 
   const FrameReport& process(Frame frame, std::int64_t stamp) {
@@ -93,9 +84,8 @@ class MovingArm : public testing::TestWithParam<PoseSource> {
   }
 
   void judge_latest(std::int64_t stamp) {
-    const std::vector<double> positions = {latest_};
     Frame frame;
-    frame.pose.positions = positions;
+    frame.pose.positions = {latest_};
     const FrameReport& report = process(frame, stamp);
     if (wrong_share(report) > 0.05) ++wrong_by_latest_;
   }
@@ -106,8 +96,7 @@ class MovingArm : public testing::TestWithParam<PoseSource> {
   PoseHistory history_{robot_};
   Image<float> depth_;
   double latest_ = 0;
-  int judged_ = 0;
-  int wrong_by_latest_ = 0;
+  int judged_ = 0, wrong_by_latest_ = 0;
 };
 INSTANTIATE_TEST_SUITE_P(Sources, MovingArm,
                          testing::Values(PoseSource::joints, PoseSource::transforms,

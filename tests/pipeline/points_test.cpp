@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points of depth images: a slanted wall, and the points that a rule leaves of it.
-#include <array>
-#include <cmath>
-#include <set>
+#include "../support/test.hpp"
 
-#include <gtest/gtest.h>
-
-#include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 
 namespace penumbra::test {
@@ -19,29 +14,27 @@ const Camera camera{intrinsics, {}, {}, {}};
 /// From 1 m on the left to 3 m on the right; nothing in the first row.
 DepthImage wall() {
   Image<float> image(width, height);
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u)
-      image(u, v) = v == 0 ? 0.0F : 1.0F + 2.0F * static_cast<float>(u) / width;
+  for (const auto [u, v] : each_pixel(0, 0, width, height))
+    image(u, v) = v == 0 ? 0.0F : 1.0F + 2.0F * float(u) / width;
   return image;
 }
 
-PointCloud points_of(const PointsRule& rule,
-                     const Eigen::Isometry3d& T = Eigen::Isometry3d::Identity()) {
+PointCloud points_of(const PointsRule& rule, const Isometry3d& T = Isometry3d::Identity()) {
   PointCloud cloud;
   CloudMaker maker(camera, rule);
   for (int again = 0; again < 2; ++again) maker.make(wall(), cloud, T);
   return cloud;
 }
 
-std::array<int, 3> cube_of(const Eigen::Vector3f& point, double size) {
+std::array<int, 3> cube_of(const Vector3f& point, double size) {
   const Eigen::Array3d at = (point.cast<double>().array() / size).floor();
-  return {static_cast<int>(at.x()), static_cast<int>(at.y()), static_cast<int>(at.z())};
+  return {int(at.x()), int(at.y()), int(at.z())};
 }
 
 TEST(Points, AreThoseOfAllMeasuredPixels) {
   const PointCloud cloud = points_of({});
-  ASSERT_EQ(cloud.points.size(), static_cast<std::size_t>(width * (height - 1)));
-  EXPECT_EQ(cloud.pixels.front(), static_cast<std::uint32_t>(width));
+  ASSERT_EQ(cloud.points.size(), std::size_t(width * (height - 1)));
+  EXPECT_EQ(cloud.pixels.front(), std::uint32_t(width));
   EXPECT_FLOAT_EQ(cloud.points.front().z(), 1.0F);
   EXPECT_FLOAT_EQ(cloud.points.front().x(), -31.5F / 60.0F);
 }
@@ -64,9 +57,9 @@ TEST(Points, AreNotBeyondTheRange) {
 }
 
 TEST(Points, OfVoxelsAreTheFirstOfEachCube) {
-  Eigen::Isometry3d T(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()));
-  T.translation() = Eigen::Vector3d(-5, 7, 0.3);
-  for (const Eigen::Isometry3d& frame : {Eigen::Isometry3d::Identity(), T})
+  Isometry3d T(AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
+  T.translation() = Vector3d(-5, 7, 0.3);
+  for (const Isometry3d& frame : {Isometry3d::Identity(), T})
     for (const double size : {0.01, 0.1, 5.0}) {
       const PointCloud all = points_of({}, frame), some = points_of({.voxel = size}, frame);
       std::set<std::array<int, 3>> cubes;
@@ -80,7 +73,7 @@ TEST(Points, OfVoxelsAreTheFirstOfEachCube) {
 TEST(Points, AreRefusedForARuleOutOfRange) {
   EXPECT_THROW(CloudMaker(camera, {.stride = 0}), InputError);
   EXPECT_THROW(CloudMaker(camera, {.range = -1.0}), InputError);
-  EXPECT_THROW(CloudMaker(camera, {.voxel = std::nan("")}), InputError);
+  EXPECT_THROW(CloudMaker(camera, {.voxel = nan}), InputError);
   EXPECT_THROW(CloudMaker(camera, {.voxel = 1e-30}), InputError);
 }
 

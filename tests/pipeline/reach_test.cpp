@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The balls that bound where links can be, against random positions of random arms.
-#include "../support/random.hpp"
-
-#include <algorithm>
-#include <array>
-#include <iostream>
-#include <sstream>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "../support/test.hpp"
 
 #include <penumbra/poses/reach-inl.hpp>
 
@@ -49,7 +40,7 @@ TEST(Reach, HoldsAllVerticesAtAnyPosition) {
     const Robot robot = Robot::parse(random_arm(random), ".");
     const std::vector<Ball> reach = reach_of_links(robot);
     std::vector<double> positions(robot.variables().size());
-    std::vector<Eigen::Isometry3d> poses(robot.links().size());
+    std::vector<Isometry3d> poses(robot.links().size());
     for (int sample = 0; sample < 300; ++sample) {
       for (const Joint& joint : robot.joints())
         if (joint.variable)
@@ -60,7 +51,7 @@ TEST(Reach, HoldsAllVerticesAtAnyPosition) {
       robot.forward_kinematics(positions, poses);
       for (std::size_t link = 0; link < poses.size(); ++link)
         for (const PreparedMesh& mesh : robot.meshes(link))
-          for (const Eigen::Vector3f& vertex : mesh.vertices) {
+          for (const Vector3f& vertex : mesh.vertices) {
             const double distance = (poses[link] * vertex.cast<double>() - reach[0].centre).norm();
             ASSERT_LE(distance, reach[0].radius + rounding) << robot.links()[link];
             fullest = std::max(fullest, distance / reach[0].radius);

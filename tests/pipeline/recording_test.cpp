@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
-#include <string>
-#include <utility>
-
-#include <gtest/gtest.h>
-#include <tests/support/data.hpp>
+#include "../support/data.hpp"
+#include "../support/test.hpp"
 
 #include <penumbra/pipeline/pipeline.hpp>
 
@@ -21,17 +17,13 @@ constexpr double least_mean = 0.925;
 constexpr double least_each = 0.90;  // its worst frame has 0.906
 
 double intersection_over_union(ImageView<const float> depth, ImageView<const std::uint8_t> mask) {
-  std::size_t both = 0;
-  std::size_t either = 0;
-  for (int v = 0; v < depth.height; ++v) {
-    for (int u = 0; u < depth.width; ++u) {
-      const bool drawn = depth(u, v) > 0.0F;
-      const bool masked = mask(u, v) > 0;
-      both += drawn && masked ? 1 : 0;
-      either += drawn || masked ? 1 : 0;
-    }
+  std::size_t both = 0, either = 0;
+  for (const auto [u, v] : each_pixel(depth)) {
+    const bool drawn = depth(u, v) > 0.0F, masked = mask(u, v) > 0;
+    both += drawn && masked ? 1 : 0;
+    either += drawn || masked ? 1 : 0;
   }
-  return either == 0 ? 0.0 : static_cast<double>(both) / static_cast<double>(either);
+  return either == 0 ? 0.0 : double(both) / double(either);
 }
 
 TEST(XArm7Recording, RobotStandsWhereTheMasksSayItDoes) {
@@ -51,13 +43,13 @@ TEST(XArm7Recording, RobotStandsWhereTheMasksSayItDoes) {
     io::read_png(folder / ("robot_mask_" + std::to_string(reader.index(i)) + ".png"), mask)
         .require();
     const double iou = intersection_over_union(report.virtual_depth.depth, mask.view());
-    const auto robot_pixels = static_cast<double>(report.pixels.robot.value());
+    const auto robot_pixels = double(report.pixels.robot.value());
     std::printf(
         "frame %zu: IoU %.4f, front %.3f %%, occluded %.2f %%, unknown %.2f %%, beyond %.2f %%\n",
-        i, iou, 100.0 * static_cast<double>(report.pixels.front) / robot_pixels,
-        100.0 * static_cast<double>(report.pixels.occluded) / robot_pixels,
-        100.0 * static_cast<double>(report.pixels.unknown) / robot_pixels,
-        100.0 * static_cast<double>(report.pixels.beyond) / robot_pixels);
+        i, iou, 100.0 * double(report.pixels.front) / robot_pixels,
+        100.0 * double(report.pixels.occluded) / robot_pixels,
+        100.0 * double(report.pixels.unknown) / robot_pixels,
+        100.0 * double(report.pixels.beyond) / robot_pixels);
     EXPECT_GE(iou, least_each) << "frame " << i;
     sum += iou;
   }

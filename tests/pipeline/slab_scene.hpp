@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "../support/nanoseconds.hpp"
-
-#include <string>
-#include <vector>
-
-#include <Eigen/Core>
+#include "../robot/urdf_text.hpp"
+#include "../support/test.hpp"
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
@@ -23,16 +19,40 @@ inline constexpr double wall_depth = 3.0;   // of what stands behind everything,
 /// Metres at 1 m: float32 and the renderer's own formula.
 inline constexpr double depth_tolerance = 1e-5;
 
-inline constexpr auto unknown_label = static_cast<std::uint8_t>(Label::unknown);
+inline constexpr auto unknown_label = std::uint8_t(Label::unknown);
 
-[[nodiscard]] std::string slab_urdf(const std::string& more = {});
-[[nodiscard]] Robot slab_robot();
+inline std::string slab_urdf(const std::string& more = {}) {
+  return robot_xml(
+      link_xml("base") + link_xml("slab", box_xml("0.4 0.2 0.1")) +
+          joint_xml("slide", "prismatic", "base", "slab",
+                    R"(<origin xyz="0 0 1"/><axis xyz="0 0 1"/>
+                                    <limit lower="-1" upper="1" effort="1" velocity="1"/>)") +
+          link_xml("plate", box_xml("0.2 0.2 0.1")) +
+          joint_xml("hold", "fixed", "base", "plate", R"(<origin xyz="0.5 0.1 1.5"/>)") + more,
+      "slabs");
+}
+inline Robot slab_robot() { return parse(slab_urdf()); }
+
+/// With another link, "lost", that is fixed to the root.
+inline Robot slab_robot_without_mesh() {
+  const std::string lost = link_xml("lost", collision_xml("<mesh filename=\"nowhere.stl\"/>")) +
+                           joint_xml("weld", "fixed", "base", "lost");
+  return parse(slab_urdf(lost), {.allow_missing_meshes = true});
+}
 
 /// Its principal point is off the centre, and no box edge meets a pixel centre.
-[[nodiscard]] Camera slab_camera();
+inline Camera slab_camera() {
+  return {Intrinsics(161, 121, 120.3, 118.7, 73.21, 57.43), {}, {}, {}};
+}
 
 /// Nothing but the tolerance: 0.02 m everywhere, no clean-up.
-[[nodiscard]] PipelineConfig plain_config(Backend backend = Backend::cpu);
+inline PipelineConfig plain_config(Backend backend = Backend::cpu) {
+  PipelineConfig config;
+  config.backend = backend;
+  config.rule.tolerance = {0.02, 0.0, 0.0};
+  config.rule.front_min_width = 0;
+  return config;
+}
 
 struct Seen {
   double depth = 0.0;  ///< metres; 0: no robot
@@ -41,19 +61,73 @@ struct Seen {
 
 /// Another box of the scene, with axes along the root's.
 struct SlabBox {
-  Eigen::Vector3d centre, size;  ///< metres, in the root's frame
-  int link = 0;                  ///< link image value
+  Vector3d centre, size;  ///< metres, in the root's frame
+  int link = 0;           ///< link image value
 };
 
 /// What the ray from the root's origin meets first, by intersecting boxes.
-[[nodiscard]] Seen cast(const Eigen::Vector3d& ray, double slide,
-                        const std::vector<SlabBox>& more = {});
+inline Seen cast(const Vector3d& ray, double slide, const std::vector<SlabBox>& more = {}) {
+  std::vector<SlabBox> boxes = more;
+  boxes.push_back({{0.0, 0.0, 1.0 + slide}, {0.4, 0.2, 0.1}, 2});
+  boxes.push_back({{0.5, 0.1, 1.5}, {0.2, 0.2, 0.1}, 3});
+  Seen seen;
+  for (const auto& [centre, size, link] : boxes) {
+    const double depth = enter_box(-centre, ray / ray.z(), size / 2).value_or(0.0);
+    if (depth > 0.0 && (seen.depth == 0.0 || depth < seen.depth)) seen = {depth, link};
+  }
+  return seen;
+}
 
 /// Metres: the robot itself, and the wall where it is not.
-[[nodiscard]] Image<float> scene_depth(const Camera& camera, double slide,
-                                       const std::vector<SlabBox>& more = {});
+inline Image<float> scene_depth(const Camera& camera, double slide,
+                                const std::vector<SlabBox>& more = {}) {
+  const Intrinsics& k = camera.intrinsics;
+  Image<float> depth(k.width(), k.height());
+  for (const auto [u, v] : each_pixel(k)) {
+    const Seen seen = cast(k.ray(u, v), slide, more);
+    depth(u, v) = float(seen.depth > 0.0 ? seen.depth : wall_depth);
+  }
+  return depth;
+}
 
-[[nodiscard]] Image<std::uint16_t> to_millimetres(const Image<float>& metres);
+/// A frame with the slab at `slide`. The depth image must outlive it.
+inline Frame frame_of(const Image<float>& depth, double slide = 0.0,
+                      std::vector<Target> targets = {}, std::vector<AttachedBody> attached = {}) {
+  return {.depth = depth.view(),
+          .pose = {.positions = {slide}, .attached = std::move(attached)},
+          .targets = std::move(targets)};
+}
+
+inline Image<std::uint16_t> to_millimetres(const Image<float>& metres) {
+  Image<std::uint16_t> image(metres.width(), metres.height());
+  std::transform(metres.data(), metres.data() + metres.size(), image.data(),
+                 [](float z) { return std::uint16_t(std::lround(z * 1000.0F)); });
+  return image;
+}
+
+/// Expects every pixel to show what `cast` says of its ray.
+template <typename Cast>
+void expect_drawn(const VirtualDepthView& drawn, Cast&& cast_ray) {
+  const Intrinsics k = slab_camera().intrinsics;
+  ASSERT_EQ(drawn.depth.width, k.width());
+  for (const auto [u, v] : each_pixel(k)) {
+    const Seen seen = cast_ray(k.ray(u, v));
+    ASSERT_NEAR(drawn.depth(u, v), seen.depth, depth_tolerance) << u << ',' << v;
+    ASSERT_EQ(drawn.links(u, v), seen.link) << u << ',' << v;
+  }
+}
+
+inline Target region(const char* name, const Region& shape) {
+  return {.name = name, .shape = RegionTarget{shape}};
+}
+
+/// The verdicts on a frame's targets, in their order.
+inline void expect_verdicts(const FrameReport& report, std::initializer_list<Verdict> expected) {
+  ASSERT_EQ(report.targets.size(), expected.size());
+  const Verdict* verdict = expected.begin();
+  for (const TargetReport& target : report.targets)
+    EXPECT_EQ(target.verdict, *verdict++) << target.name << ": " << target.reason;
+}
 
 /// A copy of a view.
 template <typename T>

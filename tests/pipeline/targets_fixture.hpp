@@ -3,13 +3,6 @@
 
 #include "slab_scene.hpp"
 
-#include <span>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include <penumbra/pipeline/pipeline.hpp>
-
 namespace penumbra::test {
 
 /// The slab's near face spans u 48..98, v 45..69 at slide 0, u 37..110 at slide -0.3; the wall
@@ -40,9 +33,5 @@ class TargetsTest : public testing::Test {
   std::vector<double> positions_{0.0};
   Pipeline pipeline_;
 };
-
-inline Target region(const char* name, const Region& shape) {
-  return {.name = name, .shape = RegionTarget{shape}};
-}
 
 }  // namespace penumbra::test

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Targets where the sensor measures nothing, or where a link is not drawn.
+// Targets where the sensor measures nothing, or in or near links that are not drawn.
 #include "targets_fixture.hpp"
-
-#include <utility>
-
-#include <gtest/gtest.h>
-
-#include <penumbra/pipeline/pipeline.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -20,91 +14,116 @@ class TargetsWithinARange : public TargetsTest {
   }
 };
 
+Target box_at(double depth, double depth_margin) {
+  return {.name = "box",
+          .shape = BoxTarget{at(depth * slab_camera().intrinsics.ray(20, 85)), {0.1, 0.1, 0.1}, {}},
+          .depth_margin = depth_margin,
+          .handling = PoseTrackerConfig{}};
+}
+
 /// The wall behind it is out of range.
 TEST_F(TargetsWithinARange, ThinAirIsNotVisibleAndItsPoseNotTaken) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = 1.3 * slab_camera().intrinsics.ray(20, 85);
-  const Target air{.name = "air",
-                   .shape = BoxTarget{pose, {0.1, 0.1, 0.1}, {}},
-                   .depth_margin = 0.02,
-                   .handling = PoseTrackerConfig{}};
-  const TargetReport& report = judge(1 * ms, air);
+  const TargetReport& report = judge(1 * ms, box_at(1.3, 0.02));
   EXPECT_EQ(report.verdict, Verdict::unknown);
   EXPECT_EQ(report.judgement->measured, 0.0);
-  EXPECT_NE(report.reason.find("hardly anything is measured"), std::string_view::npos)
-      << report.reason;
-  EXPECT_EQ(report.estimate, penumbra::Outcome::refused_verdict);
+  EXPECT_TRUE(holds(report.reason, "measured"));
+  EXPECT_EQ(report.estimate, Outcome::refused_verdict);
   EXPECT_EQ(report.handled->source, Source::lost);
 }
 
 /// Three of ten pixels of a dark object are holes.
 TEST_F(TargetsWithinARange, AnObjectWithHolesIsVisibleAndItsPoseTaken) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = 1.3 * slab_camera().intrinsics.ray(20, 85);
-  for (int v = 65; v < 105; ++v)
-    for (int u = 0; u < 40; ++u) depth_(u, v) = (u + 3 * v) % 10 < 3 ? 0.0F : 1.25F;
-  const Target box{.name = "box",
-                   .shape = BoxTarget{pose, {0.1, 0.1, 0.1}, {}},
-                   .depth_margin = 0.1,  // its near face is measured
-                   .handling = PoseTrackerConfig{}};
-  const TargetReport& report = judge(1 * ms, box);
+  for (const auto [u, v] : each_pixel(0, 65, 40, 105))
+    depth_(u, v) = (u + 3 * v) % 10 < 3 ? 0.0F : 1.25F;
+  const TargetReport& report = judge(1 * ms, box_at(1.3, 0.1));  // its near face is measured
   EXPECT_EQ(report.verdict, Verdict::visible) << report.reason;
   EXPECT_NEAR(*report.judgement->measured, 0.7, 0.05);
-  EXPECT_EQ(report.estimate, penumbra::Outcome::accepted);
+  EXPECT_EQ(report.estimate, Outcome::accepted);
   EXPECT_EQ(report.handled->source, Source::measured);
   EXPECT_TRUE(report.point);
 }
 
 /// It is not hidden by the robot; what a detector says of it was not seen by the sensor.
 TEST_F(TargetsWithinARange, NoEstimateIsTakenWhereNothingIsMeasured) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation() = 2.9 * slab_camera().intrinsics.ray(20, 85);
-  Target target{.name = "far",
-                .shape = RegionTarget{beside_slab},
-                .handling = PoseTrackerConfig{},
-                .estimate = TargetEstimate{.value = pose, .frame = ReferenceFrame::root()}};
+  Target target = region("far", beside_slab);
+  target.handling = PoseTrackerConfig{};
+  target.estimate = TargetEstimate{.value = at(2.9 * slab_camera().intrinsics.ray(20, 85)),
+                                   .frame = ReferenceFrame::root()};
   const TargetReport far = judge(1 * ms, target);
   EXPECT_EQ(far.verdict, Verdict::visible);
   EXPECT_FALSE(far.point);
-  EXPECT_EQ(far.estimate, penumbra::Outcome::refused_verdict);
+  EXPECT_EQ(far.estimate, Outcome::refused_verdict);
   EXPECT_EQ(far.handled->source, Source::lost);
   target.thresholds.min_measured = 0.0;
-  EXPECT_EQ(judge(2 * ms, target).estimate, penumbra::Outcome::accepted) << "asked for";
+  EXPECT_EQ(judge(2 * ms, target).estimate, Outcome::accepted) << "asked for";
 }
 
-class TargetsWithoutALink : public testing::Test {
- protected:
-  Robot robot = Robot::parse(
-      slab_urdf(R"(<link name="gone"><collision><geometry><mesh filename="gone.stl"/></geometry>
-                   </collision></link>
-                   <joint name="weld" type="fixed"><parent link="base"/><child link="gone"/>
-                   </joint>)"),
-      ".", {.allow_missing_meshes = true});
-  Pipeline pipeline{std::move(robot), slab_camera(), plain_config()};
+TEST(TargetsWithoutALink, AreNeverVisible) {
+  Pipeline pipeline(slab_robot_without_mesh(), slab_camera(), plain_config());
   const Image<float> depth = scene_depth(slab_camera(), 0.0);
-  const std::vector<double> positions{0.0};
-};
-
-TEST_F(TargetsWithoutALink, AreNeverVisible) {
   const PixelBox half_behind{40, 50, 20, 12}, outside{-50, 50, 20, 12};
-  const std::vector<Target> targets{region("clear", beside_slab), region("hidden", behind_slab),
-                                    region("half", half_behind), region("outside", outside)};
-  const FrameReport& report = pipeline.process(
-      {.stamp = 1, .depth = depth.view(), .pose = {.positions = positions}, .targets = targets});
+  const FrameReport& report =
+      pipeline.process(frame_of(depth, 0.0,
+                                {region("clear", beside_slab), region("hidden", behind_slab),
+                                 region("half", half_behind), region("outside", outside)}));
   ASSERT_EQ(report.status, FrameStatus::missing_link);
-  EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
-  EXPECT_NE(report.targets[0].reason.find("'gone'"), std::string_view::npos);
+  using enum Verdict;
+  expect_verdicts(report, {unknown, hidden, unknown, out_of_view});  // half: its rest is not clear
+  for (const std::size_t i : {0U, 2U}) EXPECT_TRUE(holds(report.targets[i].reason, "'lost'"));
   EXPECT_FALSE(report.targets[0].point) << "the link's own body may be there";
   EXPECT_EQ(report.targets[0].judgement->clear, 0.0);
   EXPECT_EQ(report.targets[0].judgement->unknown, 1.0);
-  EXPECT_EQ(report.targets[1].verdict, Verdict::hidden);
-  EXPECT_EQ(report.targets[2].verdict, Verdict::unknown) << "not partial: its rest is not clear";
-  EXPECT_NE(report.targets[2].reason.find("'gone'"), std::string_view::npos);
   const Judgement& half = *report.targets[2].judgement;
   EXPECT_NEAR(half.occluded, 12.0 / 20.0, 1e-9);
   EXPECT_NEAR(half.unknown, 8.0 / 20.0, 1e-9);
   EXPECT_EQ(half.clear + half.front, 0.0);
-  EXPECT_EQ(report.targets[3].verdict, Verdict::out_of_view);
+}
+
+class UncertainLinksTest : public TargetsTest {
+ protected:
+  UncertainLinksTest() : TargetsTest(0.5) {}
+
+  const FrameReport& frame_at(std::int64_t stamp, bool is_uncertain, std::vector<Target> targets) {
+    Frame frame = frame_of(depth_, 0.0, std::move(targets));
+    frame.stamp = stamp;
+    if (is_uncertain) frame.pose.uncertain_links = plate_;
+    frame.pose.uncertain_reason = "two publishers differ";
+    return pipeline_.process(frame);
+  }
+  /// Behind the plate, or before it.
+  static Target point(const char* name, const std::string& link) {
+    return {
+        .name = name,
+        .shape = PointTarget{.position = {0.0, 0.0, 0.3}, .frame = ReferenceFrame::of_link(link)}};
+  }
+
+  const std::vector<std::size_t> plate_ = {*slab_robot().find_link("plate")};
+};
+
+TEST_F(UncertainLinksTest, AreUnknownInThatLinkAlone) {
+  const std::vector<Target> targets = {point("a", "plate"), point("b", "slab"), point("c", "base")};
+  for (const bool is_uncertain : {false, true}) {
+    const FrameReport& report = frame_at(is_uncertain ? 100 * ms : 0, is_uncertain, targets);
+    EXPECT_EQ(report.status, is_uncertain ? FrameStatus::missing_link : FrameStatus::ok);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(report.targets[i].judgement.has_value(), !is_uncertain || i > 0) << i;
+    if (!is_uncertain) continue;
+    EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
+    EXPECT_TRUE(holds(report.targets[0].reason, {"'plate'", "two publishers differ"}));
+  }
+}
+
+TEST_F(UncertainLinksTest, WhatIsNoLinkIsRefused) {
+  const std::size_t count = slab_robot().links().size();
+  const auto process = [&](std::size_t link) {
+    Frame frame = frame_of(depth_);
+    frame.pose.uncertain_links = {plate_[0], link};
+    return pipeline_.process(frame).status;
+  };
+  EXPECT_EQ(process(plate_[0]), FrameStatus::missing_link);
+  for (const std::size_t none : {count, std::size_t{1000000}})
+    expect_refused([&] { process(none); }, {std::to_string(none), "'slabs'"});
+  EXPECT_EQ(process(0), FrameStatus::missing_transform) << "the camera is in the root";
 }
 
 }  // namespace

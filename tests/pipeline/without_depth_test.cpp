@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Verdicts without a depth camera, in a scene whose depth a formula tells.
-#include "../support/random.hpp"
 #include "slab_scene.hpp"
-
-#include <cmath>
-#include <random>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/pipeline/without_robot.hpp>
 #include <penumbra/session/session.hpp>
@@ -28,7 +22,7 @@ PipelineConfig without_depth() {
 /// A box of pixels at a depth, somewhere in the image.
 RegionTarget random_region(std::mt19937_64& random) {
   const auto whole = [&](int low, int high) {
-    return static_cast<double>(std::uniform_int_distribution(low, high)(random));
+    return double(std::uniform_int_distribution(low, high)(random));
   };
   return {.region = PixelBox{whole(0, 140), whole(0, 100), whole(4, 20), whole(4, 20)},
           .extent = Extent::amodal,
@@ -45,7 +39,7 @@ RegionTruth truth_of(const RegionTarget& target, double slide) {
   RegionTruth truth;
   for (double v = box.v; v < std::min(box.v + box.height, double(image.height())); ++v)
     for (double u = box.u; u < std::min(box.u + box.width, double(image.width())); ++u) {
-      const Seen seen = robot_depth_at(static_cast<int>(u), static_cast<int>(v), slide);
+      const Seen seen = robot_depth_at(int(u), int(v), slide);
       ++truth.inside;
       if (seen.link == 0) continue;
       truth.close += std::abs(seen.depth - *target.expected_depth) < clear_of_robot ? 1 : 0;
@@ -63,12 +57,11 @@ TEST(WithoutDepth, VerdictsComeFromTheModel) {
     const RegionTarget region = random_region(random);
     const RegionTruth truth = truth_of(region, slide);
     if (truth.close > 0) continue;
-    Frame frame{.pose = {.positions = {slide}}};
-    frame.targets = {{.name = "region", .shape = region}};
-    const FrameReport& report = session.process(frame);
+    const FrameReport& report = session.process(
+        {.pose = {.positions = {slide}}, .targets = {{.name = "region", .shape = region}}});
     EXPECT_EQ(report.status, FrameStatus::ok);
     const TargetReport& target = report.targets[0];
-    const double share = static_cast<double>(truth.hidden) / truth.inside;
+    const double share = double(truth.hidden) / truth.inside;
     ASSERT_TRUE(target.judgement);
     EXPECT_NEAR(target.judgement->occluded, share, 1e-9);
     EXPECT_FALSE(target.judgement->hidden_by_other);
@@ -85,19 +78,18 @@ TEST(WithoutDepth, VerdictsComeFromTheModel) {
   EXPECT_GT(visible, 20U);
   const std::vector<std::string> lines = session.warnings();
   ASSERT_EQ(lines.size(), 1U);
-  EXPECT_NE(lines[0].find("no depth camera"), std::string::npos);
+  EXPECT_TRUE(holds(lines[0], "no depth camera"));
 }
 
 TEST(WithoutDepth, TheMaskIsTheRobotAndItsPixelsAreUnknown) {
   Pipeline pipeline(slab_robot(), slab_camera(), without_depth());
   const FrameReport& report = pipeline.process({.pose = {.positions = {0.2}}});
   const Image<std::uint8_t> mask = robot_mask(report.virtual_depth);
-  for (int v = 0; v < mask.height(); ++v)
-    for (int u = 0; u < mask.width(); ++u) {
-      const bool is_robot = robot_depth_at(u, v, 0.2).link != 0;
-      ASSERT_EQ(mask(u, v), is_robot ? 255 : 0) << u << ' ' << v;
-      ASSERT_EQ(report.labels(u, v), is_robot ? unknown_label : 0);
-    }
+  for (const auto [u, v] : each_pixel(mask)) {
+    const bool is_robot = robot_depth_at(u, v, 0.2).link != 0;
+    ASSERT_EQ(mask(u, v), is_robot ? 255 : 0) << u << ' ' << v;
+    ASSERT_EQ(report.labels(u, v), is_robot ? unknown_label : 0);
+  }
 }
 
 TEST(WithoutDepth, AnotherRobotIsPaintedWhereItStandsBeforeTheScene) {
@@ -106,19 +98,17 @@ TEST(WithoutDepth, AnotherRobotIsPaintedWhereItStandsBeforeTheScene) {
   const Tolerance tolerance{.a = 0.02, .b = 0.0, .c = 0.0};
   const auto& virtual_depth = report.virtual_depth.depth;
   Image<float> scene(virtual_depth.width, virtual_depth.height);
-  const auto scene_at = [&](int u, int v) {  // behind, a little before, far before, not measured
-    const auto z = static_cast<float>(robot_depth_at(u, v, 0.2).depth);
-    return std::array{z + 0.5F, z - 0.015F, z - 0.03F, 0.0F}.at(static_cast<std::size_t>(u + v) %
-                                                                4);
-  };
-  for (int v = 0; v < scene.height(); ++v)
-    for (int u = 0; u < scene.width(); ++u) scene(u, v) = scene_at(u, v);
+  for (const auto [u, v] : each_pixel(scene)) {
+    const auto z = float(robot_depth_at(u, v, 0.2).depth);
+    // Behind, a little before, far before, not measured.
+    const float kinds[] = {z + 0.5F, z - 0.015F, z - 0.03F, 0.0F};
+    scene(u, v) = kinds[(u + v) % 4];
+  }
   const Image<std::uint8_t> front = front_of(virtual_depth, scene.view(), tolerance);
-  for (int v = 0; v < scene.height(); ++v)
-    for (int u = 0; u < scene.width(); ++u) {
-      const bool is_robot = robot_depth_at(u, v, 0.2).link != 0;
-      ASSERT_EQ(front(u, v), is_robot && (u + v) % 4 != 2 ? 255 : 0) << u << ' ' << v;
-    }
+  for (const auto [u, v] : each_pixel(scene)) {
+    const bool is_robot = robot_depth_at(u, v, 0.2).link != 0;
+    ASSERT_EQ(front(u, v), is_robot && (u + v) % 4 != 2 ? 255 : 0) << u << ' ' << v;
+  }
   EXPECT_THROW((void)front_of(virtual_depth, Image<float>(2, 2).view()), InputError);
 }
 
@@ -130,15 +120,14 @@ TEST(WithoutDepth, ATargetOfUnknownDepthIsUnknownBehindTheRobot) {
         {.name = std::to_string(u),
          .shape = RegionTarget{.region = PixelBox{u, 54, 8, 8}, .extent = Extent::amodal}});
   const FrameReport& report = pipeline.process(frame);
-  EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
+  expect_verdicts(report, {Verdict::unknown, Verdict::visible});
   EXPECT_NE(report.targets[0].reason, "");
-  EXPECT_EQ(report.targets[1].verdict, Verdict::visible);
 }
 
 TEST(WithoutDepth, EstimatesOfWhatTheRobotDoesNotHideAreAccepted) {
   Session session(slab_robot(), slab_camera(), without_depth());
   for (const double u : {5.0, 73.0}) {  // beside the slab, and behind it
-    const Eigen::Vector3d at = 2.0 * slab_camera().intrinsics.ray(u, 57.0);
+    const Vector3d at = 2.0 * slab_camera().intrinsics.ray(u, 57.0);
     Frame frame{.stamp = 1'000'000'000, .pose = {.positions = {0.0}}};
     frame.targets = {{.name = std::to_string(u),
                       .shape = PointTarget{at, 0.03, ReferenceFrame::root()},

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The judges themselves: that they agree with each other, and find every kind of fault.
-#include "agreement.hpp"
-
 #include "brute_force_oracle.hpp"
-#include "random.hpp"
 #include "render_test.hpp"
 #include "shapes.hpp"
 
-#include <random>
-#include <utility>
 #ifdef PENUMBRA_HAS_EMBREE
 #include "embree_oracle.hpp"
 #endif
@@ -20,13 +15,11 @@ class AgreementTest : public ::testing::Test {
  protected:
   AgreementTest() {
     scene_.add(sphere(0.3F, 12), at(0.1, 0.05, 1.5));
-    scene_.add(box({0.4F, 0.1F, 0.1F}),
-               at(-0.1, 0.1, 2.0) * Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()));
+    scene_.add(box({0.4F, 0.1F, 0.1F}), at(-0.1, 0.1, 2.0) * AngleAxisd(0.4, Vector3d::UnitZ()));
     image_ = cast_image(oracle(), small_camera);
     depth_ = Image<float>(small_camera.width(), small_camera.height());
-    for (std::size_t i = 0; i < depth_.size(); ++i) {
-      depth_.data()[i] = static_cast<float>(image_.depth.data()[i]);
-    }
+    for (std::size_t i = 0; i < depth_.size(); ++i)
+      depth_.data()[i] = float(image_.depth.data()[i]);
     links_ = image_.links;
   }
 
@@ -92,9 +85,7 @@ TEST_F(AgreementTest, EmbreeAgreesWithBruteForce) {
     const BruteForceOracle brute(scene.bodies(), scene.poses);
     const OracleImage traced = cast_image(EmbreeOracle(scene.bodies(), scene.poses), small_camera);
     Image<float> depth(small_camera.width(), small_camera.height());
-    for (std::size_t i = 0; i < depth.size(); ++i) {
-      depth.data()[i] = static_cast<float>(traced.depth.data()[i]);
-    }
+    for (std::size_t i = 0; i < depth.size(); ++i) depth.data()[i] = float(traced.depth.data()[i]);
     total += compare({depth.view(), traced.links.view(), nullptr}, brute,
                      cast_image(brute, small_camera), small_camera);
   }

@@ -1,46 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which bodies and meshes are drawn, and that frames do not depend on each other.
-#include "random.hpp"
 #include "render_test.hpp"
-#include "run_length.hpp"
 #include "shapes.hpp"
-
-#include <cmath>
-#include <random>
-
-#include <penumbra/base/error.hpp>
 
 namespace penumbra::test {
 namespace {
 
-using Eigen::Vector3f;
-
-class Bodies : public RenderTest {};
-PENUMBRA_FOR_EACH_BACKEND(Bodies, 2);
+PENUMBRA_RENDER_TEST(Bodies, 2);
 
 TEST_P(Bodies, PiercedBodiesShowTheirInsidesThroughTheirHoles) {
   std::mt19937_64 random = seeded_random(63);
   std::size_t seen_inside = 0;
   for (int round = 0; round < samples(12); ++round) {
     TriangleMesh pierced = sphere(0.3F, 24);
-    const auto victim = static_cast<std::size_t>(random() % pierced.triangles.size());
+    const auto victim = std::size_t(random() % pierced.triangles.size());
     const Vector3f hole = pierced.vertices[pierced.triangles[victim][0]];
-    pierced.triangles.erase(pierced.triangles.begin() + static_cast<std::ptrdiff_t>(victim));
+    pierced.triangles.erase(pierced.triangles.begin() + std::ptrdiff_t(victim));
     if (round % 3 == 0) pierced = mirrored(pierced);
     if (round % 4 == 0) std::swap(pierced.triangles[5][0], pierced.triangles[5][1]);
     // The hole turned towards the camera, more or less; now and then very close to it.
     const Eigen::Quaterniond to_camera =
         turn((round % 3 == 0 ? Vector3f(-hole.x(), hole.y(), hole.z()) : hole).cast<double>(),
-             Eigen::Vector3d(0.1 * round, 0.2, -1.0));
+             Vector3d(0.1 * round, 0.2, -1.0));
     Scene scene;
     scene.add(pierced, at(0.02, -0.03, round % 2 == 0 ? 0.9 : 0.35) * to_camera);
     const Frame frame = render(small_camera, scene);
     expect_agrees_with_brute_force(frame.view(), scene, small_camera);
     const double far_side = scene.poses[0].translation().z();
-    for (int v = 0; v < small_camera.height(); ++v) {
-      for (int u = 0; u < small_camera.width(); ++u)
-        seen_inside += frame.depth(u, v) > far_side ? 1 : 0;
-    }
+    for (const auto [u, v] : each_pixel(small_camera))
+      seen_inside += frame.depth(u, v) > far_side ? 1 : 0;
   }
   EXPECT_GT(seen_inside, sanitized ? 0U : 100U);
 }
@@ -67,17 +55,16 @@ TEST_P(Bodies, SurfacesThatShowTheirBacksFromOutsideAreDrawnWhole) {
 TEST_P(Bodies, MostBodiesThatThereMayBe) {
   Scene scene;
   for (std::size_t i = 0; i < DepthRenderer::max_drawn_bodies; ++i) {
-    const double u = static_cast<double>(i % 40) * 4.0;
+    const double u = double(i % 40) * 4.0;
     const std::size_t row = i / 40;
-    const double v = static_cast<double>(row) * 4.0;
+    const double v = double(row) * 4.0;
     scene.add(image_rectangle(small_camera, u - 1, v - 1, u + 1, v + 1, 1.0 + 0.001 * u));
   }
   const Frame frame = render(small_camera, scene);
-  for (std::size_t i = 0; i < DepthRenderer::max_drawn_bodies; ++i) {
-    EXPECT_EQ(frame.links(4 * static_cast<int>(i % 40), 4 * static_cast<int>(i / 40)), i + 1);
-  }
+  for (std::size_t i = 0; i < DepthRenderer::max_drawn_bodies; ++i)
+    EXPECT_EQ(frame.links(4 * int(i % 40), 4 * int(i / 40)), i + 1);
   scene.add(box({0.1F, 0.1F, 0.1F}));
-  EXPECT_THROW(static_cast<void>(make(GetParam(), small_camera, scene.bodies())), InputError);
+  EXPECT_THROW((void)make(GetParam(), small_camera, scene.bodies()), InputError);
 }
 
 TEST_P(Bodies, BodiesOfNothingTakeNoNumbersFromOthers) {

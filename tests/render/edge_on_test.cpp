@@ -1,66 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 // Faces whose plane passes the camera's centre, and triangles of next to no area.
-#include "random.hpp"
 #include "render_test.hpp"
-#include "run_length.hpp"
 #include "shapes.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <utility>
 
 #include <penumbra/mesh/primitives.hpp>
 
 namespace penumbra::test {
 namespace {
 
-using Eigen::AngleAxisd;
-using Eigen::Isometry3d;
-using Eigen::Vector2d;
-using Eigen::Vector3d;
-using Eigen::Vector3f;
-
-class EdgeOn : public RenderTest {};
-PENUMBRA_FOR_EACH_BACKEND(EdgeOn, 2);
+PENUMBRA_RENDER_TEST(EdgeOn, 2);
 
 /// With a face in the plane of the camera's centre on pixel centres, and between them.
 const std::array<Intrinsics, 3> cameras{Intrinsics(320, 240, 300.0, 300.0, 160.0, 120.0),
                                         Intrinsics(160, 120, 150.0, 155.0, 81.3, 57.9),
                                         Intrinsics(160, 120, 150.0, 150.0, 80.5, 59.5)};
 
-double uniform(std::mt19937_64& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
 /// Whether any of the pixels at most one pixel away, or all of them, show something.
 std::pair<bool, bool> any_and_all_around(const Image<float>& depth, int u, int v) {
-  bool any = false;
-  bool all = true;
-  for (int y = std::max(v - 1, 0); y <= std::min(v + 1, depth.height() - 1); ++y) {
-    for (int x = std::max(u - 1, 0); x <= std::min(u + 1, depth.width() - 1); ++x) {
+  bool any = false, all = true;
+  for (int y = std::max(v - 1, 0); y <= std::min(v + 1, depth.height() - 1); ++y)
+    for (int x = std::max(u - 1, 0); x <= std::min(u + 1, depth.width() - 1); ++x)
       (depth(x, y) > 0.0F ? any : all) = depth(x, y) > 0.0F;
-    }
-  }
   return {any, all};
 }
 
 /// The least and largest depth of the scene's corners, with the renderers' tolerance.
 std::pair<double, double> depth_range(const Scene& scene) {
-  double low = std::numeric_limits<double>::infinity();
+  double low = inf;
   double high = -low;
   const std::vector<Body> bodies = scene.bodies();
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    for (const TriangleMesh& mesh : bodies[i].meshes) {
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (const TriangleMesh& mesh : bodies[i].meshes)
       for (const Vector3f& vertex : mesh.vertices) {
         const double z = (scene.poses[i] * vertex.cast<double>()).z();
         low = std::min(low, z);
         high = std::max(high, z);
       }
-    }
-  }
   return {std::max(low, DepthRenderer::near_plane) * (1.0 - interior_tolerance),
           high * (1.0 + interior_tolerance)};
 }
@@ -68,7 +43,7 @@ std::pair<double, double> depth_range(const Scene& scene) {
 /// Pixels whose depth is none that the scene has.
 std::size_t impossible_depths(const Frame& frame, const Scene& scene) {
   const auto [low, high] = depth_range(scene);
-  return static_cast<std::size_t>(std::count_if(
+  return std::size_t(std::count_if(
       frame.depth.data(), frame.depth.data() + frame.depth.size(),
       [low = low, high = high](float z) { return z != 0.0F && !(z >= low && z <= high); }));
 }
@@ -79,15 +54,12 @@ std::size_t impossible_depths(const Frame& frame, const Scene& scene) {
 void expect_like_reference(const Frame& frame, const Scene& scene, const Intrinsics& camera) {
   const Frame reference(
       make({Backend::reference, "", 1}, camera, scene.bodies())->render(scene.poses));
-  std::size_t beyond = 0;
-  std::size_t missing = 0;
-  for (int v = 0; v < camera.height(); ++v) {
-    for (int u = 0; u < camera.width(); ++u) {
-      const auto [any, all] = any_and_all_around(reference.depth, u, v);
-      const bool covered = frame.depth(u, v) > 0.0F;
-      beyond += covered && !any ? 1 : 0;
-      missing += !covered && all ? 1 : 0;
-    }
+  std::size_t beyond = 0, missing = 0;
+  for (const auto [u, v] : each_pixel(camera)) {
+    const auto [any, all] = any_and_all_around(reference.depth, u, v);
+    const bool covered = frame.depth(u, v) > 0.0F;
+    beyond += covered && !any ? 1 : 0;
+    missing += !covered && all ? 1 : 0;
   }
   EXPECT_EQ(beyond, 0U);
   EXPECT_EQ(missing, 0U);
@@ -97,8 +69,7 @@ void expect_like_reference(const Frame& frame, const Scene& scene, const Intrins
 /// A box or a cylinder about the origin, and half of its size along y but for its rounding to
 /// float.
 std::pair<TriangleMesh, double> random_solid(std::mt19937_64& random, bool round) {
-  const double half = uniform(random, 0.05, 0.45);
-  const double across = uniform(random, 0.05, 0.45);
+  const double half = uniform(random, 0.05, 0.45), across = uniform(random, 0.05, 0.45);
   if (!round) {
     const TriangleMesh mesh =
         box(Vector3d(across, half, uniform(random, 0.05, 0.45)).cast<float>());
@@ -126,8 +97,7 @@ TEST_P(EdgeOn, FacesInThePlaneOfTheCamerasCentre) {
     const Vector3d place(uniform(random, -0.3, 0.3), i % 4 < 2 ? half : -half,
                          uniform(random, -0.7, 0.4));
     Scene scene;
-    scene.add(moved(mesh, Isometry3d(Eigen::Translation3d(place))),
-              AngleAxisd(turned, Vector3d::UnitZ()) * at(0, 0, 2));
+    scene.add(moved(mesh, at(place)), AngleAxisd(turned, Vector3d::UnitZ()) * at(0, 0, 2));
     const Intrinsics& camera = cameras[random() % cameras.size()];
     SCOPED_TRACE(::testing::Message() << "scene " << i << ", cx " << camera.cx());
     expect_like_reference(render(camera, scene), scene, camera);
@@ -135,12 +105,11 @@ TEST_P(EdgeOn, FacesInThePlaneOfTheCamerasCentre) {
 }
 
 TEST_P(EdgeOn, SpheresSmallerThanAPixel) {
-  for (const Intrinsics& camera : cameras) {
-    for (const float radius : {1e-9F, 1e-8F, 1e-7F, 1e-6F, 1e-5F, 1e-4F, 1e-3F}) {
+  for (const Intrinsics& camera : cameras)
+    for (const float radius : {1e-9F, 1e-8F, 1e-7F, 1e-6F, 1e-5F, 1e-4F, 1e-3F})
       for (const double shift : {0.0, 0.3}) {
         Scene scene;
-        scene.add(sphere(radius, 12),
-                  Isometry3d(Eigen::Translation3d(camera.ray(70 + shift, 50) * 2.0)));
+        scene.add(sphere(radius, 12), at(camera.ray(70 + shift, 50) * 2.0));
         const Frame frame = render(camera, scene);
         EXPECT_LE(frame.covered(), 1U) << radius;
         EXPECT_EQ(impossible_depths(frame, scene), 0U) << radius;
@@ -150,8 +119,6 @@ TEST_P(EdgeOn, SpheresSmallerThanAPixel) {
           EXPECT_EQ(frame.covered(), 1U) << radius;
         }
       }
-    }
-  }
 }
 
 /// A triangle in the image, with its corners' depths.
@@ -161,9 +128,8 @@ struct ImageTriangle {
   [[nodiscard]] double distance(const Intrinsics& camera, const Vector2d& p) const {
     std::array<Vector2d, 3> q;
     for (std::size_t i = 0; i < 3; ++i) q[i] = camera.project(corners[i]);
-    double nearest = std::numeric_limits<double>::infinity();
-    int left = 0;
-    int right = 0;
+    double nearest = inf;
+    int left = 0, right = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vector2d edge = q[(i + 1) % 3] - q[i];
       const Vector2d to = p - q[i];
@@ -221,12 +187,10 @@ TEST_P(EdgeOn, RandomTrianglesStayOnTheirLines) {
     SCOPED_TRACE(::testing::Message() << "triangle " << i);
     EXPECT_EQ(impossible_depths(frame, scene), 0U);
     std::size_t astray = 0;
-    for (int v = 0; v < camera.height(); ++v) {
-      for (int u = 0; u < camera.width(); ++u) {
-        if (frame.depth(u, v) == 0.0F) continue;
-        ++drawn;
-        astray += triangle_of.distance(camera, Vector2d(u, v)) > reach ? 1 : 0;
-      }
+    for (const auto [u, v] : each_pixel(camera)) {
+      if (frame.depth(u, v) == 0.0F) continue;
+      ++drawn;
+      astray += triangle_of.distance(camera, Vector2d(u, v)) > reach ? 1 : 0;
     }
     EXPECT_EQ(astray, 0U);
   }
@@ -242,15 +206,13 @@ TEST_P(EdgeOn, SolidsOfSliversTurnedAboutTheCamera) {
     const Vector3d place(uniform(random, -0.2, 0.2), half, uniform(random, 1.2, 2.0));
     const Vector3d axis(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
     Scene scene;
-    scene.add(mesh, AngleAxisd(uniform(random, -0.3, 0.3), axis.normalized()) *
-                        Isometry3d(Eigen::Translation3d(place)));
+    scene.add(mesh, AngleAxisd(uniform(random, -0.3, 0.3), axis.normalized()) * at(place));
     const Intrinsics& camera = cameras[random() % cameras.size()];
     SCOPED_TRACE(::testing::Message() << "scene " << i);
     const Frame frame = render(camera, scene);
     expect_like_reference(frame, scene, camera);
-    if (GetParam().backend == Backend::cpu) {
+    if (GetParam().backend == Backend::cpu)
       expect_agrees_with_brute_force(frame.view(), scene, camera);
-    }
   }
 }
 

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Machines on which parts of OpenGL are missing, as a process of their own sees them.
+#include "../support/test.hpp"
 #include "opengl.hpp"
-
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
@@ -26,7 +18,7 @@ class GlEnvironment : public ::testing::Test {
         "env -u DISPLAY -u WAYLAND_DISPLAY " + settings + " '" PENUMBRA_GL_PROBE "' 2>/dev/null";
     FILE* const pipe = popen(command.c_str(), "r");
     std::string text;
-    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += char(c);
     EXPECT_EQ(pclose(pipe), 0) << command << '\n' << text;
     return text;
   }
@@ -38,8 +30,8 @@ class GlEnvironment : public ::testing::Test {
       const std::size_t start = text.find(who);
       ASSERT_NE(start, std::string::npos) << settings << '\n' << text;
       const std::string line = text.substr(start, text.find('\n', start) - start);
-      EXPECT_NE(line.find(words), std::string::npos) << settings << '\n' << text;
-      EXPECT_NE(line.find("libegl-mesa0"), std::string::npos) << settings << '\n' << text;
+      EXPECT_TRUE(holds(line, words));
+      EXPECT_TRUE(holds(line, "libegl-mesa0"));
     }
   }
 };
@@ -62,9 +54,7 @@ class BrokenLibraries {
   std::filesystem::path folder_;
 };
 
-TEST_F(GlEnvironment, DrawsWithoutADisplay) {
-  EXPECT_NE(probe("").find("drawn: 2\n"), std::string::npos);
-}
+TEST_F(GlEnvironment, DrawsWithoutADisplay) { EXPECT_TRUE(holds(probe(""), "drawn: 2\n")); }
 
 TEST_F(GlEnvironment, WithoutEgl) {
   const BrokenLibraries broken({"libEGL.so.1"});
@@ -79,8 +69,8 @@ TEST_F(GlEnvironment, OlderOpenGlIsRefused) {
   // Mesa's own switch; the vendors of GPUs have none.
   const std::string text = probe("MESA_GL_VERSION_OVERRIDE=3.3");
   if (text.find("Mesa") == std::string::npos) GTEST_SKIP() << "skipped: not Mesa";
-  EXPECT_NE(text.find("refused: renderer 'gl': OpenGL 4.5 is needed"), std::string::npos) << text;
-  EXPECT_NE(text.find("fault: renderer 'gl': OpenGL 4.5 is needed"), std::string::npos) << text;
+  EXPECT_TRUE(holds(text, "refused: renderer 'gl': OpenGL 4.5 is needed"));
+  EXPECT_TRUE(holds(text, "fault: renderer 'gl': OpenGL 4.5 is needed"));
 }
 
 }  // namespace

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What only the OpenGL renderer has: devices, contexts, the rectangle that it reads back.
-#include "errors.hpp"
-#include "random.hpp"
 #include "render_test.hpp"
 #include "shapes.hpp"
 
-#include <random>
 #include <thread>
 
 #include <penumbra/render/gl/egl_context.hpp>
@@ -40,8 +37,8 @@ TEST_F(Gl, DevicesTellTheirNames) {
     EXPECT_FALSE(device.name.empty());
     EXPECT_FALSE(device.vendor.empty());
     EXPECT_EQ(device.software, device.name.find("llvmpipe") != std::string::npos) << device.name;
-    const auto renderer = make_depth_renderer(Backend::gl, camera, scene_.bodies(),
-                                              {.gl_device = static_cast<int>(i)});
+    const auto renderer =
+        make_depth_renderer(Backend::gl, camera, scene_.bodies(), {.gl_device = int(i)});
     EXPECT_EQ(renderer->info().device, device.name + ", OpenGL " + device.version);
     EXPECT_EQ(renderer->info().backend, Backend::gl);
     EXPECT_GT(Frame(renderer->render(scene_.poses)).covered(), 0U);
@@ -53,7 +50,7 @@ TEST_F(Gl, DevicesThatDoNotExistAreRefused) {
   const auto made_with = [&](int device) {
     return [=] { (void)make_depth_renderer(Backend::gl, camera, {}, {.gl_device = device}); };
   };
-  expect_refused(made_with(static_cast<int>(count)), {"no device " + std::to_string(count)});
+  expect_refused(made_with(int(count)), {"no device " + std::to_string(count)});
   expect_refused(made_with(-2), {"-2"});
 }
 
@@ -65,7 +62,7 @@ TEST_F(Gl, OnlyTheRobotsRectangleIsTouched) {
   expect_consistent(view, camera, 1);
   std::size_t pixels = 0;
   view.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
-    pixels += static_cast<std::size_t>(u1 - u0) * static_cast<std::size_t>(v1 - v0);
+    pixels += std::size_t(u1 - u0) * std::size_t(v1 - v0);
   });
   EXPECT_GT(Frame(view).covered(), 800U);
   EXPECT_LT(pixels, 8000U);  // of 76800
@@ -76,18 +73,17 @@ TEST_F(Gl, RectanglesLeaveNothingOut) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::size_t tight = 0;
   for (int round = 0; round < 500; ++round) {
-    const Eigen::AlignedBox3d bounds(Eigen::Vector3d(-0.1, -0.2 * unit(random), -0.1),
-                                     Eigen::Vector3d(0.1, 0.1, 0.3 * unit(random)));
-    const Eigen::Isometry3d pose = random_pose(random, {-1, -1, -0.4}, {1, 1, 1.5});
+    const Eigen::AlignedBox3d bounds(Vector3d(-0.1, -0.2 * unit(random), -0.1),
+                                     Vector3d(0.1, 0.1, 0.3 * unit(random)));
+    const Isometry3d pose = random_pose(random, {-1, -1, -0.4}, {1, 1, 1.5});
     const PixelRectangle seen = pixels_of(bounds, pose, camera);
     tight += seen.width() < camera.width() ? 1 : 0;
     for (int i = 0; i < 200; ++i) {
-      const double x = unit(random);
-      const double y = unit(random);
-      const Eigen::Vector3d share(x, y, unit(random));
-      const Eigen::Vector3d p = pose * (bounds.min() + share.cwiseProduct(bounds.sizes()));
+      const double x = unit(random), y = unit(random);
+      const Vector3d share(x, y, unit(random));
+      const Vector3d p = pose * (bounds.min() + share.cwiseProduct(bounds.sizes()));
       if (p.z() < DepthRenderer::near_plane) continue;
-      const Eigen::Vector2d pixel = camera.project(p).array().round();
+      const Vector2d pixel = camera.project(p).array().round();
       const bool in_image = pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < camera.width() &&
                             pixel.y() < camera.height();
       if (!in_image) continue;

@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // What passes through, behind and around the camera.
-#include "random.hpp"
+#include "../support/test.hpp"
 #include "render_test.hpp"
-#include "run_length.hpp"
+#include "scene.hpp"
 #include "shapes.hpp"
 
-#include <cmath>
-#include <random>
+#include <penumbra/render/near_plane_check.hpp>
 
 namespace penumbra::test {
 namespace {
 
-using Eigen::Vector3d;
-using Eigen::Vector3f;
-
-class NearPlane : public RenderTest {};
-PENUMBRA_FOR_EACH_BACKEND(NearPlane, 2);
+PENUMBRA_RENDER_TEST(NearPlane, 2);
 
 TEST_P(NearPlane, NothingNearerThanTheNearPlane) {
   for (const double z : {-1.0, 0.0, 0.005, 0.00999}) {
@@ -35,12 +30,10 @@ TEST_P(NearPlane, ClosedBodiesGrazedByTheNearPlane) {
   std::normal_distribution<double> normal;
   for (int round = 0; round < samples(30); ++round) {
     Scene scene;
-    const double radius = 0.15;
-    const double x = normal(random);
-    const double y = normal(random);
+    const double radius = 0.15, x = normal(random), y = normal(random);
     const Vector3d side = Vector3d(x, y, std::abs(normal(random)) + 0.3).normalized();
     const Vector3d centre = side * (radius + gap(random));
-    scene.add(sphere(static_cast<float>(radius), 10), random_pose(random, centre, centre));
+    scene.add(sphere(float(radius), 10), random_pose(random, centre, centre));
     expect_agrees_with_brute_force(render(near_camera, scene).view(), scene, near_camera);
   }
 }
@@ -58,6 +51,154 @@ TEST_P(NearPlane, RandomScenesAllAroundTheCamera) {
     total += expect_agrees_with_brute_force(render(near_camera, scene).view(), scene, near_camera);
   }
   std::cout << total << '\n';
+}
+
+using Found = std::vector<std::size_t>;
+
+/// `side` metres wide and high.
+TriangleMesh plate(float side) {
+  const float h = side / 2;
+  return quad({-h, -h, 0}, {-h, h, 0}, {h, h, 0}, {h, -h, 0});
+}
+
+Found found(NearPlaneCheck& check, const Scene& scene) {
+  const auto links = check.find(scene.poses);
+  return {links.begin(), links.end()};
+}
+
+TEST(NearPlaneCheck, FindsWhatLiesBetweenTheCameraAndTheNearPlane) {
+  Scene scene;
+  scene.add(plate(1.0F), at(0, 0, 0.005));
+  scene.add(plate(1.0F), at(0, 0, 2.0));
+  scene.add(plate(1.0F), at(0, 0, -0.005));
+  scene.add(plate(0.001F), at(0.001, 0.001, 0.005));
+  scene.add(plate(0.001F), at(0.02, 0.0, 0.005));  // beside the image
+  scene.add(TriangleMesh{});
+  const auto bodies = scene.bodies();
+  NearPlaneCheck check(near_camera, bodies);
+  EXPECT_EQ(found(check, scene), (Found{0, 3}));
+  scene.poses[0] = at(0, 0, 0.01);  // drawn
+  scene.poses[1] = at(0, 0, 0.0099);
+  scene.poses[3] = at(0, 0, 0.5);
+  EXPECT_EQ(found(check, scene), Found{1});
+  scene.poses[1] = at(0, 0, 2.0);
+  EXPECT_EQ(found(check, scene), Found{});
+}
+
+/// How far a point is inside of the pyramid between camera and near plane; negative: outside.
+double depth_in_pyramid(const Vector3d& p) {
+  const double u_low = p.x() * near_camera.fx() + (near_camera.cx() + 0.5) * p.z();
+  const double u_high =
+      (near_camera.width() - 0.5 - near_camera.cx()) * p.z() - p.x() * near_camera.fx();
+  const double v_low = p.y() * near_camera.fy() + (near_camera.cy() + 0.5) * p.z();
+  const double v_high =
+      (near_camera.height() - 0.5 - near_camera.cy()) * p.z() - p.y() * near_camera.fy();
+  // Distances to the sides: each is a length times about this number of pixels.
+  const double pixels = 100.0;
+  return std::min({u_low / pixels, u_high / pixels, v_low / pixels, v_high / pixels,
+                   DepthRenderer::near_plane - p.z()});
+}
+
+TEST(NearPlaneCheck, AgreesWithPointsOfRandomTriangles) {
+  std::mt19937_64 random = seeded_random(87);
+  constexpr int steps = 100;
+  constexpr double spacing = 0.0006;  // metres: between points of triangles of up to 6 cm
+  int reached = 0;
+  for (int round = 0; round < samples(1000); ++round) {
+    Scene scene;
+    const TriangleMesh mesh = triangle_soup(random, 1, 0.02F);
+    scene.add(mesh, random_pose(random, {-0.01, -0.01, -0.01}, {0.01, 0.01, 0.03}));
+    double deepest = -1.0;
+    for (int i = 0; i <= steps; ++i)
+      for (int j = 0; i + j <= steps; ++j) {
+        const auto& t = mesh.triangles[0];
+        const Vector3d p =
+            (mesh.vertices[t[0]].cast<double>() * i + mesh.vertices[t[1]].cast<double>() * j +
+             mesh.vertices[t[2]].cast<double>() * (steps - i - j)) /
+            steps;
+        deepest = std::max(deepest, depth_in_pyramid(scene.poses[0] * p));
+      }
+    const auto bodies = scene.bodies();
+    NearPlaneCheck check(near_camera, bodies);
+    const bool answer = !check.find(scene.poses).empty();
+    if (deepest > 1e-7) {
+      EXPECT_TRUE(answer) << round << ' ' << deepest;
+    } else if (deepest < -spacing) {
+      EXPECT_FALSE(answer) << round << ' ' << deepest;
+    }
+    reached += answer ? 1 : 0;
+  }
+  EXPECT_GT(reached, samples(100));
+  EXPECT_LT(reached, samples(900));
+}
+
+TEST(CameraInside, TellsTheFirstBodyThatHoldsTheCamera) {
+  Scene scene;
+  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
+  scene.add(sphere(0.3F, 10), at(0, 0, 0.2));
+  scene.add(box({1.0F, 1.0F, 1.0F}));
+  CameraInsideCheck check(scene.bodies());
+  EXPECT_EQ(check.find(scene.poses), 1U);
+  scene.poses[1] = at(0, 0, 0.5);
+  EXPECT_EQ(check.find(scene.poses), 2U);
+  scene.poses[2] = at(3, 0, 0);
+  EXPECT_EQ(check.find(scene.poses), std::nullopt);
+  scene.poses[1] = at(0, 0, 0.2);
+  EXPECT_EQ(check.find(scene.poses), 1U);
+}
+
+/// A mesh without the triangles that have a corner there.
+TriangleMesh cut(TriangleMesh mesh, const std::function<bool(const Vector3f&)>& there) {
+  std::erase_if(mesh.triangles, [&](const std::array<std::uint32_t, 3>& corners) {
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](std::uint32_t i) { return there(mesh.vertices[i]); });
+  });
+  return mesh;
+}
+
+TEST(CameraInside, AnOpenPieceHoldsWhatItClosesAroundForMoreThanHalf) {
+  // As meshes for the eye are: a cylinder without its ends, a shell that is no body.
+  const TriangleMesh ball = sphere(0.3F, 24);
+  const TriangleMesh most = cut(ball, [](const auto& p) { return p.z() > 0.1F; });
+  const TriangleMesh least = cut(ball, [](const auto& p) { return p.z() > -0.1F; });
+  for (const TriangleMesh& mesh : {most, mirrored(most)}) {
+    Scene scene;
+    scene.add(mesh);
+    EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), 0U);
+    scene.poses[0] = at(0, 0, 0.4);
+    EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), std::nullopt);
+  }
+  Scene scene;
+  scene.add(least);
+  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), std::nullopt)
+      << "a bowl, from above its rim";
+}
+
+TEST(CameraInside, SmallHolesLetNobodyOut) {
+  Scene scene;
+  TriangleMesh pierced = sphere(0.3F, 24);
+  pierced.triangles.erase(pierced.triangles.begin() + 200);
+  scene.add(pierced, at(0.1, 0, 0.1));
+  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), 0U);
+  scene.poses[0] = at(0.1, 0, 0.4);
+  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), std::nullopt);
+}
+
+TEST(CameraInside, AgreesWithTheFormulaOfABox) {
+  std::mt19937_64 random = seeded_random(91);
+  Scene scene;
+  const Vector3d half(0.3, 0.2, 0.1);
+  scene.add(box(half.cast<float>()));
+  CameraInsideCheck check(scene.bodies());
+  int inside_count = 0;
+  for (int round = 0; round < 400; ++round) {
+    scene.poses[0] = random_pose(random, {-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3});
+    const Vector3d camera = scene.poses[0].inverse() * Vector3d::Zero();
+    const bool inside = (camera.cwiseAbs() - half).maxCoeff() < 0.0;
+    inside_count += inside ? 1 : 0;
+    EXPECT_EQ(check.find(scene.poses).has_value(), inside) << round;
+  }
+  EXPECT_GT(inside_count, 20);
 }
 
 }  // namespace

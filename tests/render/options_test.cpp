@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choosing a backend, a SIMD target and threads.
-#include "errors.hpp"
-#include "random.hpp"
 #include "render_test.hpp"
 #include "shapes.hpp"
 
-#include <algorithm>
-#include <random>
 #include <thread>
-#include <vector>
 
 #include <penumbra/base/simd_target.hpp>
 
@@ -31,9 +26,7 @@ Scene crowded_scene() {
 }
 
 TEST(RendererOptions, UnknownIsaIsRefusedWithTheListOfThoseThatAre) {
-  const std::string message = message_of([] {
-    static_cast<void>(make({Backend::cpu, "MMX", 1}, camera, {}));
-  });
+  const std::string message = message_of([] { (void)make({Backend::cpu, "MMX", 1}, camera, {}); });
   EXPECT_TRUE(holds(message, "MMX"));
   for (const std::string& isa : simd_target_names()) EXPECT_TRUE(holds(message, isa));
   EXPECT_EQ(make({Backend::cpu, "", 1}, camera, {})->info().isa, simd_target_names().front());
@@ -44,17 +37,13 @@ TEST(Threads, AnyNumberGivesTheSameBits) {
   Scene scene = crowded_scene();
   for (const std::string& isa : simd_target_names()) {
     std::vector<std::unique_ptr<DepthRenderer>> renderers;
-    for (int threads = 1; threads <= most_threads; ++threads) {
+    for (int threads = 1; threads <= most_threads; ++threads)
       renderers.push_back(make({Backend::cpu, isa, threads}, camera, scene.bodies()));
-    }
     for (int round = 0; round < 10; ++round) {
-      for (auto& pose : scene.poses) {
-        pose = random_pose(random, {-0.5, -0.3, 0.3}, {0.5, 0.3, 1.5});
-      }
+      for (auto& pose : scene.poses) pose = random_pose(random, {-0.5, -0.3, 0.3}, {0.5, 0.3, 1.5});
       const VirtualDepthView expected = renderers.front()->render(scene.poses);
-      for (std::size_t i = 1; i < renderers.size(); ++i) {
+      for (std::size_t i = 1; i < renderers.size(); ++i)
         expect_same_bits(renderers[i]->render(scene.poses), expected);
-      }
     }
   }
 }
@@ -74,13 +63,13 @@ TEST(Hiding, ChangesNoPixel) {
   // A long floor that begins near the camera is drawn first; little of it hides what is on it.
   Scene scene;
   const auto floor = [] {
-    Eigen::Isometry3d pose = at(0, 0, 1.5);
-    pose.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitX()));
+    Isometry3d pose = at(0, 0, 1.5);
+    pose.rotate(AngleAxisd(0.7, Vector3d::UnitX()));
     return pose;
   }();
   scene.add(box({2.0F, 0.01F, 2.5F}), floor);
   for (int i = 0; i < 8; ++i) {
-    scene.add(bowl(0.02F + 0.005F * static_cast<float>(i)), floor);
+    scene.add(bowl(0.02F + 0.005F * float(i)), floor);
     scene.add(sphere(0.05F, 40), floor);
   }
   const auto behind = at(0, 0, -5);
@@ -93,17 +82,16 @@ TEST(Hiding, ChangesNoPixel) {
       Image<float> depth(camera.width(), camera.height(), 0.0F);
       Image<std::uint16_t> links(camera.width(), camera.height(), 0);
       for (std::size_t i = 0; i < poses.size(); ++i) {
-        std::vector<Eigen::Isometry3d> alone(poses.size(), behind);
+        std::vector<Isometry3d> alone(poses.size(), behind);
         alone[i] = poses[i];
         const VirtualDepthView drawn = renderer->render(alone);
-        for (int v = 0; v < camera.height(); ++v)
-          for (int u = 0; u < camera.width(); ++u) {
-            const float z = drawn.depth(u, v);
-            // Of equal depths the last body counts.
-            if (z == 0.0F || (depth(u, v) > 0.0F && z > depth(u, v))) continue;
-            depth(u, v) = z;
-            links(u, v) = drawn.links(u, v);
-          }
+        for (const auto [u, v] : each_pixel(camera)) {
+          const float z = drawn.depth(u, v);
+          // Of equal depths the last body counts.
+          if (z == 0.0F || (depth(u, v) > 0.0F && z > depth(u, v))) continue;
+          depth(u, v) = z;
+          links(u, v) = drawn.links(u, v);
+        }
       }
       expect_same_bits(renderer->render(poses), {depth.view(), links.view()});
     }

@@ -3,24 +3,15 @@
 
 #include "brute_force_oracle.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <iostream>
-#include <sstream>
-
 #include <penumbra/base/simd_target.hpp>
 
 namespace penumbra::test {
 
 std::vector<BackendChoice> backend_choices(int max_threads) {
   std::vector<BackendChoice> choices{{Backend::reference, "", 1}, {Backend::gl, "", 1}};
-  for (const std::string& isa : simd_target_names()) {
-    choices.push_back({Backend::cpu, isa, 1});
-  }
-  for (int threads = 2; threads <= max_threads; ++threads) {
+  for (const std::string& isa : simd_target_names()) choices.push_back({Backend::cpu, isa, 1});
+  for (int threads = 2; threads <= max_threads; ++threads)
     choices.push_back({Backend::cpu, simd_target_names().front(), threads});
-  }
   return choices;
 }
 
@@ -46,7 +37,7 @@ Frame::Frame(const VirtualDepthView& view)
 }
 
 std::size_t Frame::covered() const {
-  return static_cast<std::size_t>(
+  return std::size_t(
       std::count_if(depth.data(), depth.data() + depth.size(), [](float z) { return z > 0.0F; }));
 }
 
@@ -60,27 +51,23 @@ void expect_consistent(const VirtualDepthView& view, const Intrinsics& intrinsic
   ASSERT_EQ(view.touched->width, intrinsics.width());
   ASSERT_EQ(view.touched->height, intrinsics.height());
 
-  std::size_t faults = 0;
-  std::size_t covered = 0;
-  for (int v = 0; v < intrinsics.height(); ++v) {
-    for (int u = 0; u < intrinsics.width(); ++u) {
-      const float z = view.depth(u, v);
-      const unsigned link = view.links(u, v);
-      const bool empty = std::bit_cast<std::uint32_t>(z) == 0 && link == 0;
-      const bool robot = std::isfinite(z) && link >= 1 && link <= bodies &&
-                         z >= DepthRenderer::near_plane * (1 - interior_tolerance);
-      if (!empty && !robot && ++faults < 5) {
-        ADD_FAILURE() << "pixel (" << u << ", " << v << "): depth " << z << ", link " << link;
-      }
-      covered += empty ? 0 : 1;
+  std::size_t faults = 0, covered = 0;
+  for (const auto [u, v] : each_pixel(intrinsics)) {
+    const float z = view.depth(u, v);
+    const unsigned link = view.links(u, v);
+    const bool empty = std::bit_cast<std::uint32_t>(z) == 0 && link == 0;
+    const bool robot = std::isfinite(z) && link >= 1 && link <= bodies &&
+                       z >= DepthRenderer::near_plane * (1 - interior_tolerance);
+    if (!empty && !robot && ++faults < 5) {
+      ADD_FAILURE() << "pixel (" << u << ", " << v << "): depth " << z << ", link " << link;
     }
+    covered += empty ? 0 : 1;
   }
   EXPECT_EQ(faults, 0U);
   std::size_t covered_inside = 0;
   view.touched->for_each_span([&](int u0, int u1, int v0, int v1) {
-    for (int v = v0; v < v1; ++v) {
-      for (int u = u0; u < u1; ++u) covered_inside += view.links(u, v) != 0 ? 1 : 0;
-    }
+    for (const auto [u, v] : each_pixel(u0, v0, u1, v1))
+      covered_inside += view.links(u, v) != 0 ? 1 : 0;
   });
   EXPECT_EQ(covered_inside, covered) << "pixels outside of the touched tiles are not 0";
 }
@@ -97,15 +84,13 @@ void expect_same_bits(const VirtualDepthView& a, const VirtualDepthView& b) {
   ASSERT_EQ(a.depth.width, b.depth.width);
   ASSERT_EQ(a.depth.height, b.depth.height);
   std::size_t differing = 0;
-  for (int v = 0; v < a.depth.height; ++v) {
-    for (int u = 0; u < a.depth.width; ++u) {
-      const bool same = std::bit_cast<std::uint32_t>(a.depth(u, v)) ==
-                            std::bit_cast<std::uint32_t>(b.depth(u, v)) &&
-                        a.links(u, v) == b.links(u, v);
-      if (!same && ++differing == 1) {
-        ADD_FAILURE() << "pixel (" << u << ", " << v << "): " << a.depth(u, v) << " of "
-                      << a.links(u, v) << " against " << b.depth(u, v) << " of " << b.links(u, v);
-      }
+  for (const auto [u, v] : each_pixel(a.depth)) {
+    const bool same = std::bit_cast<std::uint32_t>(a.depth(u, v)) ==
+                          std::bit_cast<std::uint32_t>(b.depth(u, v)) &&
+                      a.links(u, v) == b.links(u, v);
+    if (!same && ++differing == 1) {
+      ADD_FAILURE() << "pixel (" << u << ", " << v << "): " << a.depth(u, v) << " of "
+                    << a.links(u, v) << " against " << b.depth(u, v) << " of " << b.links(u, v);
     }
   }
   EXPECT_EQ(differing, 0U);

@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../support/test.hpp"
 #include "agreement.hpp"
 #include "opengl.hpp"
 #include "scene.hpp"
-
-#include <iosfwd>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include <penumbra/base/image.hpp>
-#include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::test {
 
@@ -81,6 +72,10 @@ class RenderTest : public ::testing::TestWithParam<BackendChoice> {
 
 }  // namespace penumbra::test
 
+/// Makes a RenderTest of that name for all backends.
+#define PENUMBRA_RENDER_TEST(suite, max_threads)      \
+  class suite : public penumbra::test::RenderTest {}; \
+  PENUMBRA_FOR_EACH_BACKEND(suite, max_threads)
 /// Instantiates a RenderTest for all backends.
 #define PENUMBRA_FOR_EACH_BACKEND(suite, max_threads)                                         \
   INSTANTIATE_TEST_SUITE_P(Backends, suite,                                                   \

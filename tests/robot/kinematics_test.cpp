@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../support/random.hpp"
-#include "fk_check.hpp"
+#include "plain_robot.hpp"
 #include "urdf_text.hpp"
-
-#include <cmath>
-#include <cstdlib>
-#include <limits>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
-
-using Eigen::Isometry3d;
-using Eigen::Vector3d;
 
 const std::vector<std::string> kAllTypes = {"revolute", "continuous", "prismatic",
                                             "fixed",    "planar",     "floating"};
@@ -89,13 +78,11 @@ TEST(Kinematics, ChainOf20000LinksNeedsNoStack) {
   const Robot robot = parse(robot_xml(body));
   ASSERT_EQ(robot.variables().size(), 1u);
   const auto poses = pose(robot, {0.5});
-  EXPECT_DOUBLE_EQ(poses.back().translation().x(), 0.5 * static_cast<double>(kLinks - 1));
+  EXPECT_DOUBLE_EQ(poses.back().translation().x(), 0.5 * double(kLinks - 1));
 }
 
 TEST(Kinematics, RefusesWhatWouldMakeAPoseUp) {
   const Robot robot = one_joint("floating", "");
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double inf = std::numeric_limits<double>::infinity();
   EXPECT_THROW(pose(robot, {0, 0, 0, 0, 0, 1}), std::invalid_argument);
   EXPECT_THROW(pose(robot, {0, 0, 0, 0, 0, 0, 0}), std::invalid_argument);
   EXPECT_THROW(pose(robot, {nan, 0, 0, 0, 0, 0, 1}), std::invalid_argument);

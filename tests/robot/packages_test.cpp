@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "urdf_text.hpp"
 
-#include <cstdlib>
-#include <filesystem>
-
-#include <gtest/gtest.h>
-
 namespace penumbra::test {
 namespace {
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <map>
-#include <stdexcept>
-#include <string>
-#include <vector>
+#include "../support/test.hpp"
+
+#include <penumbra/robot/robot.hpp>
 
 namespace penumbra::test {
 
@@ -125,6 +121,119 @@ inline Matrix pose_of(const PlainRobot& robot, const std::string& link, const Po
       return times(pose_of(robot, joint.parent, at),
                    times(joint.origin, motion_of(robot, joint, at)));
   return identity();
+}
+
+using Random = std::mt19937_64;
+
+/// All digits of a double.
+inline std::string exact(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+inline std::string exact(const Triple& t) {
+  return exact(t[0]) + " " + exact(t[1]) + "  " + exact(t[2]);
+}
+
+inline Triple random_triple(Random& random, double size) {
+  return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
+}
+
+inline bool has_one_value(const PlainJoint& joint) {
+  return joint.type == "revolute" || joint.type == "continuous" || joint.type == "prismatic";
+}
+
+inline PlainJoint random_joint(Random& random, std::size_t child, const std::string& type) {
+  PlainJoint joint;
+  joint.name = "joint_" + std::to_string(child);
+  joint.type = type;
+  joint.parent = "link_" + std::to_string(below(random, child));
+  joint.child = "link_" + std::to_string(child);
+  joint.xyz = random_triple(random, 1.0);
+  joint.rpy = random_triple(random, 4.0);
+  joint.origin = times(translation(joint.xyz), fixed_axes(joint.rpy));
+  joint.axis = random_triple(random, 2.0);
+  if (below(random, 3) == 0) joint.axis = {0, 0, below(random, 2) == 0 ? 1.0 : -1.0};
+  joint.lower = uniform(random, -4.0, 0.0);
+  joint.upper = uniform(random, 0.0, 4.0);
+  return joint;
+}
+
+/// A tree of `links` links with every joint type of `types`; a third of the joints that can mimic
+/// one with a lower number do (chains arise).
+inline PlainRobot random_robot(Random& random, std::size_t links,
+                               const std::vector<std::string>& types) {
+  PlainRobot robot;
+  for (std::size_t i = 0; i < links; ++i) robot.links.push_back("link_" + std::to_string(i));
+  for (std::size_t i = 1; i < links; ++i) {
+    PlainJoint joint = random_joint(random, i, types[below(random, types.size())]);
+    const auto target = std::find_if(robot.joints.begin(), robot.joints.end(), has_one_value);
+    if (has_one_value(joint) && target != robot.joints.end() && below(random, 3) == 0) {
+      std::vector<std::string> names;
+      for (const PlainJoint& j : robot.joints)
+        if (has_one_value(j)) names.push_back(j.name);
+      joint.mimics = names[below(random, names.size())];
+      joint.multiplier = uniform(random, -2.0, 2.0);
+      joint.offset = uniform(random, -1.0, 1.0);
+    }
+    robot.joints.push_back(joint);
+  }
+  return robot;
+}
+
+inline std::string joint_text(const PlainJoint& joint) {
+  std::string text = "<joint name=\"" + joint.name + "\" type=\"" + joint.type + "\">" +
+                     "<origin xyz=\"" + exact(joint.xyz) + "\" rpy=\"" + exact(joint.rpy) + "\"/>" +
+                     "<parent link=\"" + joint.parent + "\"/><child link=\"" + joint.child + "\"/>";
+  if (joint.type != "fixed" && joint.type != "floating")
+    text += "<axis xyz=\"" + exact(joint.axis) + "\"/>";
+  if (joint.type == "revolute" || joint.type == "prismatic")
+    text += "<limit effort=\"1\" velocity=\"1\" lower=\"" + exact(joint.lower) + "\" upper=\"" +
+            exact(joint.upper) + "\"/>";
+  if (!joint.mimics.empty())
+    text += "<mimic joint=\"" + joint.mimics + "\" multiplier=\"" + exact(joint.multiplier) +
+            "\" offset=\"" + exact(joint.offset) + "\"/>";
+  return text + "</joint>\n";
+}
+
+/// The URDF of a robot, its elements in random order.
+inline std::string urdf_text(Random& random, const PlainRobot& robot) {
+  std::vector<std::string> elements;
+  for (const std::string& link : robot.links) elements.push_back("<link name=\"" + link + "\"/>\n");
+  for (const PlainJoint& joint : robot.joints) elements.push_back(joint_text(joint));
+  std::shuffle(elements.begin(), elements.end(), random);
+  std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"random\">\n";
+  for (const std::string& element : elements) text += element;
+  return text + "</robot>\n";
+}
+
+// Chains of some tens of links of a metre, each rotation rounded to 1e-16.
+constexpr double kPoseTolerance = 1e-12;
+
+inline std::vector<double> random_positions(Random& random, const Robot& robot) {
+  std::vector<double> positions(robot.variables().size());
+  for (double& value : positions) value = uniform(random, -3.0, 3.0);
+  return positions;
+}
+
+inline void expect_pose(const Isometry3d& pose, const Matrix& expected, const std::string& link) {
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      EXPECT_NEAR(pose.matrix()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)),
+                  expected[i][j], kPoseTolerance)
+          << link << " row " << i << " column " << j;
+}
+
+/// Poses every link at random positions and compares with the plain matrices.
+inline void expect_kinematics(Random& random, const Robot& robot, const PlainRobot& plain) {
+  const auto positions = random_positions(random, robot);
+  Positions by_name;
+  for (std::size_t i = 0; i < positions.size(); ++i) by_name[robot.variables()[i]] = positions[i];
+  std::vector<Isometry3d> poses(robot.links().size());
+  robot.forward_kinematics(positions, poses);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    expect_pose(poses[i], pose_of(plain, robot.links()[i], by_name), robot.links()[i]);
 }
 
 }  // namespace penumbra::test

@@ -2,11 +2,6 @@
 // A URDF that cannot be drawn correctly is refused in one line with file, line and element.
 #include "urdf_text.hpp"
 
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 namespace penumbra::test {
 namespace {
 
@@ -217,10 +212,9 @@ TEST(UrdfFile, UnknownElementsAreWarnings) {
   std::string all;
   for (const std::string& note : robot.notes()) all += note + '\n';
   EXPECT_EQ(robot.notes().size(), 5U) << all;
-  for (const char* part :
-       {":2: link \"a\": unknown element \"traits\"", "\"diameter\"", "text \">\"",
-        ":4: joint \"j\": unknown element \"controller_gains\"", "\"frame\""})
-    EXPECT_TRUE(holds(all, part));
+  EXPECT_TRUE(
+      holds(all, {":2: link \"a\": unknown element \"traits\"", "\"diameter\"", "text \">\"",
+                  ":4: joint \"j\": unknown element \"controller_gains\"", "\"frame\""}));
 }
 
 /// A box of size 0 that is never drawn.

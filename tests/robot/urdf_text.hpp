@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "../support/errors.hpp"
 #include "../support/temporary_folder.hpp"
-
-#include <iterator>
-#include <string>
+#include "../support/test.hpp"
 
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra::test {
 
-inline std::string robot_xml(const std::string& body) {
-  return "<robot name=\"r\">\n" + body + "\n</robot>\n";
+inline std::string robot_xml(const std::string& body, const std::string& name = "r") {
+  return "<robot name=\"" + name + "\">\n" + body + "\n</robot>\n";
 }
 
 inline std::string link_xml(const std::string& name, const std::string& body = "") {
@@ -32,6 +29,11 @@ inline std::string collision_xml(const std::string& shape, const std::string& or
 
 inline std::string visual_xml(const std::string& shape, const std::string& origin = "") {
   return "<visual>" + origin + "<geometry>" + shape + "</geometry></visual>";
+}
+
+/// A collision box; `size`: three numbers.
+inline std::string box_xml(const std::string& size) {
+  return collision_xml("<box size=\"" + size + "\"/>");
 }
 
 inline Robot parse(const std::string& xml, const RobotOptions& options = {}) {

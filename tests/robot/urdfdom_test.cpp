@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // urdfdom, the reader that ROS uses, as the oracle of ours.
 #include "../support/data.hpp"
-#include "../support/random.hpp"
-#include "fk_check.hpp"
+#include "plain_robot.hpp"
 #include "urdf_text.hpp"
 
-#include <fstream>
-#include <iterator>
-
-#include <gtest/gtest.h>
 #include <urdf_parser/urdf_parser.h>
 
 namespace penumbra::test {
@@ -70,7 +65,7 @@ PlainRobot plain_robot(const urdf::ModelInterface& model) {
 std::string type_name(JointType type) {
   constexpr const char* kNames[] = {"revolute", "continuous", "prismatic",
                                     "fixed",    "planar",     "floating"};
-  return kNames[static_cast<std::size_t>(type)];
+  return kNames[std::size_t(type)];
 }
 
 void expect_same_joint(const Robot& robot, const Joint& ours, const PlainJoint& theirs) {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "link_rays.hpp"
 
-#include <stdexcept>
-#include <vector>
-
 #include <embree3/rtcore.h>
 
 namespace penumbra::test {
@@ -38,7 +35,7 @@ struct LinkRays::Scene {
           rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                   3 * sizeof(float), mesh.vertices.size()));
       for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
-        Eigen::Map<Eigen::Vector3f>(vertices + 3 * i) = mesh.vertices[i];
+        Eigen::Map<Vector3f>(vertices + 3 * i) = mesh.vertices[i];
       auto* const indices = static_cast<unsigned*>(
           rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                   3 * sizeof(unsigned), mesh.triangles.size()));
@@ -65,7 +62,7 @@ LinkRays::~LinkRays() = default;
 LinkRays::LinkRays(LinkRays&&) noexcept = default;
 LinkRays& LinkRays::operator=(LinkRays&&) noexcept = default;
 
-void LinkRays::place(std::span<const Eigen::Isometry3d> T_root_link) {
+void LinkRays::place(std::span<const Isometry3d> T_root_link) {
   for (std::size_t i = 0; i < scene_->instances.size(); ++i) {
     const Eigen::Matrix4f T = T_root_link[scene_->links[i]].matrix().cast<float>();
     rtcSetGeometryTransform(scene_->instances[i], 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, T.data());
@@ -74,12 +71,12 @@ void LinkRays::place(std::span<const Eigen::Isometry3d> T_root_link) {
   rtcCommitScene(scene_->world);
 }
 
-std::optional<LinkRays::Hit> LinkRays::cast(const Eigen::Vector3d& from,
-                                            const Eigen::Vector3d& direction, double most) const {
+std::optional<LinkRays::Hit> LinkRays::cast(const Vector3d& from, const Vector3d& direction,
+                                            double most) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit ray{};
-  const Eigen::Vector3f o = from.cast<float>(), d = direction.cast<float>();
+  const Vector3f o = from.cast<float>(), d = direction.cast<float>();
   ray.ray = {.org_x = o.x(),
              .org_y = o.y(),
              .org_z = o.z(),
@@ -88,7 +85,7 @@ std::optional<LinkRays::Hit> LinkRays::cast(const Eigen::Vector3d& from,
              .dir_y = d.y(),
              .dir_z = d.z(),
              .time = 0.0F,
-             .tfar = static_cast<float>(most),
+             .tfar = float(most),
              .mask = ~0U,
              .id = 0,
              .flags = 0};

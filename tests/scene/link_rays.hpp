@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <memory>
-#include <optional>
-#include <span>
-
-#include <Eigen/Geometry>
+#include "../support/test.hpp"
 
 #include <penumbra/robot/robot.hpp>
 
@@ -20,15 +15,15 @@ class LinkRays {
   LinkRays(LinkRays&&) noexcept;
   LinkRays& operator=(LinkRays&&) noexcept;
 
-  void place(std::span<const Eigen::Isometry3d> T_root_link);
+  void place(std::span<const Isometry3d> T_root_link);
 
   /// The first surface on a ray from `from` before `most` lengths of `direction`.
   struct Hit {
     double at;         ///< in lengths of the direction
     std::size_t link;  ///< index
   };
-  [[nodiscard]] std::optional<Hit> cast(const Eigen::Vector3d& from,
-                                        const Eigen::Vector3d& direction, double most) const;
+  [[nodiscard]] std::optional<Hit> cast(const Vector3d& from, const Vector3d& direction,
+                                        double most) const;
 
  private:
   struct Scene;

@@ -2,15 +2,6 @@
 // Looking ahead in a cell whose depth a formula tells: targets in pixels, several cameras, carried
 // bodies, the clearance against all pairs of pixels, and the interpolation of trajectories.
 #include "../pipeline/slab_scene.hpp"
-#include "../support/errors.hpp"
-#include "../support/random.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/mesh/primitives.hpp>
 #include <penumbra/scene/look_ahead.hpp>
@@ -20,7 +11,7 @@ namespace {
 
 const std::vector<std::string> slide_joint = {"slide"};
 
-ForecastCamera cell_camera(const Eigen::Vector3d& at = Eigen::Vector3d::Zero()) {
+ForecastCamera cell_camera(const Vector3d& at = Vector3d::Zero()) {
   ForecastCamera camera{.name = "cell", .camera = slab_camera()};
   camera.T_parent_camera.translation() = at;
   return camera;
@@ -32,25 +23,31 @@ ForecastTarget box_target(const PixelBox& box, std::optional<double> depth, Exte
                  .shape = RegionTarget{.region = box, .extent = extent, .expected_depth = depth}}};
 }
 
-ForecastTarget ball_target(const Eigen::Vector3d& at) {
+ForecastTarget ball_target(const Vector3d& at) {
   return {.target = {.name = "ball", .shape = PointTarget{at, 0.03, ReferenceFrame::root()}}};
 }
 
-CameraForecast first_forecast(const std::vector<ForecastCamera>& cameras,
-                              const ForecastTarget& target,
-                              const RobotPose& start = {.positions = {0.0}}) {
-  const Trajectory trajectory(slab_robot(), slide_joint, {{.time = 0.0, .positions = {0.0}}},
-                              std::vector{0.0});
-  return LookAhead(slab_robot(), cameras, {target}, start).along(trajectory).front().any;
+/// What is foreseen of a target while the robot rests for some time.
+TargetForecast forecast(const std::vector<ForecastCamera>& cameras, const ForecastTarget& target,
+                        const RobotPose& start = {.positions = {0.0}}, double seconds = 0.0) {
+  std::vector<TrajectoryPoint> rest{{.time = 0.0, .positions = {0.0}}};
+  if (seconds > 0.0) rest.push_back({.time = seconds, .positions = {0.0}});
+  const Trajectory trajectory(slab_robot(), slide_joint, rest, std::vector{0.0});
+  return LookAhead(slab_robot(), cameras, {target}, start).along(trajectory).front();
+}
+
+VerdictInterval first_interval(const std::vector<ForecastCamera>& cameras,
+                               const ForecastTarget& target,
+                               const RobotPose& start = {.positions = {0.0}}) {
+  return forecast(cameras, target, start).any.intervals[0];
 }
 
 /// The pixels of the slab robot at slide 0.
 std::vector<Eigen::Vector2i> robot_pixels() {
   const Intrinsics image = slab_camera().intrinsics;
   std::vector<Eigen::Vector2i> pixels;
-  for (int v = 0; v < image.height(); ++v)
-    for (int u = 0; u < image.width(); ++u)
-      if (cast(image.ray(u, v), 0.0).link != 0) pixels.emplace_back(u, v);
+  for (const auto [u, v] : each_pixel(image))
+    if (cast(image.ray(u, v), 0.0).link != 0) pixels.emplace_back(u, v);
   return pixels;
 }
 
@@ -102,63 +99,52 @@ TEST(LookAheadClearance, IsTheDistanceOfAllPairsOfPixels) {
 
 TEST(LookAheadCell, PixelsWithoutDepthAreUnknownBehindTheRobot) {
   const PixelBox box{70, 54, 5, 5};  // behind the slab
-  EXPECT_EQ(
-      first_forecast({cell_camera()}, box_target(box, 2.0, Extent::amodal)).intervals[0].verdict,
-      Verdict::hidden);
+  EXPECT_EQ(first_interval({cell_camera()}, box_target(box, 2.0, Extent::amodal)).verdict,
+            Verdict::hidden);
   for (const auto& target :
        {box_target(box, std::nullopt, Extent::amodal), box_target(box, 2.0, Extent::modal)}) {
-    const CameraForecast seen = first_forecast({cell_camera()}, target);
-    EXPECT_EQ(seen.intervals[0].verdict, Verdict::unknown);
-    EXPECT_NE(seen.intervals[0].reason, "");
+    const VerdictInterval seen = first_interval({cell_camera()}, target);
+    EXPECT_EQ(seen.verdict, Verdict::unknown);
+    EXPECT_NE(seen.reason, "");
   }
 }
 
 TEST(LookAheadCell, PixelsOfOneCameraAreUnknownInAnother) {
   const ForecastTarget corner = box_target({1, 1, 4, 4}, std::nullopt, Extent::amodal);
-  const Trajectory still(slab_robot(), slide_joint, {{.time = 0.0, .positions = {0.0}}},
-                         std::vector{0.0});
-  const auto forecast = LookAhead(slab_robot(), {cell_camera(), cell_camera({0.5, 0.0, 0.0})},
-                                  {corner}, {.positions = {0.0}})
-                            .along(still)
-                            .front();
-  EXPECT_EQ(forecast.cameras[0].intervals[0].verdict, Verdict::visible);
-  EXPECT_EQ(forecast.cameras[1].intervals[0].verdict, Verdict::unknown);
+  const TargetForecast seen = forecast({cell_camera(), cell_camera({0.5, 0.0, 0.0})}, corner);
+  EXPECT_EQ(seen.cameras[0].intervals[0].verdict, Verdict::visible);
+  EXPECT_EQ(seen.cameras[1].intervals[0].verdict, Verdict::unknown);
 }
 
 TEST(LookAheadCell, OneCameraThatSeesItIsEnough) {
   const ForecastTarget behind = ball_target({0.05, 0.02, 1.6});
-  EXPECT_EQ(first_forecast({cell_camera()}, behind).intervals[0].verdict, Verdict::hidden);
-  EXPECT_EQ(
-      first_forecast({cell_camera(), cell_camera({0.0, 0.0, 1.3})}, behind).intervals[0].verdict,
-      Verdict::visible);
+  EXPECT_EQ(first_interval({cell_camera()}, behind).verdict, Verdict::hidden);
+  EXPECT_EQ(first_interval({cell_camera(), cell_camera({0.0, 0.0, 1.3})}, behind).verdict,
+            Verdict::visible);
 }
 
 TEST(LookAheadCell, WhatIsCarriedHidesAndIsHeld) {
   const ForecastTarget ball = ball_target({-0.6, -0.3, 1.4});
-  EXPECT_EQ(first_forecast({cell_camera()}, ball).intervals[0].verdict, Verdict::visible);
+  EXPECT_EQ(first_interval({cell_camera()}, ball).verdict, Verdict::visible);
   RobotPose carrying{.positions = {0.0}};
   carrying.attached = {
       {.name = "part",
        .link = "slab",
-       .mesh = std::make_shared<PreparedMesh>(make_box(Eigen::Vector3d(3.0, 3.0, 0.05)))}};
-  const CameraForecast hidden = first_forecast({cell_camera()}, ball, carrying);
-  EXPECT_EQ(hidden.intervals[0].verdict, Verdict::hidden);
-  EXPECT_EQ(hidden.intervals[0].by, "part");
+       .mesh = std::make_shared<PreparedMesh>(make_box(Vector3d(3.0, 3.0, 0.05)))}};
+  const VerdictInterval hidden = first_interval({cell_camera()}, ball, carrying);
+  EXPECT_EQ(hidden.verdict, Verdict::hidden);
+  EXPECT_EQ(hidden.by, "part");
   carrying.attached[0].name = "ball";
-  EXPECT_EQ(first_forecast({cell_camera()}, ball, carrying).intervals[0].verdict, Verdict::held);
+  EXPECT_EQ(first_interval({cell_camera()}, ball, carrying).verdict, Verdict::held);
   carrying.attached[0].name = "part";
   carrying.attached[0].mesh = nullptr;
-  EXPECT_EQ(first_forecast({cell_camera()}, ball, carrying).intervals[0].verdict, Verdict::unknown);
+  EXPECT_EQ(first_interval({cell_camera()}, ball, carrying).verdict, Verdict::unknown);
 }
 
 TEST(LookAheadCell, ATargetMovesOutOfTheShadow) {
   ForecastTarget ball = ball_target({0.05, 0.02, 1.6});
   ball.velocity = {-1.0, -0.5, 0.0};
-  const Trajectory rest(slab_robot(), slide_joint,
-                        {{.time = 0.0, .positions = {0.0}}, {.time = 0.8, .positions = {0.0}}},
-                        std::vector{0.0});
-  const auto seen =
-      LookAhead(slab_robot(), {cell_camera()}, {ball}, {.positions = {0.0}}).along(rest).front();
+  const TargetForecast seen = forecast({cell_camera()}, ball, {.positions = {0.0}}, 0.8);
   EXPECT_EQ(seen.any.hidden_at(), 0.0);
   EXPECT_TRUE(seen.any.seen_again_at().has_value());
 }
@@ -172,7 +158,7 @@ TEST(Trajectory, FollowsPolynomialsOfItsDegree) {
   const auto value = [](const std::vector<double>& c, double t) {
     Moment m{0, 0, 0};
     for (std::size_t i = 0; i < c.size(); ++i) {
-      const auto n = static_cast<double>(i);
+      const auto n = double(i);
       m.position += c[i] * std::pow(t, n);
       if (i > 0) m.velocity += n * c[i] * std::pow(t, n - 1);
       if (i > 1) m.acceleration += n * (n - 1) * c[i] * std::pow(t, n - 2);

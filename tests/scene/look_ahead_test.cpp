@@ -1,17 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a motion will hide, against rays that Embree casts every millisecond.
-#include "../support/data.hpp"
-#include "../support/errors.hpp"
-#include "../support/random.hpp"
-#include "../support/run_length.hpp"
 #include "box_rays.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <iostream>
-#include <random>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/scene/look_ahead.hpp>
 
@@ -41,31 +30,21 @@ struct Scene {
       time += uniform(random, 0.3, 1.0);
     }
     trajectory.emplace(robot, names, std::move(points), first);
-    const double around = uniform(random, 0.0, 6.28), away = uniform(random, 1.2, 2.2);
-    T_root_camera =
-        looking_at({away * std::cos(around), away * std::sin(around), uniform(random, 0.2, 1.2)},
-                   {0.0, 0.0, uniform(random, 0.2, 0.5)});
+    T_root_camera = random_viewpoint(random);
     const int count = std::uniform_int_distribution(1, 10)(random);
-    while (static_cast<int>(boxes.size()) < count) add_box(random);
+    while (int(boxes.size()) < count) add_box(random);
   }
 
   void add_box(std::mt19937_64& random) {
     std::vector<double> positions(robot.variables().size());
     trajectory->at(uniform(random, 0.0, trajectory->duration()), positions);
-    std::vector<Eigen::Isometry3d> T(robot.links().size());
+    std::vector<Isometry3d> T(robot.links().size());
     robot.forward_kinematics(positions, T);
-    const Eigen::Vector3d from = T_root_camera.translation();
-    const Eigen::Vector3d at = T[random() % T.size()].translation();
-    BoxTarget box;
-    box.frame = ReferenceFrame::root();
-    box.pose.translation() = at + uniform(random, 0.1, 0.6) * (at - from).normalized() +
-                             0.1 * Eigen::Vector3d(uniform(random, -1, 1), uniform(random, -1, 1),
-                                                   uniform(random, -1, 1));
-    box.pose.linear() = (Eigen::AngleAxisd(uniform(random, 0.0, 6.28), Eigen::Vector3d::UnitZ()) *
-                         Eigen::AngleAxisd(uniform(random, 0.0, 6.28), Eigen::Vector3d::UnitX()))
-                            .toRotationMatrix();
-    for (int i = 0; i < 3; ++i) box.size[i] = uniform(random, 0.04, 0.14);
-    boxes.push_back(box);
+    const Vector3d from = T_root_camera.translation();
+    const Vector3d at = T[random() % T.size()].translation();
+    const Vector3d place =
+        at + uniform(random, 0.1, 0.6) * (at - from).normalized() + 0.1 * random_offset(random);
+    boxes.push_back(random_box(random, place, 0.04, 0.14));
   }
 
   [[nodiscard]] std::vector<ForecastTarget> targets() const {
@@ -78,7 +57,7 @@ struct Scene {
   const Robot& robot;
   std::vector<double> first;
   std::optional<Trajectory> trajectory;
-  Eigen::Isometry3d T_root_camera;
+  Isometry3d T_root_camera;
   std::vector<BoxTarget> boxes;
 };
 
@@ -105,7 +84,7 @@ std::vector<std::pair<double, double>> hidden_times(const std::vector<Truth>& tr
   std::vector<std::pair<double, double>> times;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (truth[i].hidden <= threshold) continue;
-    const double time = static_cast<double>(i) * truth_step;
+    const double time = double(i) * truth_step;
     if (times.empty() || time - times.back().second > gap + 0.5 * truth_step)
       times.emplace_back(time, time);
     times.back().second = time + truth_step;
@@ -140,7 +119,7 @@ void compare(const CameraForecast& forecast, const std::vector<Truth>& truth, co
   for (const VerdictInterval& each : forecast.intervals)
     if (each.verdict == Verdict::hidden) hidden.push_back(&each);
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const double time = static_cast<double>(i) * truth_step;
+    const double time = double(i) * truth_step;
     const bool foreseen = std::ranges::any_of(
         hidden, [&](const auto* each) { return each->begin <= time && time < each->end; });
     const bool is_so = truth[i].hidden > thresholds.hidden_enter;
@@ -156,10 +135,10 @@ void compare(const CameraForecast& forecast, const std::vector<Truth>& truth, co
     tally.lost += found == nullptr ? 1 : 0;
   }
   compare_borders(forecast, hidden_times(truth, thresholds.hidden_enter, short_time),
-                  static_cast<double>(truth.size() - 1) * truth_step, tally);
+                  double(truth.size() - 1) * truth_step, tally);
   for (std::size_t i = 0; i < forecast.times.size(); ++i) {
-    const Truth& at = truth[std::min(
-        truth.size() - 1, static_cast<std::size_t>(std::lround(forecast.times[i] / truth_step)))];
+    const Truth& at =
+        truth[std::min(truth.size() - 1, std::size_t(std::lround(forecast.times[i] / truth_step)))];
     const Prediction& prediction = forecast.predictions[i];
     if (prediction.verdict == Verdict::out_of_view) continue;
     // Times between two milliseconds are left out.
@@ -174,12 +153,12 @@ void compare(const CameraForecast& forecast, const std::vector<Truth>& truth, co
 double quantile(std::vector<double> values, double part) {
   if (values.empty()) return 0.0;
   std::ranges::sort(values);
-  return values[static_cast<std::size_t>(part * static_cast<double>(values.size() - 1))];
+  return values[std::size_t(part * double(values.size() - 1))];
 }
 
 void judge_motions(const Robot& robot, int motions, std::mt19937_64& random, Tally& tally) {
   LinkRays links(robot);
-  std::vector<Eigen::Isometry3d> T(robot.links().size());
+  std::vector<Isometry3d> T(robot.links().size());
   std::vector<double> positions(robot.variables().size());
   for (int motion = 0; motion < motions; ++motion) {
     const Scene scene(robot, random);
@@ -207,19 +186,11 @@ void judge_motions(const Robot& robot, int motions, std::mt19937_64& random, Tal
   }
 }
 
-Robot arm() {
-  return Robot::load(PENUMBRA_SOURCE_DIR "/examples/arm_over_table/arm_description/arm.urdf");
-}
-
 TEST(LookAhead, AgreesWithRaysEveryMillisecond) {
   std::mt19937_64 random = seeded_random(391);
   const int motions = measures_in_full() ? 100 : 2;
   Tally tally;
-  judge_motions(arm(), motions, random, tally);
-  if (has_data())
-    for (const std::string name : {"xarm7", "ur5e"})
-      judge_motions(Robot::load(data_folder() / "robots" / name / (name + ".urdf")), motions,
-                    random, tally);
+  for (const Robot& robot : arms()) judge_motions(robot, motions, random, tally);
   std::cout << "hidden " << tally.both + tally.missed << " ms, balanced accuracy "
             << 100 * tally.balanced() << " %, intervals of 30 ms " << tally.intervals << ", lost "
             << tally.lost << ", borders off: median " << 1e3 * quantile(tally.borders, 0.5)

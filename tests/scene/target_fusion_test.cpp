@@ -1,32 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Verdicts and points over cameras against closed forms.
-#include <cmath>
-#include <iostream>
-#include <limits>
-#include <random>
+#include "../support/test.hpp"
 
-#include <gtest/gtest.h>
-
-#include <penumbra/base/error.hpp>
 #include <penumbra/scene/target_fusion.hpp>
 
 namespace penumbra::test {
 namespace {
-
-constexpr std::int64_t ms = 1000000;
 
 ViewCamera camera_called(const std::string& name) {
   return {name, Intrinsics(640, 480, 600, 600, 320, 240), {.a = 0.01, .b = 0, .c = 0}};
 }
 
 /// A camera 1 m from the origin that looks at it; `angle` about z.
-Eigen::Isometry3d camera_at(double angle) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d from(std::cos(angle), std::sin(angle), 0);
+Isometry3d camera_at(double angle) {
+  const Vector3d from(std::cos(angle), std::sin(angle), 0);
+  Isometry3d pose = at(from);
   pose.linear().col(2) = -from;
-  pose.linear().col(1) = -Eigen::Vector3d::UnitZ();
+  pose.linear().col(1) = -Vector3d::UnitZ();
   pose.linear().col(0) = pose.linear().col(1).cross(pose.linear().col(2));
-  pose.translation() = from;
   return pose;
 }
 
@@ -35,23 +26,22 @@ const double unit_radius = std::sqrt(100 / (M_PI * 600 * 600));
 
 /// The point of the surface, seen by camera_at(angle), of a target with its centre at the origin:
 /// half its radius before it.
-Eigen::Vector3d surface_at(double angle) {
+Vector3d surface_at(double angle) {
   const double distance = 1 / (1 + unit_radius / 2);
   return (1 - distance) * camera_at(angle).translation();
 }
 
 /// One camera's frame with one target.
 struct Shot {
-  Shot(std::int64_t stamp, Verdict verdict, std::optional<Eigen::Vector3d> point = {},
+  Shot(std::int64_t stamp, Verdict verdict, std::optional<Vector3d> point = {},
        double visible = 1.0, double angle = 0.0) {
-    Judgement judgement;
-    judgement.verdict = verdict;
-    judgement.covered = 100;
-    judgement.clear = visible;
     target.name = "part";
     target.stamp = stamp;
     target.verdict = verdict;
-    target.judgement = judgement;
+    target.judgement.emplace();
+    target.judgement->verdict = verdict;
+    target.judgement->covered = 100;
+    target.judgement->clear = visible;
     target.point = point;
     if (verdict == Verdict::unknown) target.reason = "not measured";
     report.stamp = stamp;
@@ -64,6 +54,12 @@ struct Shot {
   TargetReport target;
   FrameReport report;
 };
+
+FrameReport without_targets(std::int64_t stamp) {
+  FrameReport report;
+  report.stamp = stamp;
+  return report;
+}
 
 TargetFusion fusion_of(const std::vector<std::string>& names) {
   std::vector<ViewCamera> cameras;
@@ -104,18 +100,14 @@ TEST(TargetFusion, ASilentCameraIsUnknown) {
   EXPECT_EQ(views.fused("part").verdict, Verdict::hidden) << "the window is 0.1 s";
   views.add(0, Shot(101 * ms, Verdict::hidden).get());
   EXPECT_EQ(views.fused("part").verdict, Verdict::unknown);
-  EXPECT_NE(views.fused("part").reason.find("'right'"), std::string::npos);
-  FrameReport without_targets;
-  without_targets.stamp = 101 * ms;
-  views.add(1, without_targets);
+  EXPECT_TRUE(holds(views.fused("part").reason, "'right'"));
+  views.add(1, without_targets(101 * ms));
   EXPECT_EQ(views.fused("part").verdict, Verdict::unknown) << "it judged the target before";
 }
 
 TEST(TargetFusion, ACameraThatNeverJudgesATargetIsNotAsked) {
   TargetFusion views = fusion_of({"left", "right"});
-  FrameReport without_targets;
-  without_targets.stamp = 0;
-  views.add(1, without_targets);
+  views.add(1, without_targets(0));
   views.add(0, Shot(0, Verdict::hidden).get());
   EXPECT_EQ(views.fused("part").verdict, Verdict::hidden);
   EXPECT_EQ(views.fused("part").views.size(), 1U);
@@ -124,25 +116,21 @@ TEST(TargetFusion, ACameraThatNeverJudgesATargetIsNotAsked) {
 /// A tracker gives new names for ever, and the last views of an old one may contradict each other.
 TEST(TargetFusion, ATargetThatIsJudgedNoLongerIsForgotten) {
   TargetFusion views = fusion_of({"left", "right"});
-  views.add(0, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, 0)).get());
-  views.add(1, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, 0.1)).get());
+  views.add(0, Shot(0, Verdict::visible, Vector3d(0, 0, 0)).get());
+  views.add(1, Shot(0, Verdict::visible, Vector3d(0, 0, 0.1)).get());
   EXPECT_TRUE(views.fused("part").contradiction);
-  FrameReport without_targets;
   for (std::int64_t stamp = 0; stamp <= 1000 * ms; stamp += 100 * ms) {
-    without_targets.stamp = stamp;
-    views.add(0, without_targets);
+    views.add(0, without_targets(stamp));
     EXPECT_EQ(views.fused().size(), 1U) << "ten windows have not passed";
   }
-  without_targets.stamp = 1001 * ms;
-  views.add(0, without_targets);
+  views.add(0, without_targets(1001 * ms));
   EXPECT_TRUE(views.fused().empty());
   views.add(1, Shot(500 * ms, Verdict::hidden).get());
   EXPECT_EQ(views.fused("part").stamp, 500 * ms) << "of a camera that lags behind";
   Shot late(1002 * ms, Verdict::hidden);  // found in an old image
   late.target.stamp = -9000 * ms;
   views.add(0, late.get());
-  without_targets.stamp = 1003 * ms;
-  views.add(1, without_targets);
+  views.add(1, without_targets(1003 * ms));
   EXPECT_EQ(views.fused().size(), 1U);
 }
 
@@ -156,7 +144,7 @@ TEST(TargetFusion, FramesMayComeInAnyOrder) {
 
 TEST(TargetFusion, TheBestCameraSeesMostThenIsNearest) {
   TargetFusion views = fusion_of({"a", "b", "c"});
-  const Eigen::Vector3d near(0.1, 0, 0);
+  const Vector3d near(0.1, 0, 0);
   views.add(0, Shot(0, Verdict::partial, near, 0.9, 0).get());
   views.add(1, Shot(0, Verdict::visible, near, 0.97, M_PI / 2).get());
   views.add(2, Shot(0, Verdict::visible, near, 0.98, M_PI / 4).get());
@@ -183,16 +171,16 @@ TEST(TargetFusion, TwoCamerasAtRightAnglesHelpEachOther) {
   const double along = 2 * 0.005 * 0.005 + radius * radius / 12;
   const double across = 0.005 * 0.005 + distance * distance / (600.0 * 600) + radius * radius / 400;
   const double both = 1 / (1 / along + 1 / across);
-  const Eigen::Matrix3d expected = Eigen::Vector3d(both, both, across / 2).asDiagonal();
+  const Matrix3d expected = Vector3d(both, both, across / 2).asDiagonal();
   EXPECT_LT((target.covariance - expected).norm(), 1e-12);
 }
 
 TEST(TargetFusion, PointsAtDifferentPlacesAreAContradiction) {
   const auto fused_at = [](double apart) {
     TargetFusion views = fusion_of({"left", "middle", "right"});
-    views.add(0, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, 0)).get());
-    views.add(1, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, 0.4 * apart)).get());
-    views.add(2, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, apart)).get());
+    views.add(0, Shot(0, Verdict::visible, Vector3d(0, 0, 0)).get());
+    views.add(1, Shot(0, Verdict::visible, Vector3d(0, 0, 0.4 * apart)).get());
+    views.add(2, Shot(0, Verdict::visible, Vector3d(0, 0, apart)).get());
     return views.fused("part");
   };
   const double across =
@@ -208,14 +196,14 @@ TEST(TargetFusion, PointsAtDifferentPlacesAreAContradiction) {
   EXPECT_NEAR(apart.contradiction->distance, limit, 2 * oblique * limit);
   EXPECT_EQ(apart.verdict, Verdict::unknown);
   EXPECT_FALSE(apart.point);
-  EXPECT_NE(apart.reason.find("'left' and 'right'"), std::string::npos) << apart.reason;
+  EXPECT_TRUE(holds(apart.reason, "'left' and 'right'"));
 }
 
 TEST(TargetFusion, AHalfHiddenTargetMayBeAnywhereInIt) {
   const auto fused_at = [](double visible, double apart) {
     TargetFusion views = fusion_of({"left", "right"});
-    views.add(0, Shot(0, Verdict::partial, Eigen::Vector3d(0, 0, 0), visible).get());
-    views.add(1, Shot(0, Verdict::visible, Eigen::Vector3d(0, 0, apart)).get());
+    views.add(0, Shot(0, Verdict::partial, Vector3d(0, 0, 0), visible).get());
+    views.add(1, Shot(0, Verdict::visible, Vector3d(0, 0, apart)).get());
     return views.fused("part");
   };
   constexpr double apart = 0.04;  // metres; the disc's radius is 9.4 mm, a pose is known to 5 mm
@@ -227,19 +215,17 @@ TEST(TargetFusion, FusedPointsAreAsGoodAsTheirCovarianceSays) {
   // The squared Mahalanobis distance of N points with three degrees of freedom has the mean 3 and
   // the standard deviation sqrt(6 / N).
   constexpr int points = 4000;
-  constexpr unsigned seed = 7;
-  std::cout << "seed " << seed << '\n';
-  std::mt19937 random(seed);
+  std::mt19937_64 random = seeded_random(7);
   std::normal_distribution<double> normal;
   double sum = 0;
   for (int i = 0; i < points; ++i) {
     TargetFusion views = fusion_of({"a", "b", "c"});
     for (std::size_t c = 0; c < 3; ++c) {
-      const double angle = 2.0 * static_cast<double>(c);
+      const double angle = 2.0 * double(c);
       Shot exact(0, Verdict::visible, surface_at(angle), 1, angle);
       const auto frame = views_of(views.cameras()[c], exact.get());
-      const Eigen::LLT<Eigen::Matrix3d> root(frame.views.at("part").covariance);
-      const Eigen::Vector3d noise(normal(random), normal(random), normal(random));
+      const Eigen::LLT<Matrix3d> root(frame.views.at("part").covariance);
+      const Vector3d noise(normal(random), normal(random), normal(random));
       views.add(
           c, Shot(0, Verdict::visible, surface_at(angle) + root.matrixL() * noise, 1, angle).get());
     }
@@ -255,11 +241,9 @@ TEST(TargetFusion, RefusesWhatMeansNothing) {
   EXPECT_THROW(fusion_of({""}), InputError);
   EXPECT_THROW(fusion_of({"a", "a"}), InputError);
   EXPECT_THROW(TargetFusion({camera_called("a")}, {.window = 0}), InputError);
-  EXPECT_THROW(
-      TargetFusion({camera_called("a")}, {.window = std::numeric_limits<double>::infinity()}),
-      InputError);
+  EXPECT_THROW(TargetFusion({camera_called("a")}, {.window = inf}), InputError);
   TargetFusion views = fusion_of({"a"});
-  EXPECT_THROW(static_cast<void>(views.fused("part")), InputError);
+  EXPECT_THROW((void)views.fused("part"), InputError);
   EXPECT_THROW(views.add(1, Shot(0, Verdict::visible).get()), InputError);
   EXPECT_THROW(views.add(0, FrameReport{}), InputError) << "no stamp";
 }

@@ -2,21 +2,6 @@
 // Where to put a camera: verdicts against spheres and boxes that a formula intersects, sets against
 // brute force.
 #include "../pipeline/slab_scene.hpp"
-#include "../support/errors.hpp"
-#include "../support/random.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
-#include <memory>
-#include <optional>
-#include <random>
-#include <set>
-#include <string>
-#include <utility>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/mesh/primitives.hpp>
 #include <penumbra/scene/view_planning.hpp>
@@ -32,7 +17,7 @@ constexpr double near_threshold = 0.03;
 
 struct Ball {
   const char* name;
-  Eigen::Vector3d centre;
+  Vector3d centre;
   double radius;
 };
 
@@ -45,11 +30,6 @@ PlannedCamera planned_camera(const DepthRange& range = {}) {
   planned.camera.range = range;
   planned.rule.tolerance = planned_tolerance;
   return planned;
-}
-
-Eigen::Isometry3d pose_at(const Eigen::Vector3d& position,
-                          const Eigen::Quaterniond& rotation = Eigen::Quaterniond::Identity()) {
-  return Eigen::Translation3d(position) * rotation;
 }
 
 MotionFrame frame_at(const Robot& robot, double slide, const std::vector<Target>& targets) {
@@ -69,47 +49,34 @@ std::vector<Target> ball_targets() {
   return targets;
 }
 
-/// Where a ray first meets a box, as a multiple of it; nothing if it does not.
-std::optional<double> enter(const SlabBox& box, const Eigen::Vector3d& origin,
-                            const Eigen::Vector3d& ray) {
-  double near = 0.0, far = std::numeric_limits<double>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    const double a = (box.centre[axis] - box.size[axis] / 2 - origin[axis]) / ray[axis];
-    const double b = (box.centre[axis] + box.size[axis] / 2 - origin[axis]) / ray[axis];
-    near = std::max(near, std::min(a, b));
-    far = std::min(far, std::max(a, b));
-  }
-  return near < far ? std::optional(near) : std::nullopt;
-}
-
-bool meets(const Ball& ball, const Eigen::Vector3d& origin, const Eigen::Vector3d& ray) {
-  const Eigen::Vector3d to = ball.centre - origin;
+bool meets(const Ball& ball, const Vector3d& origin, const Vector3d& ray) {
+  const Vector3d to = ball.centre - origin;
   return to.dot(ray) > 0.0 && to.cross(ray.normalized()).norm() <= ball.radius;
 }
 
 /// What the camera sees of a ball by the definition; nothing where pixels at outlines decide.
-std::optional<Verdict> verdict_by_rays(const Ball& ball, const Eigen::Isometry3d& T_root_camera,
+std::optional<Verdict> verdict_by_rays(const Ball& ball, const Isometry3d& T_root_camera,
                                        const std::vector<SlabBox>& robot) {
   const Intrinsics k = slab_camera().intrinsics;
-  const Eigen::Vector3d origin = T_root_camera.translation();
+  const Vector3d origin = T_root_camera.translation();
   const double depth = (T_root_camera.inverse() * ball.centre).z();
   const double margin = ball.radius + planned_tolerance.at(depth);
   std::size_t inside = 0, hidden = 0, unknown = 0;
-  for (int v = 0; v < k.height(); ++v)
-    for (int u = 0; u < k.width(); ++u) {
-      const Eigen::Vector3d ray = T_root_camera.linear() * k.ray(u, v);
-      if (!meets(ball, origin, ray)) continue;
-      ++inside;
-      double nearest = std::numeric_limits<double>::infinity();  // z of the optical frame
-      for (const SlabBox& box : robot)
-        nearest = std::min(nearest, enter(box, origin, ray).value_or(nearest));
-      if (nearest < depth - margin)
-        ++hidden;
-      else if (nearest <= depth + margin)
-        ++unknown;
-    }
+  for (const auto [u, v] : each_pixel(k)) {
+    const Vector3d ray = T_root_camera.linear() * k.ray(u, v);
+    if (!meets(ball, origin, ray)) continue;
+    ++inside;
+    double nearest = inf;  // z of the optical frame
+    for (const SlabBox& box : robot)
+      nearest =
+          std::min(nearest, enter_box(origin - box.centre, ray, box.size / 2).value_or(nearest));
+    if (nearest < depth - margin)
+      ++hidden;
+    else if (nearest <= depth + margin)
+      ++unknown;
+  }
   if (inside == 0) return Verdict::out_of_view;
-  const double share = static_cast<double>(hidden) / static_cast<double>(inside);
+  const double share = double(hidden) / double(inside);
   const TargetThresholds limits;
   const auto is_near = [&](double limit) { return std::abs(share - limit) < near_threshold; };
   if (inside < 20 || unknown > 0 || (is_near(limits.partial_enter) && share > 0.0) ||
@@ -124,12 +91,11 @@ std::vector<CameraCandidate> random_candidates(std::mt19937_64& random, std::siz
   std::uniform_real_distribution<double> side(-0.8, 0.8), behind(-0.9, 0.2), angle(-0.5, 0.5);
   std::vector<CameraCandidate> candidates;
   for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector3d at(side(random), side(random), behind(random));
-    const Eigen::Vector3d ahead =
-        (Eigen::Vector3d(0.1 + angle(random), angle(random), 1.7) - at).normalized();
-    const auto turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ahead) *
-                      Eigen::AngleAxisd(angle(random), Eigen::Vector3d::UnitZ());
-    candidates.push_back({std::to_string(i), "", pose_at(at, turn)});
+    const Vector3d at(side(random), side(random), behind(random));
+    const Vector3d ahead = (Vector3d(0.1 + angle(random), angle(random), 1.7) - at).normalized();
+    const auto turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), ahead) *
+                      AngleAxisd(angle(random), Vector3d::UnitZ());
+    candidates.push_back({std::to_string(i), "", Translation3d(at) * turn});
   }
   return candidates;
 }
@@ -138,9 +104,9 @@ TEST(ViewPlanning, VerdictsAreThoseOfRays) {
   std::mt19937_64 random = seeded_random(20261);
   const Robot robot = slab_robot();
   const std::vector<CameraCandidate> candidates = random_candidates(random, 40);
-  const Eigen::Vector3d part(0.3, 0.3, 0.1);
+  const Vector3d part(0.3, 0.3, 0.1);
   const AttachedBody body{"part", "slab", std::make_shared<PreparedMesh>(make_box(part)),
-                          pose_at({-0.2, 0.1, 0.1})};
+                          at(-0.2, 0.1, 0.1)};
   std::vector<MotionFrame> motion;
   std::vector<std::vector<SlabBox>> boxes;
   for (int i = 0; i < 12; ++i) {
@@ -194,27 +160,25 @@ std::vector<Verdict> judged(const CameraCandidate& candidate, const std::vector<
   return verdicts;
 }
 
-Target point_at(const Eigen::Vector3d& position, const ReferenceFrame& frame,
-                const char* name = "point") {
+Target point_at(const Vector3d& position, const ReferenceFrame& frame, const char* name = "point") {
   return {.name = name, .shape = PointTarget{position, 0.03, frame}};
 }
 
 TEST(ViewPlanning, CamerasAndTargetsMoveWithTheirLinks) {
-  const CameraCandidate on_slab{"on slab", "slab", pose_at({0.0, 0.0, 0.2})};
+  const CameraCandidate on_slab{"on slab", "slab", at(0.0, 0.0, 0.2)};
   const Target ahead = point_at({0.0, 0.0, 1.5}, ReferenceFrame::of_link("slab"));
   for (const double slide : {0.0, 0.5, -0.5})
     EXPECT_EQ(judged(on_slab, {ahead}, slide).front(), Verdict::visible) << slide;
-  const CameraCandidate at_root{"root", "", pose_at({0.0, 0.0, 0.0})};
+  const CameraCandidate at_root{"root", "", at(0.0, 0.0, 0.0)};
   EXPECT_EQ(judged(at_root, {ahead}).front(), Verdict::hidden) << "by the slab itself";
-  const Target box{
-      .name = "box",
-      .shape = BoxTarget{pose_at({0.0, 0.0, 2.0}), {0.1, 0.1, 0.1}, ReferenceFrame::root()}};
+  const Target box{.name = "box",
+                   .shape = BoxTarget{at(0.0, 0.0, 2.0), {0.1, 0.1, 0.1}, ReferenceFrame::root()}};
   EXPECT_EQ(judged(at_root, {box}).front(), Verdict::hidden);
   EXPECT_EQ(judged(on_slab, {box}).front(), Verdict::visible);
 }
 
 TEST(ViewPlanning, WhatIsNotKnownIsNeverVisible) {
-  const CameraCandidate at_root{"root", "", pose_at({0.0, 0.0, 0.0})};
+  const CameraCandidate at_root{"root", "", at(0.0, 0.0, 0.0)};
   const Target beside = point_at({-0.6, 0.0, 1.4}, ReferenceFrame::root());
   EXPECT_EQ(judged(at_root, {beside}).front(), Verdict::visible);
   EXPECT_EQ(judged(at_root, {beside}, 0.0, planned_camera({0.3, 1.3})).front(),
@@ -223,9 +187,9 @@ TEST(ViewPlanning, WhatIsNotKnownIsNeverVisible) {
             Verdict::out_of_view);
 
   std::string why;
-  const CameraCandidate inside{"inside", "slab", pose_at({0.0, 0.0, 0.0})};
+  const CameraCandidate inside{"inside", "slab", at(0.0, 0.0, 0.0)};
   EXPECT_EQ(judged(inside, {beside}, 0.0, planned_camera(), &why).front(), Verdict::unknown);
-  EXPECT_NE(why.find("inside link 'slab'"), std::string::npos) << why;
+  EXPECT_TRUE(holds(why, "inside link 'slab'"));
   Target absent = beside;
   absent.shape = std::monostate();
   EXPECT_EQ(judged(at_root, {absent}).front(), Verdict::unknown);
@@ -237,31 +201,28 @@ TEST(ViewPlanning, WhatIsNotKnownIsNeverVisible) {
       << "at the slab's own depth";
 
   const Robot robot = slab_robot();
-  std::vector<MotionFrame> motion{frame_at(robot, 0.0, {beside})};
-  motion[0].attached = {{"lost", "slab", nullptr, pose_at({0, 0, 0})}};
-  EXPECT_EQ(judge_candidates(robot, planned_camera(), {&at_root, 1}, motion, 1).at(0, 0, 0),
-            Verdict::unknown)
-      << "a body without a mesh";
-  motion[0].attached.clear();
-  motion[0].uncertain_links = {*robot.find_link("base")};
-  EXPECT_EQ(judge_candidates(robot, planned_camera(), {&at_root, 1}, motion, 1).at(0, 0, 0),
-            Verdict::unknown);
-  motion[0] = frame_at(robot, 0.0, {point_at({0.0, 0.0, 1.0}, ReferenceFrame::of_link("slab"))});
-  motion[0].uncertain_links = {*robot.find_link("slab")};
-  EXPECT_EQ(
-      judge_candidates(robot, planned_camera({0.1, 1.0}), {&at_root, 1}, motion, 1).at(0, 0, 0),
-      Verdict::unknown)
+  const auto verdict = [&](const MotionFrame& frame, const DepthRange& range = {}) {
+    return judge_candidates(robot, planned_camera(range), {&at_root, 1}, {&frame, 1}, 1)
+        .at(0, 0, 0);
+  };
+  MotionFrame frame = frame_at(robot, 0.0, {beside});
+  frame.attached = {{"lost", "slab", nullptr, at(0, 0, 0)}};
+  EXPECT_EQ(verdict(frame), Verdict::unknown) << "a body without a mesh";
+  frame.attached.clear();
+  frame.uncertain_links = {*robot.find_link("base")};
+  EXPECT_EQ(verdict(frame), Verdict::unknown);
+  frame = frame_at(robot, 0.0, {point_at({0.0, 0.0, 1.0}, ReferenceFrame::of_link("slab"))});
+  frame.uncertain_links = {*robot.find_link("slab")};
+  EXPECT_EQ(verdict(frame, {0.1, 1.0}), Verdict::unknown)
       << "neither hidden nor out of the camera's range";
 }
 
 /// A foil 5 mm before the camera, thinner than what is drawn of it.
 TEST(ViewPlanning, WhatIsTooNearToBeDrawnMakesUnknown) {
-  const Robot robot = Robot::parse(slab_urdf(R"(<link name="foil">
-    <collision><geometry><box size="0.4 0.4 0.001"/></geometry></collision></link>
-  <joint name="wrap" type="fixed">
-    <parent link="base"/><child link="foil"/><origin xyz="0 0 0.005"/></joint>)"),
-                                   ".");
-  const CameraCandidate at_root{"root", "", pose_at({0.0, 0.0, 0.0})};
+  const Robot robot =
+      parse(slab_urdf(link_xml("foil", box_xml("0.4 0.4 0.001")) +
+                      joint_xml("wrap", "fixed", "base", "foil", "<origin xyz=\"0 0 0.005\"/>")));
+  const CameraCandidate at_root{"root", "", at(0.0, 0.0, 0.0)};
   const std::vector<MotionFrame> motion{
       frame_at(robot, 0.0,
                {point_at({-0.6, 0.0, 1.4}, ReferenceFrame::root()),
@@ -269,21 +230,21 @@ TEST(ViewPlanning, WhatIsTooNearToBeDrawnMakesUnknown) {
   const CandidateViews views = judge_candidates(robot, planned_camera(), {&at_root, 1}, motion, 1);
   EXPECT_EQ(views.at(0, 0, 0), Verdict::unknown);
   EXPECT_EQ(views.at(0, 0, 1), Verdict::hidden) << "by the slab, whatever else does";
-  EXPECT_NE(views.unknown(0).find("too near"), std::string::npos) << views.unknown(0);
+  EXPECT_TRUE(holds(views.unknown(0), "too near"));
 }
 
 TEST(ViewPlanning, RefusesUnknownLinksAndSets) {
-  const CameraCandidate lost{"lost", "slap", pose_at({0, 0, 0})};
+  const CameraCandidate lost{"lost", "slap", at(0, 0, 0)};
   const Robot robot = slab_robot();
   const std::vector<MotionFrame> motion{frame_at(robot, 0.0, ball_targets())};
   expect_refused(
       [&] {
-        static_cast<void>(judge_candidates(robot, planned_camera(), {&lost, 1}, motion, 2));
+        (void)judge_candidates(robot, planned_camera(), {&lost, 1}, motion, 2);
       },
       {"slap"});
   const CandidateViews views(3, 1, 1);
   for (const std::size_t most : {0U, 4U})
-    expect_refused([&] { static_cast<void>(best_cameras(views, most)); }, {"candidates, 3"});
+    expect_refused([&] { (void)best_cameras(views, most); }, {"3"});
   EXPECT_NO_THROW(check_camera_sets(60, 6)) << "56 million";
   expect_refused([&] { check_camera_sets(60, 7); }, {"60 candidates", "fewer cameras"});
   expect_refused([&] { check_camera_sets(1000, 1000); }, {"1000 candidates", "fewer candidates"});
@@ -305,12 +266,12 @@ double mean_of(const CandidateViews& views, const std::vector<std::size_t>& set)
     for (std::size_t f = 0; f < views.frames(); ++f)
       for (std::size_t t = 0; t < views.targets(); ++t)
         if (views.at(c, f, t) == Verdict::visible) seen.emplace(f, t);
-  return static_cast<double>(seen.size()) / static_cast<double>(views.frames() * views.targets());
+  return double(seen.size()) / double(views.frames() * views.targets());
 }
 
 /// How many pairs of frame and target all see together, and the sum of those that each sees.
 std::pair<long, long> worth_of(const CandidateViews& views, const std::vector<std::size_t>& set) {
-  const auto pairs = static_cast<double>(views.frames() * views.targets());
+  const auto pairs = double(views.frames() * views.targets());
   long alone = 0;
   for (const std::size_t c : set) alone += std::lround(pairs * mean_of(views, {c}));
   return {std::lround(pairs * mean_of(views, set)), alone};
@@ -323,7 +284,7 @@ void expect_consistent(const CandidateViews& views, const CameraSet& set, std::s
   EXPECT_NEAR(set.mean, mean_of(views, set.candidates), 1e-12);
   double sum = 0.0;
   for (const double share : set.visible) sum += share;
-  EXPECT_NEAR(set.mean, sum / static_cast<double>(set.visible.size()), 1e-12);
+  EXPECT_NEAR(set.mean, sum / double(set.visible.size()), 1e-12);
 }
 
 TEST(ViewPlanning, SetsAreTheBest) {

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Verdicts without depth, against rays that Embree casts.
-#include "../support/data.hpp"
-#include "../support/random.hpp"
-#include "../support/run_length.hpp"
 #include "box_rays.hpp"
-
-#include <cmath>
-#include <iostream>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/mesh/primitives.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
@@ -29,35 +21,28 @@ struct Placed {
 
 /// Rays to the pixels for which `holds(u, v)`, at one depth.
 template <typename Holds>
-std::vector<TargetRay> rays_at(double z, const Eigen::Isometry3d& T_root_camera,
-                               const Intrinsics& camera, Holds holds) {
+std::vector<TargetRay> rays_at(double z, const Isometry3d& T_root_camera, const Intrinsics& camera,
+                               Holds holds) {
   std::vector<TargetRay> rays;
-  for (int v = 0; v < camera.height(); ++v)
-    for (int u = 0; u < camera.width(); ++u)
-      if (holds(u, v)) rays.push_back({T_root_camera.linear() * camera.ray(u, v), z});
+  for (const auto [u, v] : each_pixel(camera))
+    if (holds(u, v)) rays.push_back({T_root_camera.linear() * camera.ray(u, v), z});
   return rays;
 }
 
 /// Targets of every kind around a point, which a part of the robot may hide.
-std::vector<Placed> placed_at(const Eigen::Vector3d& at, const Eigen::Isometry3d& T_root_camera,
+std::vector<Placed> placed_at(const Vector3d& at, const Isometry3d& T_root_camera,
                               const Intrinsics& camera, std::mt19937_64& random) {
   std::vector<Placed> all;
-  BoxTarget box;
-  box.frame = ReferenceFrame::root();
-  box.pose.translation() = at;
-  box.pose.linear() = (Eigen::AngleAxisd(uniform(random, 0.0, 6.28), Eigen::Vector3d::UnitZ()) *
-                       Eigen::AngleAxisd(uniform(random, 0.0, 6.28), Eigen::Vector3d::UnitX()))
-                          .toRotationMatrix();
-  for (int i = 0; i < 3; ++i) box.size[i] = uniform(random, 0.08, 0.2);
+  const BoxTarget box = random_box(random, at, 0.08, 0.2);
   const std::vector<TargetRay> to_box = rays_of(box, T_root_camera, camera);
   all.push_back({{.name = "box", .shape = box}, to_box});
   all.push_back({{.name = "mesh",
                   .shape = MeshTarget{std::make_shared<PreparedMesh>(make_box(box.size)), box.pose,
                                       ReferenceFrame::root()}},
                  to_box});
-  const Eigen::Vector3d seen = T_root_camera.inverse() * at;
-  const Eigen::Vector2d centre(camera.fx() * seen.x() / seen.z() + camera.cx(),
-                               camera.fy() * seen.y() / seen.z() + camera.cy());
+  const Vector3d seen = T_root_camera.inverse() * at;
+  const Vector2d centre(camera.fx() * seen.x() / seen.z() + camera.cx(),
+                        camera.fy() * seen.y() / seen.z() + camera.cy());
   const PixelBox pixels{std::round(centre.x()) - 20, std::round(centre.y()) - 15, 40, 30};
   all.push_back(
       {{.name = "region", .shape = RegionTarget{.region = pixels, .expected_depth = seen.z()}},
@@ -65,12 +50,12 @@ std::vector<Placed> placed_at(const Eigen::Vector3d& at, const Eigen::Isometry3d
          return u >= pixels.u && u < pixels.u + pixels.width && v >= pixels.v &&
                 v < pixels.v + pixels.height;
        })});
-  const Eigen::Vector2d axes(uniform(random, 12, 30), uniform(random, 12, 30));
+  const Vector2d axes(uniform(random, 12, 30), uniform(random, 12, 30));
   all.push_back(
       {{.name = "keypoint",
         .shape = KeypointTarget{.pixel = centre, .semi_axes = axes, .expected_depth = seen.z()}},
        rays_at(seen.z(), T_root_camera, camera, [&](int u, int v) {
-         return (Eigen::Vector2d(u, v) - centre).cwiseQuotient(axes).squaredNorm() <= 1.0;
+         return (Vector2d(u, v) - centre).cwiseQuotient(axes).squaredNorm() <= 1.0;
        })});
   const double radius = uniform(random, 0.03, 0.08);
   const double cosine = std::sqrt(1.0 - radius * radius / seen.squaredNorm());
@@ -91,7 +76,7 @@ struct Counts {
 void judge_scenes(const Robot& robot, int scenes, std::mt19937_64& random, Counts& counts) {
   LinkRays links(robot);
   const Camera camera = forecast_camera();
-  std::vector<Eigen::Isometry3d> T(robot.links().size());
+  std::vector<Isometry3d> T(robot.links().size());
   for (int scene = 0; scene < scenes; ++scene) {
     std::vector<double> positions = robot.rest_positions();
     for (double& position : positions) position = uniform(random, -1.5, 1.5);
@@ -99,15 +84,11 @@ void judge_scenes(const Robot& robot, int scenes, std::mt19937_64& random, Count
     links.place(T);
     PipelineConfig config;
     config.has_depth = false;
-    const double around = uniform(random, 0.0, 6.28), away = uniform(random, 1.2, 2.2);
-    config.T_parent_camera =
-        looking_at({away * std::cos(around), away * std::sin(around), uniform(random, 0.2, 1.2)},
-                   {0.0, 0.0, uniform(random, 0.2, 0.5)});
-    const Eigen::Vector3d from = config.T_parent_camera.translation();
-    const Eigen::Vector3d link = T[random() % T.size()].translation();
-    const Eigen::Vector3d beside(uniform(random, -1, 1), uniform(random, -1, 1),
-                                 uniform(random, -1, 1));
-    const Eigen::Vector3d at =
+    config.T_parent_camera = random_viewpoint(random);
+    const Vector3d from = config.T_parent_camera.translation();
+    const Vector3d link = T[random() % T.size()].translation();
+    const Vector3d beside = random_offset(random);
+    const Vector3d at =
         link + uniform(random, -0.3, 0.6) * (link - from).normalized() + 0.1 * beside;
     const std::vector<Placed> placed =
         placed_at(at, config.T_parent_camera, camera.intrinsics, random);
@@ -145,12 +126,7 @@ TEST(WithoutDepthTruth, VerdictsAgreeWithRays) {
   std::mt19937_64 random = seeded_random(402);
   const int scenes = measures_in_full() ? 134 : 25;
   Counts counts;
-  judge_scenes(Robot::load(PENUMBRA_SOURCE_DIR "/examples/arm_over_table/arm_description/arm.urdf"),
-               scenes, random, counts);
-  if (has_data())
-    for (const std::string name : {"xarm7", "ur5e"})
-      judge_scenes(Robot::load(data_folder() / "robots" / name / (name + ".urdf")), scenes, random,
-                   counts);
+  for (const Robot& robot : arms()) judge_scenes(robot, scenes, random, counts);
   std::cout << counts.judged << " targets, " << counts.hidden_much << " hidden by more than "
             << 100 * much << " %, of these visible " << counts.called_visible << "; share off by "
             << counts.most_off << " at most; blame right " << counts.blamed_right << " of "

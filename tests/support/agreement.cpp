@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "agreement.hpp"
 
+#include "pixels.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,7 +50,7 @@ class Inquiry {
   [[nodiscard]] bool any_ray(double shift, Predicate&& predicate) const {
     if (predicate(intrinsics_.ray(pixel_.u, pixel_.v))) return true;
     if (shift == 0.0) return false;
-    for (const double part : {0.25, 0.5, 1.0}) {
+    for (const double part : {0.25, 0.5, 1.0})
       for (int i = 0; i < 16; ++i) {
         // On the square of half width `shift`: u and v each move by at most that much.
         const double angle = i * (M_PI / 8);
@@ -56,7 +58,6 @@ class Inquiry {
         step *= shift * part / step.cwiseAbs().maxCoeff();
         if (predicate(intrinsics_.ray(pixel_.u + step.x(), pixel_.v + step.y()))) return true;
       }
-    }
     return false;
   }
 
@@ -126,10 +127,9 @@ void judge(Agreement& agreement, const Inquiry& inquiry, const Pixel& pixel, dou
 }  // namespace
 
 double Agreement::differing_share() const {
-  if (robot_pixels == 0) {
+  if (robot_pixels == 0)
     return silhouette_pixels + edge_pixels == 0 ? 0.0 : std::numeric_limits<double>::infinity();
-  }
-  return static_cast<double>(silhouette_pixels + edge_pixels) / static_cast<double>(robot_pixels);
+  return double(silhouette_pixels + edge_pixels) / double(robot_pixels);
 }
 
 Agreement& Agreement::operator+=(const Agreement& other) {
@@ -140,9 +140,8 @@ Agreement& Agreement::operator+=(const Agreement& other) {
   errors += other.errors;
   worst_interior = std::max(worst_interior, other.worst_interior);
   worst_shift = std::max(worst_shift, other.worst_shift);
-  for (const std::string& words : other.first_errors) {
+  for (const std::string& words : other.first_errors)
     if (first_errors.size() < errors_in_words) first_errors.push_back(words);
-  }
   return *this;
 }
 
@@ -160,24 +159,22 @@ Agreement compare(const VirtualDepthView& rendered, const RayOracle& oracle,
                   const OracleImage& expected, const Intrinsics& intrinsics) {
   Agreement agreement;
   agreement.images = 1;
-  for (int v = 0; v < intrinsics.height(); ++v) {
-    for (int u = 0; u < intrinsics.width(); ++u) {
-      const Pixel pixel{u, v, rendered.depth(u, v), rendered.links(u, v)};
-      const double z = expected.depth(u, v);
-      const unsigned link = expected.links(u, v);
-      if (link != 0) ++agreement.robot_pixels;
-      if (link == 0 && pixel.link == 0 && pixel.z == 0.0) continue;
-      if ((pixel.link == 0) != (pixel.z == 0.0)) {
-        // Depth and link image contradict each other.
-        add_error(agreement, pixel, z, link, std::numeric_limits<double>::infinity());
-        continue;
-      }
-      const double error = std::abs(pixel.z - z);
-      const bool close = link != 0 && pixel.link != 0 && error <= interior_tolerance * z;
-      if (close) agreement.worst_interior = std::max(agreement.worst_interior, error / z);
-      if (close && pixel.link == link) continue;
-      judge(agreement, Inquiry(oracle, intrinsics, pixel), pixel, z, link);
+  for (const auto [u, v] : each_pixel(intrinsics)) {
+    const Pixel pixel{u, v, rendered.depth(u, v), rendered.links(u, v)};
+    const double z = expected.depth(u, v);
+    const unsigned link = expected.links(u, v);
+    if (link != 0) ++agreement.robot_pixels;
+    if (link == 0 && pixel.link == 0 && pixel.z == 0.0) continue;
+    if ((pixel.link == 0) != (pixel.z == 0.0)) {
+      // Depth and link image contradict each other.
+      add_error(agreement, pixel, z, link, std::numeric_limits<double>::infinity());
+      continue;
     }
+    const double error = std::abs(pixel.z - z);
+    const bool close = link != 0 && pixel.link != 0 && error <= interior_tolerance * z;
+    if (close) agreement.worst_interior = std::max(agreement.worst_interior, error / z);
+    if (close && pixel.link == link) continue;
+    judge(agreement, Inquiry(oracle, intrinsics, pixel), pixel, z, link);
   }
   return agreement;
 }

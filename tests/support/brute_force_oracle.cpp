@@ -32,14 +32,13 @@ std::optional<Meeting> meet(const std::array<Eigen::Vector3d, 3>& corners, const
 
 BruteForceOracle::BruteForceOracle(std::span<const Body> bodies,
                                    std::span<const Eigen::Isometry3d> T_camera_body) {
-  for (std::size_t body = 0; body < bodies.size(); ++body) {
-    for (const TriangleMesh& mesh : bodies[body].meshes) {
+  for (std::size_t body = 0; body < bodies.size(); ++body)
+    for (const TriangleMesh& mesh : bodies[body].meshes)
       for (const auto& triangle : mesh.triangles) {
         Triangle& placed = triangles_.emplace_back();
         placed.body = body;
-        for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t i = 0; i < 3; ++i)
           placed.corners[i] = T_camera_body[body] * mesh.vertices[triangle[i]].cast<double>();
-        }
         for (std::size_t i = 0; i < 3; ++i) {
           const Eigen::Vector3d& a = placed.corners[i];
           const Eigen::Vector3d& b = placed.corners[(i + 1) % 3];
@@ -47,8 +46,6 @@ BruteForceOracle::BruteForceOracle(std::span<const Body> bodies,
           placed.doubt[i] = 1e-14 * a.norm() * b.norm();
         }
       }
-    }
-  }
 }
 
 template <typename F>
@@ -56,8 +53,7 @@ void BruteForceOracle::for_each_hit(const Eigen::Vector3d& direction, F&& f) con
   const Vector3 ray = direction.cast<long double>();
   const double length = direction.norm();
   for (const Triangle& triangle : triangles_) {
-    bool left = false;
-    bool right = false;
+    bool left = false, right = false;
     for (std::size_t i = 0; i < 3; ++i) {
       const double side = triangle.sides[i].dot(direction);
       left = left || side > triangle.doubt[i] * length;
@@ -66,7 +62,7 @@ void BruteForceOracle::for_each_hit(const Eigen::Vector3d& direction, F&& f) con
     if (left && right) continue;
     const auto meeting = meet(triangle.corners, ray);
     if (!meeting) continue;
-    f(RayHit{static_cast<double>(meeting->z), triangle.body,
+    f(RayHit{double(meeting->z), triangle.body,
              (meeting->normal / meeting->offset).cast<double>()});
   }
 }

@@ -2,11 +2,12 @@
 #include "cloud_measure.hpp"
 
 #include "pasted_objects.hpp"
+#include "pixels.hpp"
 
 namespace penumbra::test {
 
 double percent(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+  return whole == 0 ? 0.0 : 100.0 * double(part) / double(whole);
 }
 
 Label label_at(const LabelView& labels, int pixel) {
@@ -16,8 +17,7 @@ Label label_at(const LabelView& labels, int pixel) {
 
 tuning::NearestPixels nearest_robot(ImageView<const float> robot) {
   Image<std::uint8_t> marked(robot.width, robot.height);
-  for (int v = 0; v < robot.height; ++v)
-    for (int u = 0; u < robot.width; ++u) marked(u, v) = robot(u, v) > 0.0F;
+  for (const auto [u, v] : each_pixel(robot)) marked(u, v) = robot(u, v) > 0.0F;
   return tuning::NearestPixels(marked);
 }
 
@@ -26,18 +26,16 @@ double Leftover::percent() const { return test::percent(left, carried + on_robot
 void Leftover::add(ImageView<const float> robot, ImageView<const std::uint16_t> measured,
                    ImageView<const std::uint8_t> labels, const tuning::NearestPixels& nearest,
                    int air_rows) {
-  for (int v = 0; v < robot.height; ++v) {
-    for (int u = 0; u < robot.width; ++u) {
-      if (measured(u, v) == 0) continue;
-      const auto label = static_cast<Label>(labels(u, v));
-      clear += label == Label::clear;
-      if (v >= air_rows) continue;
-      if (robot(u, v) > 0.0F) {
-        ++on_robot;
-      } else if (tuning::is_carried(nearest, robot, u, v, 0.001 * measured(u, v))) {
-        ++carried;
-        left += label != Label::fringe;
-      }
+  for (const auto [u, v] : each_pixel(robot)) {
+    if (measured(u, v) == 0) continue;
+    const auto label = static_cast<Label>(labels(u, v));
+    clear += label == Label::clear;
+    if (v >= air_rows) continue;
+    if (robot(u, v) > 0.0F) {
+      ++on_robot;
+    } else if (tuning::is_carried(nearest, robot, u, v, 0.001 * measured(u, v))) {
+      ++carried;
+      left += label != Label::fringe;
     }
   }
 }

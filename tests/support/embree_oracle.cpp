@@ -71,9 +71,8 @@ struct EmbreeOracle::Scene {
     const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* const vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), points.size()));
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t i = 0; i < points.size(); ++i)
       Eigen::Map<Eigen::Vector3f>(vertices + 3 * i) = points[i].cast<float>();
-    }
     auto* const indices = static_cast<unsigned*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                 3 * sizeof(unsigned), mesh.triangles.size()));
@@ -100,11 +99,11 @@ struct EmbreeOracle::Scene {
   [[nodiscard]] RTCRayHit cast(const Vector3d& direction, double from_z, double to_z,
                                RTCIntersectContext& context) const {
     RTCRayHit ray{};
-    ray.ray.dir_x = static_cast<float>(direction.x());
-    ray.ray.dir_y = static_cast<float>(direction.y());
-    ray.ray.dir_z = static_cast<float>(direction.z());
-    ray.ray.tnear = static_cast<float>(from_z);
-    ray.ray.tfar = static_cast<float>(to_z);
+    ray.ray.dir_x = float(direction.x());
+    ray.ray.dir_y = float(direction.y());
+    ray.ray.dir_z = float(direction.z());
+    ray.ray.tnear = float(from_z);
+    ray.ray.tfar = float(to_z);
     ray.ray.mask = ~0U;
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene, &context, &ray);
@@ -115,11 +114,9 @@ struct EmbreeOracle::Scene {
 EmbreeOracle::EmbreeOracle(std::span<const Body> bodies,
                            std::span<const Eigen::Isometry3d> T_camera_body)
     : scene_(std::make_unique<Scene>()) {
-  for (std::size_t body = 0; body < bodies.size(); ++body) {
-    for (const TriangleMesh& mesh : bodies[body].meshes) {
+  for (std::size_t body = 0; body < bodies.size(); ++body)
+    for (const TriangleMesh& mesh : bodies[body].meshes)
       if (!mesh.triangles.empty()) scene_->add(mesh, T_camera_body[body], body);
-    }
-  }
   rtcCommitScene(scene_->scene);
 }
 
@@ -142,15 +139,14 @@ std::vector<RayHit> EmbreeOracle::all_hits(const Vector3d& direction, double fro
   static_cast<void>(
       scene_->cast(direction, from_z * (1 - more), to_z * (1 + more), collector.context));
   std::vector<RayHit> hits;
-  for (const auto& [geometry, triangle] : collector.hits) {
+  for (const auto& [geometry, triangle] : collector.hits)
     hits.push_back(
         exact_hit(scene_->triangles[geometry][triangle], scene_->bodies[geometry], direction));
-  }
   return hits;
 }
 
 bool EmbreeOracle::camera_is_inside() const {
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {-1.0, 1.0}) {
       Vector3d direction(0.31, -0.27, 0.13);  // along no face of a box
       direction[axis] += sign;
@@ -159,7 +155,6 @@ bool EmbreeOracle::camera_is_inside() const {
       const Vector3d normal(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
       if (normal.dot(direction) > 0.0) return true;
     }
-  }
   return false;
 }
 

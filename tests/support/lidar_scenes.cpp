@@ -67,7 +67,7 @@ std::string body_of(const LidarRobot& robot, const LidarLink& link) {
 sim::ModelPtr load(const std::string& mjcf) {
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(mjcf.size()));
+  mj_makeEmptyFileVFS(files.get(), "scene.xml", int(mjcf.size()));
   std::memcpy(files->filedata[0], mjcf.data(), mjcf.size());
   std::array<char, 1000> why{};
   sim::ModelPtr model(mj_loadXML("scene.xml", files.get(), why.data(), why.size()));
@@ -87,7 +87,7 @@ std::vector<LidarShape> room() {
 std::vector<LidarShape> objects(sim::Random& random) {
   std::vector<LidarShape> out;
   for (std::size_t i = 0; i < object_count; ++i) {
-    const Vector3d away(20.0 + static_cast<double>(i), 0.0, 0.0);
+    const Vector3d away(20.0 + double(i), 0.0, 0.0);
     if (i % 2 == 0)
       out.push_back({"sphere", {random.uniform(0.02, 0.08), 0.0, 0.0}, away});
     else {
@@ -99,13 +99,18 @@ std::vector<LidarShape> objects(sim::Random& random) {
   return out;
 }
 
-void add_arm(LidarRobot& to, const std::string& prefix, double y) {
-  const auto add = [&](const char* name, const char* parent, const Vector3d& at,
+/// Returns what adds a link: its name, parent, place, axis and centre of its joint, and shapes.
+auto adder(LidarRobot& to, std::string prefix = {}) {
+  return [&to, prefix](const std::string& name, const std::string& parent, const Vector3d& at,
                        const Vector3d& axis, double centre, std::vector<LidarShape> shapes) {
-    to.links.push_back({prefix + name, *parent == 0 ? "cell" : prefix + parent, at, axis, centre,
-                        std::move(shapes)});
+    to.links.push_back({prefix + name, parent == "cell" ? parent : prefix + parent, at, axis,
+                        centre, std::move(shapes)});
   };
-  add("base", "", {0, y, 0.75}, zero, 0, {{"cylinder", {0.09, 0.10, 0}, {0, 0, 0.05}}});
+}
+
+void add_arm(LidarRobot& to, const std::string& prefix, double y) {
+  const auto add = adder(to, prefix);
+  add("base", "cell", {0, y, 0.75}, zero, 0, {{"cylinder", {0.09, 0.10, 0}, {0, 0, 0.05}}});
   add("shoulder", "base", {0, 0, 0.10}, Z, 0.3, {{"cylinder", {0.07, 0.17, 0}, {0, 0, 0.085}}});
   add("upper_arm", "shoulder", {0, 0.13, 0.10}, Y, 0.5,
       {{"cylinder", {0.062, 0.13, 0}, zero, along_y}, {"capsule", {0.055, 0.40, 0}, {0, 0, 0.20}}});
@@ -151,48 +156,28 @@ LidarRobot lidar_arms(std::size_t count) {
                    {{"cell", "", zero, zero}},
                    {{"box", {1.0, 2.0, 0.05}, {0.0, 0.0, 0.725}}}};
   for (std::size_t i = 0; i < count; ++i)
-    add_arm(robot, std::to_string(i + 1) + "_",
-            0.9 * (static_cast<double>(i) - 0.5 * static_cast<double>(count - 1)));
+    add_arm(robot, std::to_string(i + 1) + "_", 0.9 * (double(i) - 0.5 * double(count - 1)));
   return robot;
 }
 
 LidarRobot lidar_quadruped() {
-  LidarRobot robot{"quadruped",
-                   {{"trunk",
-                     "",
-                     {0, 0, 0.40},
-                     zero,
-                     0.0,
-                     {{"box", {0.60, 0.24, 0.14}},
-                      {"cylinder", {0.018, 0.075, 0}, {0, 0, 0.1075}}}}}};  // the lidar's mast
+  LidarRobot robot{"quadruped", {{"trunk", "", {0, 0, 0.40}, zero}}};
+  robot.links[0].shapes = {{"box", {0.60, 0.24, 0.14}},
+                           {"cylinder", {0.018, 0.075, 0}, {0, 0, 0.1075}}};  // the lidar's mast
+  const auto add = adder(robot);
   for (const double x : {1.0, -1.0})
     for (const double y : {1.0, -1.0}) {
       const std::string leg = std::string(x > 0 ? "front" : "rear") + (y > 0 ? "_left" : "_right");
-      robot.links.push_back({leg + "_hip",
-                             "trunk",
-                             {0.24 * x, 0.13 * y, 0.02},
-                             X,
-                             0.7 * y,
-                             {{"cylinder", {0.045, 0.09, 0}, {0, 0.02 * y, 0}, along_x}}});
-      robot.links.push_back({leg + "_thigh",
-                             leg + "_hip",
-                             {0, 0.09 * y, 0},
-                             Y,
-                             0.8 * x,
-                             {{"cylinder", {0.05, 0.05, 0}, zero, along_y},
-                              {"capsule", {0.033, 0.24, 0}, {0, 0, -0.12}}}});
-      robot.links.push_back({leg + "_shank",
-                             leg + "_thigh",
-                             {0, 0, -0.25},
-                             Y,
-                             -1.5 * x,
-                             {{"cylinder", {0.019, 0.22, 0}, {0, 0, -0.12}},
-                              {"sphere", {0.03, 0, 0}, {0, 0, -0.24}}}});
+      add(leg + "_hip", "trunk", {0.24 * x, 0.13 * y, 0.02}, X, 0.7 * y,
+          {{"cylinder", {0.045, 0.09, 0}, {0, 0.02 * y, 0}, along_x}});
+      add(leg + "_thigh", leg + "_hip", {0, 0.09 * y, 0}, Y, 0.8 * x,
+          {{"cylinder", {0.05, 0.05, 0}, zero, along_y},
+           {"capsule", {0.033, 0.24, 0}, {0, 0, -0.12}}});
+      add(leg + "_shank", leg + "_thigh", {0, 0, -0.25}, Y, -1.5 * x,
+          {{"cylinder", {0.019, 0.22, 0}, {0, 0, -0.12}}, {"sphere", {0.03, 0, 0}, {0, 0, -0.24}}});
     }
-  robot.links.push_back(
-      {"neck", "trunk", {0.34, 0, 0.06}, Z, 0.0, {{"cylinder", {0.035, 0.09, 0}, {0, 0, 0.045}}}});
-  robot.links.push_back(
-      {"head", "neck", {0, 0, 0.09}, Y, 0.0, {{"box", {0.17, 0.12, 0.09}, {0.05, 0, 0.03}}}});
+  add("neck", "trunk", {0.34, 0, 0.06}, Z, 0.0, {{"cylinder", {0.035, 0.09, 0}, {0, 0, 0.045}}});
+  add("head", "neck", {0, 0, 0.09}, Y, 0.0, {{"box", {0.17, 0.12, 0.09}, {0.05, 0, 0.03}}});
   return robot;
 }
 
@@ -222,7 +207,7 @@ std::vector<LidarRay> rosette_lidar(std::size_t scan) {
   constexpr double turns = 4.0, swings = 123.0 * std::numbers::phi;
   std::vector<LidarRay> rays;
   for (int i = 0; i < count; ++i) {
-    const double part = (i + 0.5) / count, total = static_cast<double>(scan) + part;
+    const double part = (i + 0.5) / count, total = double(scan) + part;
     const double height = 0.5 + 0.5 * std::sin(2.0 * pi * swings * total);
     rays.push_back(
         {direction(2.0 * pi * turns * std::numbers::sqrt2 * total, degree * (-7.0 + 59.0 * height)),
@@ -270,7 +255,7 @@ LidarWorld::LidarWorld(const LidarRobot& robot, LidarMount mount, std::uint64_t 
     const auto* const body = mj_id2name(model_.get(), mjOBJ_BODY, model_->geom_bodyid[geom]);
     link_of_.push_back(model_->geom_group[geom] == 0
                            ? std::uint16_t{0}
-                           : static_cast<std::uint16_t>(robot_.find_link(body).value() + 1));
+                           : std::uint16_t(robot_.find_link(body).value() + 1));
   }
   body_ = mj_name2id(model_.get(), mjOBJ_BODY, mount_.parent.c_str());
 }
@@ -337,13 +322,12 @@ void LidarWorld::place_objects(const JointMotion& motion, double begin, double e
     pose(motion(time));
     return distance(place) - radius;
   };
-  for (int object = 0; object < static_cast<int>(object_count); ++object) {
+  for (int object = 0; object < int(object_count); ++object) {
     const double radius = model_->geom_rbound[object];
     for (int attempt = 0; attempt < 1000; ++attempt) {
       pose(motion(0.5 * (begin + end)));
       const Vector3d eye = T_world_sensor_.translation();
-      const auto pick =
-          static_cast<std::size_t>(random_.uniform(0.0, static_cast<double>(robot_geoms.size())));
+      const auto pick = std::size_t(random_.uniform(0.0, double(robot_geoms.size())));
       const Vector3d target =
           Eigen::Map<const Vector3d>(data_->geom_xpos + at(3 * robot_geoms[pick]));
       const Vector3d place = target + random_.uniform(-0.7, 0.7) * (target - eye).normalized() +
@@ -397,16 +381,16 @@ LidarPoint LidarWorld::meet(const Vector3d& ray, double& range) {
 
 LidarScan LidarWorld::scan(std::span<const LidarRay> rays, const JointMotion& motion, double begin,
                            double noise) {
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
   LidarScan out{.stamp = std::llround(1e9 * begin)};
   out.middle = out.stamp + std::llround(0.5e9 * (rays.front().time + rays.back().time));
   double posed_at = -1.0;
   for (const LidarRay& ray : rays) {
-    out.times.push_back(static_cast<std::int32_t>(std::llround(1e9 * ray.time)));
-    if (ray.time != posed_at) pose(motion(1e-9 * static_cast<double>(out.stamp) + ray.time));
+    out.times.push_back(std::int32_t(std::llround(1e9 * ray.time)));
+    if (ray.time != posed_at) pose(motion(1e-9 * double(out.stamp) + ray.time));
     posed_at = ray.time;
     if (random_.uniform() < dropped) {
-      out.points.push_back({nan, nan, nan});
+      out.points.push_back({none, none, none});
       out.truth.emplace_back();
       continue;
     }
@@ -461,7 +445,7 @@ Scan scan_of(const LidarScan& scan) {
 
 PoseAt poses_of(const JointMotion& motion) {
   return [motion](std::int64_t stamp, RobotPose& pose) {
-    pose.positions = motion(1e-9 * static_cast<double>(stamp));
+    pose.positions = motion(1e-9 * double(stamp));
   };
 }
 

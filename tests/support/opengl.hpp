@@ -41,4 +41,18 @@ inline bool can_draw(Backend backend) { return backend != Backend::gl || has_ope
 
 inline constexpr const char* no_opengl = "skipped: no OpenGL";
 
+/// A test for each backend.
+class BackendTest : public ::testing::TestWithParam<Backend> {
+ protected:
+  void SetUp() override {
+    if (!can_draw(GetParam())) GTEST_SKIP() << no_opengl;
+  }
+};
+
 }  // namespace penumbra::test
+
+#define PENUMBRA_BACKEND_TEST(suite)                                                         \
+  class suite : public penumbra::test::BackendTest {};                                       \
+  INSTANTIATE_TEST_SUITE_P(Backends, suite,                                                  \
+                           ::testing::Values(Backend::cpu, Backend::gl, Backend::reference), \
+                           [](const auto& test) { return std::string(to_string(test.param)); })

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pasted_objects.hpp"
 
+#include "pixels.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,26 +31,24 @@ Image<float> gaussian_patches(std::mt19937_64& random) {
   std::normal_distribution<float> normal;
   Image<float> image(patches_size, patches_size), smooth(patches_size, patches_size);
   std::generate_n(image.data(), image.size(), [&] { return normal(random); });
-  const int reach = static_cast<int>(std::ceil(3 * patch_sigma));
+  const int reach = int(std::ceil(3 * patch_sigma));
   for (const bool across : {true, false}) {
-    for (int v = 0; v < patches_size; ++v) {
-      for (int u = 0; u < patches_size; ++u) {
-        double sum = 0.0;
-        for (int i = -reach; i <= reach; ++i) {
-          const double weight = std::exp(-0.5 * i * i / (patch_sigma * patch_sigma));
-          const int x = (u + (across ? i : 0)) & (patches_size - 1);
-          const int y = (v + (across ? 0 : i)) & (patches_size - 1);
-          sum += weight * static_cast<double>(image(x, y));
-        }
-        smooth(u, v) = static_cast<float>(sum);
+    for (const auto [u, v] : each_pixel(0, 0, patches_size, patches_size)) {
+      double sum = 0.0;
+      for (int i = -reach; i <= reach; ++i) {
+        const double weight = std::exp(-0.5 * i * i / (patch_sigma * patch_sigma));
+        const int x = (u + (across ? i : 0)) & (patches_size - 1);
+        const int y = (v + (across ? 0 : i)) & (patches_size - 1);
+        sum += weight * double(image(x, y));
       }
+      smooth(u, v) = float(sum);
     }
     std::swap(image, smooth);
   }
   double squares = 0.0;
   for (std::size_t i = 0; i < image.size(); ++i)
-    squares += static_cast<double>(image.data()[i]) * static_cast<double>(image.data()[i]);
-  const auto spread = static_cast<float>(std::sqrt(squares / static_cast<double>(image.size())));
+    squares += double(image.data()[i]) * double(image.data()[i]);
+  const auto spread = float(std::sqrt(squares / double(image.size())));
   std::for_each(image.data(), image.data() + image.size(), [&](float& x) { x /= spread; });
   return image;
 }
@@ -107,8 +107,8 @@ Paster::Hit Paster::Place::hit(const RealFrame& frame, double du, double dv) con
 template <typename F>
 void Paster::Place::for_each_pixel(const RealFrame& frame, double margin, F&& f) const {
   const Intrinsics& k = frame.intrinsics;
-  const int reach = static_cast<int>(radius_of(object) * k.fx() / z + margin) + 2;
-  const int cu = static_cast<int>(u), cv = static_cast<int>(v);
+  const int reach = int(radius_of(object) * k.fx() / z + margin) + 2;
+  const int cu = int(u), cv = int(v);
   for (int y = std::max(0, cv - reach); y <= std::min(k.height() - 1, cv + reach); ++y)
     for (int x = std::max(0, cu - reach); x <= std::min(k.width() - 1, cu + reach); ++x)
       f(x, y, hit(frame, x - u, y - v));
@@ -127,7 +127,7 @@ std::vector<Paster::Offset> Paster::outline(const RealFrame& frame) const {
   constexpr int every = 8;  // pixels
   std::vector<Offset> offsets;
   const double pixel = place_.z / frame.intrinsics.fx();  // metres
-  const int reach = static_cast<int>(radius_of(place_.object) / pixel) + 2;
+  const int reach = int(radius_of(place_.object) / pixel) + 2;
   for (int dv = -reach; dv <= reach; ++dv)
     for (int du = -reach; du <= reach; ++du) {
       const double inside = place_.hit(frame, du, dv).inside;
@@ -148,14 +148,14 @@ bool Paster::slide_off(const RealFrame& frame, const tuning::NearestPixels& near
     place_.v = std::round(v0 + moved * std::sin(angle));
     double closest = std::numeric_limits<double>::infinity();
     for (const Offset& pixel : pixels) {
-      const int u = static_cast<int>(place_.u) + pixel.du;
-      const int v = static_cast<int>(place_.v) + pixel.dv;
+      const int u = int(place_.u) + pixel.du;
+      const int v = int(place_.v) + pixel.dv;
       if (u < 0 || v < 0 || u >= frame.robot.width() || v >= air_rows) return false;
       const double distance = nearest.distance(u, v);
       if (distance >= closest) continue;
       closest = distance;
       const auto at = nearest.at(u, v);
-      nearest_depth_ = static_cast<double>(frame.robot(at.u, at.v));
+      nearest_depth_ = double(frame.robot(at.u, at.v));
       if (closest < least) break;
     }
     if (closest >= least) return closest <= least + slack;
@@ -171,7 +171,7 @@ bool Paster::find_place(const RealFrame& frame, const tuning::NearestPixels& nea
   if (v >= air_rows) return false;
   place_.turn = uniform(0.0, 2 * std::numbers::pi);
   const double angle = uniform(0.0, 2 * std::numbers::pi);
-  place_.z = static_cast<double>(frame.robot(u, v)) + offset;
+  place_.z = double(frame.robot(u, v)) + offset;
   // Another depth is another size, which may come near to another pixel.
   for (int round = 0; round < 4; ++round) {
     place_.u = u;
@@ -197,14 +197,14 @@ void Paster::paste_beside(RealFrame& frame, const tuning::NearestPixels& nearest
 void Paster::paste_before(RealFrame& frame, const PastedObject& object, double gap) {
   const int pixel = frame.robot_indices[random_() % frame.robot_indices.size()];
   const int u = pixel % frame.intrinsics.width(), v = pixel / frame.intrinsics.width();
-  place_ = {object, static_cast<double>(u), static_cast<double>(v),
-            static_cast<double>(frame.robot(u, v)) - gap, uniform(0.0, 2 * std::numbers::pi)};
+  place_ = {object, double(u), double(v), double(frame.robot(u, v)) - gap,
+            uniform(0.0, 2 * std::numbers::pi)};
   // Bring it nearer until all of it keeps the gap; what is under it changes a little on the way.
   for (double excess = 1.0; excess > 1e-4;) {
     double nearest = std::numeric_limits<double>::infinity();
     place_.for_each_pixel(frame, edge, [&](int x, int y, const Hit& hit) {
       if (hit.inside >= 0.0 && frame.robot(x, y) > 0.0F)
-        nearest = std::min(nearest, static_cast<double>(frame.robot(x, y)));
+        nearest = std::min(nearest, double(frame.robot(x, y)));
     });
     excess = place_.z + relief_of(object) - (nearest - gap);
     place_.z -= std::max(0.0, excess);
@@ -216,17 +216,17 @@ void Paster::paste(RealFrame& frame) {
   on_robot_.clear();
   beside_.clear();
   before_.clear();
-  shift_u_ = static_cast<int>(random_() % patches_size);
-  shift_v_ = static_cast<int>(random_() % patches_size);
+  shift_u_ = int(random_() % patches_size);
+  shift_v_ = int(random_() % patches_size);
   place_.for_each_pixel(frame, edge, [&](int u, int v, const Hit& hit) {
-    const auto robot = static_cast<double>(frame.robot(u, v));
+    const auto robot = double(frame.robot(u, v));
     if (robot <= 0.0 || hit.depth < robot) measure(frame, hit, u, v);
   });
 }
 
 double Paster::noise(double z, int u, int v) {
-  const auto patch = static_cast<double>(
-      patches_((u + shift_u_) & (patches_size - 1), (v + shift_v_) & (patches_size - 1)));
+  const auto patch =
+      double(patches_((u + shift_u_) & (patches_size - 1), (v + shift_v_) & (patches_size - 1)));
   return z * z * (patchy * patch + white * std::normal_distribution<double>()(random_));
 }
 
@@ -234,7 +234,7 @@ void Paster::measure(RealFrame& frame, const Hit& hit, int u, int v) {
   const double inside = hit.inside * frame.intrinsics.fx() / hit.depth;  // pixels
   if (!(inside > -edge)) return;
   const double object = hit.depth + noise(hit.depth, u, v);
-  const double behind = 0.001 * static_cast<double>(frame.measured(u, v));
+  const double behind = 0.001 * double(frame.measured(u, v));
   const bool at_edge = inside < edge;
   double z = inside > 0.0 ? object : behind;
   if (at_edge && behind > 0.0 && uniform(0.0, 1.0) < mixed) {
@@ -244,7 +244,7 @@ void Paster::measure(RealFrame& frame, const Hit& hit, int u, int v) {
   if (uniform(0.0, 1.0) < (at_edge ? edge_holes : inside_holes)) z = 0.0;
   const int pixel = v * frame.intrinsics.width() + u;
   before_.emplace_back(pixel, frame.measured(u, v));
-  frame.measured(u, v) = static_cast<std::uint16_t>(std::lround(1000.0 * z));
+  frame.measured(u, v) = std::uint16_t(std::lround(1000.0 * z));
   if (!at_edge && z > 0.0) (frame.robot(u, v) > 0.0F ? on_robot_ : beside_).push_back(pixel);
 }
 
@@ -261,9 +261,9 @@ bool Paster::has_true_step(const RealFrame& frame) const {
   };
   bool is_step = true;
   place_.for_each_pixel(frame, margin, [&](int u, int v, const Hit& hit) {
-    const auto robot = static_cast<double>(frame.robot(u, v));
+    const auto robot = double(frame.robot(u, v));
     if (robot <= 0.0 || hit.inside * frame.intrinsics.fx() / place_.z < -margin) return;
-    is_step &= differs(robot) && differs(0.001 * static_cast<double>(frame.measured(u, v)));
+    is_step &= differs(robot) && differs(0.001 * double(frame.measured(u, v)));
   });
   return is_step;
 }

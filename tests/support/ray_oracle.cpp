@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ray_oracle.hpp"
 
+#include "pixels.hpp"
+
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::test {
@@ -8,13 +10,11 @@ namespace penumbra::test {
 OracleImage cast_image(const RayOracle& oracle, const Intrinsics& intrinsics) {
   OracleImage image{{intrinsics.width(), intrinsics.height()},
                     {intrinsics.width(), intrinsics.height()}};
-  for (int v = 0; v < intrinsics.height(); ++v) {
-    for (int u = 0; u < intrinsics.width(); ++u) {
-      const auto hit = oracle.first_hit(intrinsics.ray(u, v), DepthRenderer::near_plane);
-      if (!hit) continue;
-      image.depth(u, v) = hit->z;
-      image.links(u, v) = static_cast<std::uint16_t>(hit->body + 1);
-    }
+  for (const auto [u, v] : each_pixel(intrinsics)) {
+    const auto hit = oracle.first_hit(intrinsics.ray(u, v), DepthRenderer::near_plane);
+    if (!hit) continue;
+    image.depth(u, v) = hit->z;
+    image.links(u, v) = std::uint16_t(hit->body + 1);
   }
   return image;
 }

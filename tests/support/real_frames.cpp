@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "real_frames.hpp"
 
+#include "pixels.hpp"
+
 #include <algorithm>
 #include <string>
 
@@ -19,11 +21,9 @@ RealFrame real_frame(const Intrinsics& intrinsics, const VirtualDepthView& rende
                   .robot = {intrinsics.width(), intrinsics.height()},
                   .tiles = *rendered.touched,
                   .measured = std::move(measured)};
-  for (int v = 0; v < intrinsics.height(); ++v) {
-    for (int u = 0; u < intrinsics.width(); ++u) {
-      frame.robot(u, v) = rendered.depth(u, v);
-      if (rendered.depth(u, v) > 0.0f) frame.robot_indices.push_back(v * intrinsics.width() + u);
-    }
+  for (const auto [u, v] : each_pixel(intrinsics)) {
+    frame.robot(u, v) = rendered.depth(u, v);
+    if (rendered.depth(u, v) > 0.0f) frame.robot_indices.push_back(v * intrinsics.width() + u);
   }
   return frame;
 }
@@ -54,7 +54,7 @@ std::vector<RealFrame> load_real_frames(const std::filesystem::path& folder) {
     Image<std::uint8_t> mask;
     const auto name = "robot_mask_" + std::to_string(*frame.index) + ".png";
     io::read_png(recording.file.parent_path() / name, mask).require();
-    frames.back().mask_pixels = static_cast<std::size_t>(
+    frames.back().mask_pixels = std::size_t(
         std::count_if(mask.data(), mask.data() + mask.size(), [](auto m) { return m != 0; }));
   }
   return frames;

@@ -39,19 +39,15 @@ TriangleMesh box(const Vector3f& half_size) {
 TriangleMesh sphere(float radius, int rings) {
   TriangleMesh mesh;
   const int around = 2 * rings;
-  for (int i = 1; i < rings; ++i) {
+  for (int i = 1; i < rings; ++i)
     for (int j = 0; j < around; ++j) {
-      const double polar = M_PI * i / rings;
-      const double azimuth = M_PI * j / rings;
+      const double polar = M_PI * i / rings, azimuth = M_PI * j / rings;
       const Vector3d unit(std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
                           std::cos(polar));
       mesh.vertices.emplace_back(unit.cast<float>() * radius);
     }
-  }
-  const auto at_ring = [&](int i, int j) {
-    return static_cast<std::uint32_t>((i - 1) * around + j % around);
-  };
-  const auto north = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto at_ring = [&](int i, int j) { return std::uint32_t((i - 1) * around + j % around); };
+  const auto north = std::uint32_t(mesh.vertices.size());
   const auto south = north + 1;
   mesh.vertices.emplace_back(0.0F, 0.0F, radius);
   mesh.vertices.emplace_back(0.0F, 0.0F, -radius);
@@ -71,42 +67,37 @@ TriangleMesh torus(std::uint32_t rows, std::uint32_t columns, double ring, doubl
   const auto index = [&](std::uint32_t i, std::uint32_t j) {
     return (i % rows) * columns + j % columns;
   };
-  for (std::uint32_t i = 0; i < rows; ++i) {
+  for (std::uint32_t i = 0; i < rows; ++i)
     for (std::uint32_t j = 0; j < columns; ++j) {
-      const double a = 2 * M_PI * i / rows;
-      const double b = 2 * M_PI * j / columns;
+      const double a = 2 * M_PI * i / rows, b = 2 * M_PI * j / columns;
       const double r = ring + tube * std::cos(b);
       mesh.vertices.push_back(
           Vector3d(r * std::cos(a), r * std::sin(a), tube * std::sin(b)).cast<float>());
       mesh.triangles.push_back({index(i, j), index(i + 1, j), index(i + 1, j + 1)});
       mesh.triangles.push_back({index(i, j), index(i + 1, j + 1), index(i, j + 1)});
     }
-  }
   return mesh;
 }
 
 TriangleMesh revolved(const std::vector<Eigen::Vector2f>& profile, std::uint32_t around) {
   TriangleMesh mesh;
-  for (const Eigen::Vector2f& p : profile) {
+  for (const Eigen::Vector2f& p : profile)
     for (std::uint32_t i = 0; i < around; ++i) {
       const double a = 2 * M_PI * i / around;
-      mesh.vertices.emplace_back(p.x() * static_cast<float>(std::cos(a)),
-                                 p.x() * static_cast<float>(std::sin(a)), p.y());
+      mesh.vertices.emplace_back(p.x() * float(std::cos(a)), p.x() * float(std::sin(a)), p.y());
     }
-  }
-  for (std::uint32_t row = 0; row + 1 < profile.size(); ++row) {
+  for (std::uint32_t row = 0; row + 1 < profile.size(); ++row)
     for (std::uint32_t i = 0; i < around; ++i) {
       const std::uint32_t a = row * around + i;
       const std::uint32_t b = row * around + (i + 1) % around;
       mesh.triangles.push_back({a, b, b + around});
       mesh.triangles.push_back({a, b + around, a + around});
     }
-  }
   return mesh;
 }
 
 void append(TriangleMesh& mesh, const TriangleMesh& other) {
-  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  const auto first = std::uint32_t(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
   for (const auto& [a, b, c] : other.triangles)
     mesh.triangles.push_back({a + first, b + first, c + first});
@@ -121,10 +112,9 @@ TriangleMesh triangle_soup(std::mt19937_64& random, int count, float extent) {
   std::uniform_real_distribution<float> coordinate(-extent, extent);
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    const auto first = std::uint32_t(mesh.vertices.size());
     for (int j = 0; j < 3; ++j) {
-      const float x = coordinate(random);
-      const float y = coordinate(random);
+      const float x = coordinate(random), y = coordinate(random);
       mesh.vertices.emplace_back(x, y, coordinate(random));
     }
     mesh.triangles.push_back({first, first + 1, first + 2});
@@ -136,14 +126,11 @@ Eigen::Isometry3d random_pose(std::mt19937_64& random, const Vector3d& low_corne
                               const Vector3d& high_corner) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  const double w = normal(random);
-  const double x = normal(random);
-  const double y = normal(random);
+  const double w = normal(random), x = normal(random), y = normal(random);
   const Eigen::Quaterniond rotation = Eigen::Quaterniond(w, x, y, normal(random)).normalized();
   Vector3d position;
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     position[i] = low_corner[i] + unit(random) * (high_corner[i] - low_corner[i]);
-  }
   return Eigen::Translation3d(position) * rotation;
 }
 

@@ -58,8 +58,4 @@ void append(TriangleMesh& mesh, const TriangleMesh& other);
 /// seconds to the compilation of each file.
 [[nodiscard]] Eigen::Quaterniond turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-[[nodiscard]] inline Eigen::Isometry3d at(double x, double y, double z) {
-  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
-}
-
 }  // namespace penumbra::test

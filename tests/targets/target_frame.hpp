@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
+#include "../support/test.hpp"
 
 #include <penumbra/targets/target_judge.hpp>
 
@@ -39,13 +35,12 @@ struct TargetFrame {
 
   /// Link number `link` of the robot at a depth, seen by the sensor where `seen`.
   void add_robot(int u0, int v0, int u1, int v1, float z, std::uint16_t link, bool seen = true) {
-    for (int v = std::max(v0, 0); v < std::min(v1, height); ++v) {
-      for (int u = std::max(u0, 0); u < std::min(u1, width); ++u) {
-        robot(u, v) = z;
-        links(u, v) = static_cast<std::uint16_t>(link + 1);
-        if (seen) measured(u, v) = z;
-        tiles.mark(u, v, u, v);
-      }
+    for (const auto [u, v] :
+         each_pixel(std::max(u0, 0), std::max(v0, 0), std::min(u1, width), std::min(v1, height))) {
+      robot(u, v) = z;
+      links(u, v) = std::uint16_t(link + 1);
+      if (seen) measured(u, v) = z;
+      tiles.mark(u, v, u, v);
     }
   }
   void see(int u0, int v0, int u1, int v1, float d) {

@@ -3,16 +3,8 @@
 // robot moves before.
 #include "target_frame.hpp"
 
-#include <optional>
-
-#include <gtest/gtest.h>
-
-namespace penumbra {
+namespace penumbra::test {
 namespace {
-
-using test::box_target;
-using test::share_rounding;
-using test::TargetFrame;
 
 class ModalTargets : public testing::Test {
  protected:
@@ -22,9 +14,8 @@ class ModalTargets : public testing::Test {
     TargetFrame frame;
     frame.add_robot(robot, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
     const int seen = std::min(u + width, robot) - u;
-    TargetView target =
-        box_target({static_cast<double>(u), 40, static_cast<double>(seen), 20}, Extent::modal);
-    if (motion) target.motion = Eigen::Vector2d(*motion, 0);
+    TargetView target = box_target({double(u), 40, double(seen), 20}, Extent::modal);
+    if (motion) target.motion = Vector2d(*motion, 0);
     target.expected_depth = depth;
     judge.begin(frame.images());
     return judge.judge(target, memory);
@@ -53,7 +44,7 @@ TEST_F(ModalTargets, AreJudgedByTheirLastGoodExtentToo) {
 /// Something covers six tenths of the target while the robot is far. Then the robot does.
 TEST_F(ModalTargets, AreNotSmallerBecauseSomethingCoveredThem) {
   const PixelBox rest{20, 40, 0.4 * width, 20};
-  for (const std::optional<double> expected : {std::optional<double>(), std::optional(behind)}) {
+  for (const std::optional<double> expected : {std::optional<double>(), std::optional(behind)})
     for (const int frames : {1, 100}) {
       memory = {};
       depth = expected;
@@ -70,7 +61,6 @@ TEST_F(ModalTargets, AreNotSmallerBecauseSomethingCoveredThem) {
       EXPECT_EQ(covered.verdict, Verdict::partial);
       EXPECT_NEAR(covered.occluded, 0.6, share_rounding);
     }
-  }
 }
 
 TEST_F(ModalTargets, OfKnownHeightKeepTheirDepthWhileTheyAreCut) {
@@ -79,7 +69,7 @@ TEST_F(ModalTargets, OfKnownHeightKeepTheirDepthWhileTheyAreCut) {
   const auto judge_rows = [&](int seen, int robot) {  // the robot covers the rows from `robot` on
     TargetFrame frame;
     frame.add_robot(0, robot, TargetFrame::width, TargetFrame::height, 1.0f, 1);
-    TargetView target = box_target({20, 40, width, static_cast<double>(seen)}, Extent::modal);
+    TargetView target = box_target({20, 40, width, double(seen)}, Extent::modal);
     target.height = height;
     target.thresholds.unknown_limit = 0.0;
     judge.begin(frame.images());
@@ -178,4 +168,4 @@ TEST_F(ModalTargets, AreCutWhereTheCameraSawNothing) {
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

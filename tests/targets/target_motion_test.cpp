@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a detector sees of objects that move, change their size or their track's id while a bar
 // sweeps over them: how often nothing is hidden and the verdict is unknown, and what is wrong.
-#include "../support/random.hpp"
-#include "../support/run_length.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <iostream>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "../support/test.hpp"
 
 #include <penumbra/targets/target_judge.hpp>
 
-namespace penumbra {
+namespace penumbra::test {
 namespace {
 
 constexpr int width = 640, height = 480, frames = 120;
@@ -52,9 +41,7 @@ struct Shares {
 
 class MovingTargets : public testing::Test {
  protected:
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
+  double between(double low, double high) { return uniform(random_, low, high); }
 
   Object object(double width_m, double height_m) {
     const double z = between(0.8, 1.6);
@@ -63,7 +50,7 @@ class MovingTargets : public testing::Test {
 
   void change(Change how, int frame, const Object& first, double rate, Object& now) {
     if (how == Change::moves_away || how == Change::jumps_back)
-      now.z = std::min(now.z * (1 + rate), 0.95 * static_cast<double>(wall));
+      now.z = std::min(now.z * (1 + rate), 0.95 * double(wall));
     if (frame % 60 != 59) return;
     if (how == Change::jumps_back) now = first;
     if (how != Change::gets_another_object) return;
@@ -114,22 +101,19 @@ class MovingTargets : public testing::Test {
   }
 
   void show(const Rectangle& object, double z, double from, double to) {
-    const auto pixel = [](double at, int size) {
-      return std::clamp(static_cast<int>(std::ceil(at)), 0, size);
-    };
+    const auto pixel = [](double at, int size) { return std::clamp(int(std::ceil(at)), 0, size); };
     std::fill_n(measured_.data(), measured_.size(), wall);
     std::fill_n(robot_.data(), robot_.size(), 0.0f);
-    for (int v = pixel(object.v0, height); v < pixel(object.v1, height); ++v)
-      for (int u = pixel(object.u0, width); u < pixel(object.u1, width); ++u)
-        measured_(u, v) = static_cast<float>(z);
-    for (int v = 0; v < height; ++v)
-      for (int u = pixel(from, width); u < pixel(to, width); ++u)
-        measured_(u, v) = robot_(u, v) = 0.6f;
+    for (const auto [u, v] : each_pixel(pixel(object.u0, width), pixel(object.v0, height),
+                                        pixel(object.u1, width), pixel(object.v1, height)))
+      measured_(u, v) = float(z);
+    for (const auto [u, v] : each_pixel(pixel(from, width), 0, pixel(to, width), height))
+      measured_(u, v) = robot_(u, v) = 0.6f;
     const VirtualDepthView view{robot_.view(), {}, nullptr};
     judge_.begin({classifier_.classify(view, measured_.view()), view, measured_.view()});
   }
 
-  std::mt19937_64 random_ = test::seeded_random(11);
+  std::mt19937_64 random_ = seeded_random(11);
   Image<float> robot_{width, height}, measured_{width, height};
   Classifier classifier_{width, height, LabelRule{}};
   TargetJudge judge_{Camera{Intrinsics(width, height, focal, focal, 320, 240), {}, {}, {}},
@@ -137,7 +121,7 @@ class MovingTargets : public testing::Test {
 };
 
 TEST_F(MovingTargets, AreSeldomUnknownWhereNothingIsHiddenAndNeverVisibleWhereTheyAre) {
-  const int sequences = test::measures_in_full() ? 200 : test::samples(12);
+  const int sequences = measures_in_full() ? 200 : samples(12);
   for (const auto& [how, name] :
        {std::pair(Change::moves_away, "moves away"), std::pair(Change::jumps_back, "jumps back"),
         std::pair(Change::jitters, "jitters"),
@@ -146,7 +130,7 @@ TEST_F(MovingTargets, AreSeldomUnknownWhereNothingIsHiddenAndNeverVisibleWhereTh
     Shares with, without;
     for (int i = 0; i < sequences; ++i) run(how, with, without);
     for (const Shares* of : {&with, &without}) {
-      const double unknown = static_cast<double>(of->unknown) / of->clear;
+      const double unknown = double(of->unknown) / of->clear;
       std::cout << name << (of == &with ? ", with depth: " : ", without: ") << 100 * unknown
                 << " % unknown of " << of->clear << " clear, " << of->wrong << " wrong of "
                 << of->hidden << " hidden\n";
@@ -158,4 +142,4 @@ TEST_F(MovingTargets, AreSeldomUnknownWhereNothingIsHiddenAndNeverVisibleWhereTh
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

@@ -1,25 +1,120 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random targets on random frames against a judge that asks every pixel.
-#include "target_oracle.hpp"
-
-#include "../support/random.hpp"
+// Random targets on random frames against a judge that asks every pixel, in words of TargetJudge's
+// docstring.
+#include "../labels/scene.hpp"
 #include "target_regions.hpp"
 
-#include <gtest/gtest.h>
+#include <penumbra/targets/target_judge.hpp>
 
-namespace penumbra {
+namespace penumbra::test {
 namespace {
+
+struct NaiveJudgement {
+  std::size_t inside = 0, clear = 0, front = 0, occluded = 0, unknown = 0, other = 0;
+  std::size_t measured = 0, past = 0;        // of the clear and front ones
+  std::map<std::size_t, std::size_t> blame;  // pixels by link
+  std::vector<float> trusted;                // sorted
+
+  [[nodiscard]] double median() const { return double(trusted[trusted.size() / 2]); }
+  [[nodiscard]] double spread() const {
+    NaiveJudgement deviations;
+    for (const float d : trusted) deviations.trusted.push_back(std::abs(d - float(median())));
+    std::sort(deviations.trusted.begin(), deviations.trusted.end());
+    return 1.4826 * deviations.median();
+  }
+};
+
+/// A frame and a target of it as the naive judge takes them: images in metres, measurements out of
+/// range 0, expected depth per pixel (0: none).
+struct NaiveTarget {
+  const LabelRule& rule;
+  ImageView<const std::uint8_t> labels;
+  ImageView<const float> robot;
+  ImageView<const std::uint16_t> links;
+  ImageView<const float> measured;
+  ImageView<const std::uint8_t> mask;
+  ImageView<const float> expected;
+  float depth_margin = 0;
+  bool beyond_hides = true;
+
+  [[nodiscard]] float tolerance(float z) const {
+    const auto a = float(rule.tolerance.a), b = float(rule.tolerance.b),
+               c = float(rule.tolerance.c);
+    return a + (b + c * z) * z;
+  }
+
+  void look(int u, int v, NaiveJudgement& result) const {
+    auto label = static_cast<Label>(labels(u, v));
+    if (label == Label::beyond) label = beyond_hides ? Label::occluded : Label::clear;
+    const bool is_fringe = label == Label::fringe;  // it hides nothing and measures nothing
+    if (is_fringe) label = Label::clear;
+    const float z = robot(u, v), d = is_fringe ? 0 : measured(u, v), ze = expected(u, v);
+    if (ze > 0) {
+      const float m = tolerance(ze) + depth_margin;
+      const bool on_robot = label != Label::clear;
+      const bool robot_before = on_robot && z<ze - m, robot_behind = z> ze + m;
+      if (robot_before) {
+        label = Label::occluded;
+      } else if (d > 0 && d < ze - m) {
+        if (label != Label::occluded) {
+          ++result.other;
+          return;
+        }
+      } else if (on_robot && label != Label::front) {
+        label = robot_behind ? Label::clear : Label::unknown;
+      }
+    }
+    const bool is_seen = label == Label::clear || label == Label::front;
+    if (is_seen && d > 0) ++result.measured;
+    if (ze > 0 && is_seen && d > ze + (tolerance(ze) + depth_margin)) ++result.past;
+    if (label == Label::clear) ++result.clear;
+    if (label == Label::front) ++result.front;
+    if (label == Label::unknown) ++result.unknown;
+    if (label != Label::occluded) return;
+    ++result.occluded;
+    if (links(u, v) > 0) ++result.blame[links(u, v) - 1u];
+  }
+
+  [[nodiscard]] bool trusted(int u, int v) const {
+    const auto label = static_cast<Label>(labels(u, v));
+    const float d = measured(u, v), ze = expected(u, v);
+    if ((label != Label::clear && label != Label::front) || !(d > 0)) return false;
+    const float m = tolerance(ze) + depth_margin;
+    if (ze > 0 && (d < ze - m || d > ze + m)) return false;
+    float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
+    const int cells = (std::max(rule.edge_margin, 8) + 3) / 4;
+    for (const auto [x, y] : each_pixel(robot)) {
+      if (std::abs(x / 4 - u / 4) > cells || std::abs(y / 4 - v / 4) > cells) continue;
+      if (!(robot(x, y) > 0)) continue;
+      nearest = std::min(nearest, robot(x, y));
+      farthest = std::max(farthest, robot(x, y));
+    }
+    if (farthest == 0) return true;
+    const float past = float(rule.beyond_factor) * tolerance(farthest);
+    return d < nearest - tolerance(nearest) || d > farthest + past;
+  }
+
+  [[nodiscard]] NaiveJudgement judge() const {
+    NaiveJudgement result;
+    for (const auto [u, v] : each_pixel(mask)) {
+      if (mask(u, v) == 0) continue;
+      ++result.inside;
+      look(u, v, result);
+      if (trusted(u, v)) result.trusted.push_back(measured(u, v));
+    }
+    std::sort(result.trusted.begin(), result.trusted.end());
+    return result;
+  }
+};
 
 constexpr double rounding = 1e-12;       // of fractions
 constexpr double depth_rounding = 1e-6;  // metres: means of floats near 1 m
 constexpr std::size_t link_count = 5;
 
-void expect_same(const Judgement& judged, const test::NaiveJudgement& naive) {
+void expect_same(const Judgement& judged, const NaiveJudgement& naive) {
   ASSERT_EQ(judged.inside, naive.inside);
   if (naive.inside == 0) return;
-  const auto share = [&](std::size_t pixels) {
-    return static_cast<double>(pixels) / static_cast<double>(naive.inside);
-  };
+  const auto share = [&](std::size_t pixels) { return double(pixels) / double(naive.inside); };
   EXPECT_NEAR(judged.clear, share(naive.clear), rounding);
   EXPECT_NEAR(judged.front, share(naive.front), rounding);
   EXPECT_NEAR(judged.occluded, share(naive.occluded), rounding);
@@ -45,14 +140,14 @@ constexpr double sampling = 5 * 0.5 / 31.6;
 
 /// The depth that a share of the sorted depths lies below.
 double quantile(const std::vector<float>& sorted, double share) {
-  const double last = static_cast<double>(sorted.size() - 1);
-  return static_cast<double>(sorted[static_cast<std::size_t>(std::clamp(share, 0.0, 1.0) * last)]);
+  const double last = double(sorted.size() - 1);
+  return double(sorted[std::size_t(std::clamp(share, 0.0, 1.0) * last)]);
 }
 
-void expect_same_point(const Judgement& judged, const test::NaiveJudgement& naive) {
+void expect_same_point(const Judgement& judged, const NaiveJudgement& naive) {
   const bool seen = judged.verdict == Verdict::visible || judged.verdict == Verdict::partial;
-  const auto trusted = static_cast<double>(naive.trusted.size());
-  const auto inside = static_cast<double>(naive.inside);
+  const auto trusted = double(naive.trusted.size());
+  const auto inside = double(naive.inside);
   const bool is_sampled = naive.inside > sampled_pixels;
   if (!is_sampled || trusted > sampling * inside || naive.trusted.empty()) {
     ASSERT_EQ(judged.point.has_value(), seen && !naive.trusted.empty());
@@ -64,7 +159,7 @@ void expect_same_point(const Judgement& judged, const test::NaiveJudgement& naiv
     EXPECT_NEAR(judged.point_spread, naive.spread(), depth_rounding);
     return;
   }
-  EXPECT_NEAR(static_cast<double>(judged.point_pixels), trusted, sampling * inside);
+  EXPECT_NEAR(double(judged.point_pixels), trusted, sampling * inside);
   const double rank = sampling * std::sqrt(inside / trusted);
   EXPECT_GE(judged.point->z(), quantile(naive.trusted, 0.5 - rank) - depth_rounding);
   EXPECT_LE(judged.point->z(), quantile(naive.trusted, 0.5 + rank) + depth_rounding);
@@ -72,15 +167,13 @@ void expect_same_point(const Judgement& judged, const test::NaiveJudgement& naiv
 
 class TargetOracle : public testing::Test {
  protected:
-  double number(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  }
+  double number(double low, double high) { return uniform(random, low, high); }
   std::size_t below(std::size_t end) { return random() % end; }
 
   struct Shape {
     Region region;
     Image<std::uint8_t> mask;
-    test::Corners corners;
+    Corners corners;
     std::vector<std::uint32_t> counts;
     Image<float> depth;
     std::size_t covered = 0;   // pixels by geometry, outside of the image too
@@ -89,51 +182,48 @@ class TargetOracle : public testing::Test {
 
   /// A region, and its pixels by geometry.
   void choose_shape(Shape& shape, int width, int height) {
-    const Eigen::Vector2d centre(number(0, width), number(0, height));
+    const Vector2d centre(number(0, width), number(0, height));
     const auto paint = [&](const auto& place) {
       constexpr int margin = 50;  // pixels around the image that hold all of it
       shape.mask = Image<std::uint8_t>(width, height);
-      for (int v = -margin; v < height + margin; ++v) {
-        for (int u = -margin; u < width + margin; ++u) {
-          if (place(Eigen::Vector2d(u, v)) != test::Place::inside) continue;
-          ++shape.covered;
-          if (u >= 0 && v >= 0 && u < width && v < height) shape.mask(u, v) = 1;
-        }
+      for (const auto [u, v] : each_pixel(-margin, -margin, width + margin, height + margin)) {
+        if (place(Vector2d(u, v)) != Place::inside) continue;
+        ++shape.covered;
+        if (u >= 0 && v >= 0 && u < width && v < height) shape.mask(u, v) = 1;
       }
     };
     const std::size_t kind = below(7);
     if (kind == 0) {
       const PixelBox box{centre.x() - 8, centre.y() - 9, number(2, 40), number(2, 40)};
       shape.region = box;
-      paint([&](const auto& p) { return test::place_in_box(box, p); });
+      paint([&](const auto& p) { return place_in_box(box, p); });
       return;
     }
     if (kind >= 5) {  // a star, or an outline that crosses itself
-      if (kind == 5)
-        shape.corners = test::random_star(random, centre, number(5, 40), 3 + below(30));
+      if (kind == 5) shape.corners = random_star(random, centre, number(5, 40), 3 + below(30));
       for (std::size_t n = kind == 5 ? 0 : 4 + below(8); n > 0; --n)
         shape.corners.emplace_back(number(-30, width + 30), number(-30, height + 30));
       shape.region = PixelPolygon{shape.corners};
-      paint([&](const auto& p) { return test::place_in_polygon(shape.corners, p); });
+      paint([&](const auto& p) { return place_in_polygon(shape.corners, p); });
       return;
     }
     const PixelEllipse ellipse{centre, {number(2, 25), number(2, 25)}, number(0, 3)};
     shape.region = ellipse;
-    paint([&](const auto& p) { return test::place_in_ellipse(ellipse, p); });
-    shape.covered_error = test::area_error(ellipse, width, height);
+    paint([&](const auto& p) { return place_in_ellipse(ellipse, p); });
+    shape.covered_error = area_error(ellipse, width, height);
     if (kind == 1) return;
     shape.covered = 0;
     shape.covered_error = 0;
-    shape.mask(static_cast<int>(below(static_cast<std::size_t>(width))), 0) = 1;
+    shape.mask(int(below(std::size_t(width))), 0) = 1;
     if (kind == 2) shape.region = PixelMask{shape.mask.view()};
     if (kind == 3) {
-      shape.counts = test::run_lengths(shape.mask.view());
+      shape.counts = run_lengths(shape.mask.view());
       shape.region = RunLengthMask{width, height, shape.counts};
     }
     if (kind == 4) {
       shape.depth = Image<float>(width, height);
       for (std::size_t i = 0; i < shape.mask.size(); ++i)
-        if (shape.mask.data()[i] != 0) shape.depth.data()[i] = static_cast<float>(number(0.7, 1.3));
+        if (shape.mask.data()[i] != 0) shape.depth.data()[i] = float(number(0.7, 1.3));
       shape.region = RenderedRegion{.depth = shape.depth.view(), .touched = nullptr};
     }
   }
@@ -157,11 +247,11 @@ class TargetOracle : public testing::Test {
     if (!shape.depth.empty()) return shape.depth;
     if (below(2) != 0) return {shape.mask.width(), shape.mask.height()};
     target.expected_depth = number(0.6, 1.4);
-    return {shape.mask.width(), shape.mask.height(), static_cast<float>(*target.expected_depth)};
+    return {shape.mask.width(), shape.mask.height(), float(*target.expected_depth)};
   }
 
   /// A random target, by both judges.
-  void compare(TargetJudge& judge, test::NaiveTarget naive, int i) {
+  void compare(TargetJudge& judge, NaiveTarget naive, int i) {
     Shape shape;
     choose_shape(shape, naive.labels.width, naive.labels.height);
     const std::string name = "target " + std::to_string(i);
@@ -170,15 +260,14 @@ class TargetOracle : public testing::Test {
     const Image<float> expected = choose_depth(shape, target);
     naive.mask = shape.mask.view();
     naive.expected = expected.view();
-    naive.depth_margin = static_cast<float>(target.depth_margin);
+    naive.depth_margin = float(target.depth_margin);
     naive.beyond_hides = target.thresholds.beyond_hides;
-    const test::NaiveJudgement truth = naive.judge();
+    const NaiveJudgement truth = naive.judge();
     const Judgement judged = judge.judge(target);
     expect_same(judged, truth);
     const std::size_t covered =
         std::max<std::size_t>(shape.covered > 0 ? shape.covered : truth.inside, 1);
-    EXPECT_NEAR(static_cast<double>(judged.covered), static_cast<double>(covered),
-                shape.covered_error);
+    EXPECT_NEAR(double(judged.covered), double(covered), shape.covered_error);
     expect_same_point(judged, truth);
     points += judged.point ? 1 : 0;
     others += truth.other > 0 ? 1 : 0;
@@ -186,7 +275,7 @@ class TargetOracle : public testing::Test {
     blamed += truth.blame.size() > 1 ? 1 : 0;
   }
 
-  std::mt19937_64 random = test::seeded_random(42);
+  std::mt19937_64 random = seeded_random(42);
   std::size_t points = 0, others = 0, blamed = 0, passed = 0;  // targets that had any
 };
 
@@ -195,12 +284,10 @@ Image<float> measured_of(const Image<float>& metres, const Image<std::uint16_t>&
                          bool in_metres, const DepthRange& range) {
   Image<float> measured(metres.width(), metres.height());
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    const float d =
-        in_metres ? metres.data()[i] : 0.001f * static_cast<float>(millimetres.data()[i]);
-    const double exact = in_metres ? static_cast<double>(d) : millimetres.data()[i] / 1000.0;
+    const float d = in_metres ? metres.data()[i] : 0.001f * float(millimetres.data()[i]);
+    const double exact = in_metres ? double(d) : millimetres.data()[i] / 1000.0;
     const bool valid = exact > 0 && std::isfinite(d) && exact >= range.near &&
-                       static_cast<float>(exact) <= static_cast<float>(range.far) &&
-                       static_cast<float>(exact) >= static_cast<float>(range.near);
+                       float(exact) <= float(range.far) && float(exact) >= float(range.near);
     measured.data()[i] = valid ? d : 0.0f;
   }
   return measured;
@@ -208,17 +295,15 @@ Image<float> measured_of(const Image<float>& metres, const Image<std::uint16_t>&
 
 Image<std::uint16_t> links_of(const Image<float>& robot) {
   Image<std::uint16_t> links(robot.width(), robot.height());
-  for (int v = 0; v < robot.height(); ++v)
-    for (int u = 0; u < robot.width(); ++u)
-      if (robot(u, v) > 0)
-        links(u, v) = static_cast<std::uint16_t>((u / 13 + v / 17) % (link_count + 1));
+  for (const auto [u, v] : each_pixel(robot))
+    if (robot(u, v) > 0) links(u, v) = std::uint16_t((u / 13 + v / 17) % (link_count + 1));
   return links;
 }
 
 TEST_F(TargetOracle, AgreesOnRandomFrames) {
   const int width = 101, height = 67;
   for (int frame = 0; frame < 60; ++frame) {
-    test::Scene scene = test::random_scene(width, height, random);
+    Scene scene = random_scene(width, height, random);
     if (frame % 5 == 0) scene.robot = Image<float>(width, height), scene.mark_tiles();
     LabelRule rule = frame % 3 == 0 ? LabelRule::paper() : LabelRule{};
     if (frame % 4 == 0) rule.range = {0.4, 1.45};
@@ -237,13 +322,13 @@ TEST_F(TargetOracle, AgreesOnRandomFrames) {
     judge.begin(images);
 
     SCOPED_TRACE("frame " + std::to_string(frame));
-    const test::NaiveTarget naive{.rule = rule,
-                                  .labels = images.labels.labels,
-                                  .robot = scene.robot.view(),
-                                  .links = links.view(),
-                                  .measured = measured.view(),
-                                  .mask = {},
-                                  .expected = {}};
+    const NaiveTarget naive{.rule = rule,
+                            .labels = images.labels.labels,
+                            .robot = scene.robot.view(),
+                            .links = links.view(),
+                            .measured = measured.view(),
+                            .mask = {},
+                            .expected = {}};
     for (int i = 0; i < 8; ++i) ASSERT_NO_FATAL_FAILURE(compare(judge, naive, i));
   }
   EXPECT_GT(points, 100u);
@@ -253,4 +338,4 @@ TEST_F(TargetOracle, AgreesOnRandomFrames) {
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What regions cover: shared edges, sizes and what is refused. Which pixels those are is asked of
 // geometry in target_oracle_test.cpp.
-#include "../support/errors.hpp"
-#include "../support/random.hpp"
 #include "target_frame.hpp"
 #include "target_regions.hpp"
 
-#include <cmath>
-#include <limits>
-#include <numbers>
-
-#include <gtest/gtest.h>
-
-namespace penumbra {
+namespace penumbra::test {
 namespace {
-
-using test::Corners;
-using test::TargetFrame;
 
 class Regions : public testing::Test {
  protected:
@@ -27,7 +16,7 @@ class Regions : public testing::Test {
     return judge_.judge(target);
   }
   testing::AssertionResult is_refused(const Region& bad, std::string_view part) {
-    return test::holds(test::message_of([&] { (void)judge(bad); }), part);
+    return holds(message_of([&] { (void)judge(bad); }), part);
   }
 
   static constexpr std::size_t all = std::size_t{TargetFrame::width} * TargetFrame::height;
@@ -36,7 +25,7 @@ class Regions : public testing::Test {
 };
 
 TEST_F(Regions, PolygonsOnTheGridThatShareEdgesShareNoPixel) {
-  auto random = test::seeded_random(41);
+  auto random = seeded_random(41);
   const auto grid = [&](double low, double high) {
     return std::round(std::uniform_real_distribution<double>(low, high)(random));
   };
@@ -46,7 +35,7 @@ TEST_F(Regions, PolygonsOnTheGridThatShareEdgesShareNoPixel) {
                            {grid(50, 170), grid(-9, 5)},
                            {grid(50, 170), grid(40, 130)},
                            {grid(-9, 5), grid(40, 130)}};
-    const Eigen::Vector2d middle(grid(10, 45), grid(10, 35));
+    const Vector2d middle(grid(10, 45), grid(10, 35));
     const Judgement whole = judge(PixelPolygon{frame});
     std::size_t inside = 0, covered = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -81,7 +70,7 @@ TEST_F(Regions, LargeOnesCountByTheirArea) {
            {PixelPolygon{triangle}, 3e12, all, sampled},
            {PixelPolygon{bow}, 2e12, judge(PixelPolygon{bow}).inside, sampled}}) {
     const Judgement judged = judge(each.region);
-    EXPECT_NEAR(static_cast<double>(judged.covered) / each.covered, 1, each.tolerance);
+    EXPECT_NEAR(double(judged.covered) / each.covered, 1, each.tolerance);
     EXPECT_EQ(judged.inside, each.inside);
   }
 }
@@ -100,4 +89,4 @@ TEST_F(Regions, CoverOnePixelAtLeast) {
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

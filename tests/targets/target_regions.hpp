@@ -1,48 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <numbers>
-#include <random>
-#include <vector>
-
-#include <Eigen/Core>
+#include "../support/test.hpp"
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/targets/region.hpp>
 
 namespace penumbra::test {
 
-using Corners = std::vector<Eigen::Vector2d>;
+using Corners = std::vector<Vector2d>;
 
 /// What geometry says of a pixel's centre; `close`: rounding may decide.
 enum class Place { outside, inside, close };
 
 inline constexpr double close_pixels = 1e-7;  // far above rounding, far below a pixel
 
-inline double distance_to(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                          const Eigen::Vector2d& p) {
+inline double distance_to(const Vector2d& a, const Vector2d& b, const Vector2d& p) {
   const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
   return (p - a - t * (b - a)).norm();
 }
 
 /// By the sum of the angles under which the edges are seen, full turns of either sign.
-inline Place place_in_polygon(const Corners& corners, const Eigen::Vector2d& p) {
+inline Place place_in_polygon(const Corners& corners, const Vector2d& p) {
   double angle = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Eigen::Vector2d& a = corners[i];
-    const Eigen::Vector2d& b = corners[(i + 1) % corners.size()];
+    const Vector2d& a = corners[i];
+    const Vector2d& b = corners[(i + 1) % corners.size()];
     if (distance_to(a, b, p) < close_pixels) return Place::close;
-    const Eigen::Vector2d x = a - p, y = b - p;
+    const Vector2d x = a - p, y = b - p;
     angle += std::atan2(x.x() * y.y() - x.y() * y.x(), x.dot(y));
   }
   return std::abs(angle) > std::numbers::pi ? Place::inside : Place::outside;
 }
 
-inline Place place_in_ellipse(const PixelEllipse& ellipse, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d d = p - ellipse.centre;
+inline Place place_in_ellipse(const PixelEllipse& ellipse, const Vector2d& p) {
+  const Vector2d d = p - ellipse.centre;
   const double c = std::cos(ellipse.angle), s = std::sin(ellipse.angle);
   const double r = std::hypot((c * d.x() + s * d.y()) / ellipse.semi_axes.x(),
                               (c * d.y() - s * d.x()) / ellipse.semi_axes.y());
@@ -63,24 +55,22 @@ inline double area_error(const PixelEllipse& ellipse, int width, int height) {
   return longest_outline / 2 + 1.5;
 }
 
-inline Place place_in_box(const PixelBox& box, const Eigen::Vector2d& p) {
+inline Place place_in_box(const PixelBox& box, const Vector2d& p) {
   const bool inside =
       box.u <= p.x() && p.x() < box.u + box.width && box.v <= p.y() && p.y() < box.v + box.height;
   return inside ? Place::inside : Place::outside;
 }
 
 /// A polygon around a point of which all of its outline is seen, so that no edges cross.
-inline Corners random_star(std::mt19937_64& random, const Eigen::Vector2d& centre, double radius,
+inline Corners random_star(std::mt19937_64& random, const Vector2d& centre, double radius,
                            std::size_t corners) {
   std::uniform_real_distribution<double> share(0.1, 1.0), jitter(0.0, 0.9);
   const bool reversed = random() % 2 == 0;
   Corners star;
   for (std::size_t i = 0; i < corners; ++i) {
-    const double turn = 2 * std::numbers::pi * (static_cast<double>(i) + jitter(random)) /
-                        static_cast<double>(corners);
+    const double turn = 2 * std::numbers::pi * (double(i) + jitter(random)) / double(corners);
     const double angle = reversed ? -turn : turn;
-    star.push_back(centre +
-                   radius * share(random) * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+    star.push_back(centre + radius * share(random) * Vector2d(std::cos(angle), std::sin(angle)));
   }
   return star;
 }
@@ -89,7 +79,7 @@ inline Corners random_star(std::mt19937_64& random, const Eigen::Vector2d& centr
 inline std::vector<std::uint32_t> run_lengths(ImageView<const std::uint8_t> mask) {
   std::vector<std::uint32_t> counts{0};
   bool inside = false;
-  for (int u = 0; u < mask.width; ++u) {
+  for (int u = 0; u < mask.width; ++u)
     for (int v = 0; v < mask.height; ++v) {
       if ((mask(u, v) != 0) != inside) {
         counts.push_back(0);
@@ -97,7 +87,6 @@ inline std::vector<std::uint32_t> run_lengths(ImageView<const std::uint8_t> mask
       }
       ++counts.back();
     }
-  }
   return counts;
 }
 

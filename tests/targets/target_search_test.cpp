@@ -1,23 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A search for what is called visible though it is not: random objects, robots and sensors, of
 // which the truth is known pixel by pixel.
-#include "../support/random.hpp"
-#include "../support/run_length.hpp"
 #include "target_frame.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstdlib>
-#include <iostream>
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-namespace penumbra {
+namespace penumbra::test {
 namespace {
-
-using test::TargetFrame;
 
 constexpr int width = TargetFrame::width, height = TargetFrame::height;
 constexpr int frames = 40;         // of a sequence
@@ -68,15 +55,13 @@ struct World {
 /// What is true of the object in a frame, and its pixels.
 struct Truth {
   Truth(const World& world, int gap) : whole(width, height), seen(width, height) {
-    for (int v = 0; v < height; ++v) {
-      for (int u = 0; u < width; ++u) {
-        if (!world.of_object(u, v)) continue;
-        whole(u, v) = 1;
-        ++inside;
-        const bool is_hidden = world.is_hidden(u, v);
-        hidden += is_hidden ? 1 : 0;
-        seen(u, v) = is_hidden ? 0 : 1;
-      }
+    for (const auto [u, v] : each_pixel(0, 0, width, height)) {
+      if (!world.of_object(u, v)) continue;
+      whole(u, v) = 1;
+      ++inside;
+      const bool is_hidden = world.is_hidden(u, v);
+      hidden += is_hidden ? 1 : 0;
+      seen(u, v) = is_hidden ? 0 : 1;
     }
     is_clear = hidden == 0 && world.object.u >= gap_to_border && world.object.v >= gap_to_border &&
                world.object.u + world.object.w <= width - gap_to_border &&
@@ -88,12 +73,11 @@ struct Truth {
 
   /// A mask that keeps away from the robot that hides the object.
   void wear(const World& world, int gap) {
-    for (int v = 0; v < height; ++v)
-      for (int u = 0; u < width; ++u)
-        for (const Moving& part : world.robot)
-          if (part.z < world.object.z && u >= part.u - gap && u < part.u + part.w + gap &&
-              v >= part.v - gap && v < part.v + part.h + gap)
-            seen(u, v) = 0;
+    for (const auto [u, v] : each_pixel(0, 0, width, height))
+      for (const Moving& part : world.robot)
+        if (part.z < world.object.z && u >= part.u - gap && u < part.u + part.w + gap &&
+            v >= part.v - gap && v < part.v + part.h + gap)
+          seen(u, v) = 0;
   }
 
   [[nodiscard]] double share() const { return inside == 0 ? 0 : 1.0 * hidden / inside; }
@@ -106,22 +90,14 @@ struct Truth {
 
 class TargetSearch : public testing::Test {
  protected:
-  int number(int low, int high) {
-    return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1));
-  }
-  double share(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random);
-  }
+  int number(int low, int high) { return low + int(random() % std::uint64_t(high - low + 1)); }
+  double share(double low, double high) { return uniform(random, low, high); }
   bool with(double chance) { return share(0, 1) < chance; }
 
   Moving moving(int least, int largest, int speed) {
-    return {number(-20, width),
-            number(-20, height),
-            number(-speed, speed),
-            number(-speed, speed),
-            number(least, largest),
-            number(least, largest),
-            static_cast<float>(share(0.7, 1.7))};
+    return {number(-20, width),    number(-20, height),    number(-speed, speed),
+            number(-speed, speed), number(least, largest), number(least, largest),
+            float(share(0.7, 1.7))};
   }
 
   World world() {
@@ -136,33 +112,32 @@ class TargetSearch : public testing::Test {
   }
 
   void draw(const World& world, TargetFrame& frame) {
-    for (int v = 0; v < height; ++v) {
-      for (int u = 0; u < width; ++u) {
-        float& z = frame.measured(u, v);
-        z = TargetFrame::wall;
-        const bool on_object = world.is_there && world.of_object(u, v);
-        if (on_object) z = world.object.z;
-        z = std::min(z, world.robot_depth(u, v)) + static_cast<float>(share(-noise, noise));
-        const bool is_object = on_object && !world.is_hidden(u, v);
-        if (with(is_object ? std::max(world.holes, world.object_holes) : world.holes)) z = 0;
-      }
+    for (const auto [u, v] : each_pixel(0, 0, width, height)) {
+      float& z = frame.measured(u, v);
+      z = TargetFrame::wall;
+      const bool on_object = world.is_there && world.of_object(u, v);
+      if (on_object) z = world.object.z;
+      z = std::min(z, world.robot_depth(u, v)) + float(share(-noise, noise));
+      const bool is_object = on_object && !world.is_hidden(u, v);
+      if (with(is_object ? std::max(world.holes, world.object_holes) : world.holes)) z = 0;
     }
     for (std::size_t i = 0; i < world.robot.size(); ++i)
-      add(world.robot[i], static_cast<std::uint16_t>(i), frame);
+      add(world.robot[i], std::uint16_t(i), frame);
   }
 
   static void add(const Moving& part, std::uint16_t link, TargetFrame& frame) {
-    for (int v = std::max(part.v, 0); v < std::min(part.v + part.h, height); ++v)
-      for (int u = std::max(part.u, 0); u < std::min(part.u + part.w, width); ++u)
-        if (frame.robot(u, v) == 0 || part.z < frame.robot(u, v))
-          frame.add_robot(u, v, u + 1, v + 1, part.z, link, false);
+    for (const auto [u, v] :
+         each_pixel(std::max(part.u, 0), std::max(part.v, 0), std::min(part.u + part.w, width),
+                    std::min(part.v + part.h, height)))
+      if (frame.robot(u, v) == 0 || part.z < frame.robot(u, v))
+        frame.add_robot(u, v, u + 1, v + 1, part.z, link, false);
   }
 
   void run(World world);
   void judge(Way way, const World& world, const Truth& truth, TargetJudge& judge);
   TargetView view(Way way, const World& world, const Truth& truth);
 
-  std::mt19937_64 random = test::seeded_random(7);
+  std::mt19937_64 random = seeded_random(7);
   TargetThresholds thresholds;
   double most = 0;  // that may be hidden of what is visible
   bool has_depth = false;
@@ -179,9 +154,9 @@ TargetView TargetSearch::view(Way way, const World& world, const Truth& truth) {
   target.region = PixelMask{(way < modal ? truth.whole : truth.seen).view()};
   target.extent = way < modal ? Extent::amodal : Extent::modal;
   if (way == amodal_with_depth || (way >= modal && has_depth))
-    target.expected_depth = static_cast<double>(world.object.z);
+    target.expected_depth = double(world.object.z);
   if (way == modal_with_motion)
-    target.motion = Eigen::Vector2d(world.object.u - last[way].u, world.object.v - last[way].v);
+    target.motion = Vector2d(world.object.u - last[way].u, world.object.v - last[way].v);
   return target;
 }
 
@@ -230,13 +205,13 @@ void TargetSearch::run(World world) {
 }
 
 TEST_F(TargetSearch, NothingHiddenIsCalledVisible) {
-  const int sequences = test::measures_in_full() ? 5000 : test::samples(100);
+  const int sequences = measures_in_full() ? 5000 : samples(100);
   for (int i = 0; i < sequences; ++i) {
     SCOPED_TRACE("sequence " + std::to_string(i));
     run(world());
     if (HasFailure()) return;
   }
-  const auto some = static_cast<std::size_t>(test::samples(100));
+  const auto some = std::size_t(samples(100));
   for (std::size_t way = 0; way < ways; ++way) {
     std::cout << way_names[way] << ": visible " << visible[way] << " times, hidden by more than "
               << "its threshold " << behind[way] << " times\n";
@@ -247,4 +222,4 @@ TEST_F(TargetSearch, NothingHiddenIsCalledVisible) {
 }
 
 }  // namespace
-}  // namespace penumbra
+}  // namespace penumbra::test

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../robot/plain_robot.hpp"
 #include "../robot/urdf_text.hpp"
-
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/time/joint_buffer.hpp>
 
 namespace penumbra::test {
 namespace {
-
-constexpr std::int64_t kMs = 1'000'000;
 
 Robot arm(const std::string& second_type = "revolute", const std::string& body = "") {
   return parse(robot_xml(link_xml("a") + link_xml("b") + link_xml("c") +
@@ -21,12 +15,12 @@ Robot arm(const std::string& second_type = "revolute", const std::string& body =
 
 class Buffer : public ::testing::Test {
  protected:
-  std::size_t insert(std::int64_t ms, std::vector<std::string> names, std::vector<double> values) {
-    return buffer_.insert(ms * kMs, names, values);
+  std::size_t insert(std::int64_t t, std::vector<std::string> names, std::vector<double> values) {
+    return buffer_.insert(t * ms, names, values);
   }
 
-  const JointAnswer& at(std::int64_t ms) {
-    buffer_.at(ms * kMs, answer_);
+  const JointAnswer& at(std::int64_t t) {
+    buffer_.at(t * ms, answer_);
     return answer_;
   }
 
@@ -36,8 +30,6 @@ class Buffer : public ::testing::Test {
 };
 
 TEST_F(Buffer, BadValuesAreCountedAndForeignNamesAreNotTaken) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double inf = std::numeric_limits<double>::infinity();
   EXPECT_EQ(insert(0, {"gripper", "p", "q", "q"}, {1.0, nan, -inf, 1e12}), 0u);
   EXPECT_EQ(insert(0, {"p", "q"}, {1.0}), 1u);
   EXPECT_EQ(buffer_.refused_values(), 4u);
@@ -47,7 +39,7 @@ TEST_F(Buffer, BadValuesAreCountedAndForeignNamesAreNotTaken) {
 
 TEST_F(Buffer, HistoryIsBoundedInTimeButTheLastStateIsRemembered) {
   insert(0, {"p", "q"}, {0.0, 0.0});
-  for (std::int64_t ms = 50; ms <= 5000; ms += 50) insert(ms, {"p"}, {1.0});
+  for (std::int64_t t = 50; t <= 5000; t += 50) insert(t, {"p"}, {1.0});
   EXPECT_EQ(at(4990).gaps.size(), 1u);
   EXPECT_EQ(answer_.gaps[0].variable, 1u);
   EXPECT_EQ(answer_.gaps[0].last_seen, 0);
@@ -66,17 +58,17 @@ TEST(BufferKinds, PartsOfAQuaternionBelongToOneStamp) {
   JointBuffer buffer(robot);
   buffer.insert(0, kPose, std::vector<double>{0, 0, 0, 0, 0, 0, 0, 1});
   const std::vector<std::string> some = {"p", "q/x", "q/y", "q/z", "q/qx", "q/qy"};
-  buffer.insert(10 * kMs, some, std::vector<double>(6, 0.0));
+  buffer.insert(10 * ms, some, std::vector<double>(6, 0.0));
   EXPECT_EQ(buffer.complete_until(), 0);
   JointAnswer answer;
-  buffer.at(5 * kMs, answer);
+  buffer.at(5 * ms, answer);
   EXPECT_EQ(answer.status, JointStatus::stale);
   EXPECT_EQ(answer.gaps.size(), 4u);
   const std::vector<std::string> rest = {"q/qz", "q/qw"};
-  buffer.insert(10 * kMs, rest, std::vector<double>{0.6, 0.8});
-  buffer.at(5 * kMs, answer);
+  buffer.insert(10 * ms, rest, std::vector<double>{0.6, 0.8});
+  buffer.at(5 * ms, answer);
   EXPECT_EQ(answer.status, JointStatus::ok);
-  EXPECT_EQ(buffer.complete_until(), 10 * kMs);
+  EXPECT_EQ(buffer.complete_until(), 10 * ms);
 }
 
 TEST(BufferJumps, AreNeverInterpolated) {
@@ -104,16 +96,16 @@ TEST(BufferJumps, AreNeverInterpolated) {
     const Robot robot = arm(each.type, each.body);
     std::vector<std::string> names(robot.variables().begin() + 1, robot.variables().end());
     JointBuffer buffer(robot);
-    for (const std::int64_t stamp : {std::int64_t{0}, 100 * kMs}) {
+    for (const std::int64_t stamp : {std::int64_t{0}, 100 * ms}) {
       buffer.insert(stamp, std::vector<std::string>{"p"}, std::vector<double>{0.0});
       buffer.insert(stamp, names, stamp == 0 ? each.before : each.after);
     }
     JointAnswer answer;
-    buffer.at(50 * kMs, answer);
+    buffer.at(50 * ms, answer);
     EXPECT_EQ(answer.status, each.ok ? JointStatus::ok : JointStatus::stale)
         << each.type << ' ' << each.after.back();
     EXPECT_EQ(!answer.gaps.empty() && answer.gaps.back().jump, !each.ok);
-    buffer.at(100 * kMs, answer);
+    buffer.at(100 * ms, answer);
     EXPECT_EQ(answer.status, JointStatus::ok) << "a state itself is no jump";
   }
 }
@@ -124,6 +116,221 @@ TEST(BufferKinds, QuaternionsThatAreNoneAreRefused) {
   EXPECT_EQ(buffer.insert(0, kPose, std::vector<double>(8, 0.0)), 4u);
   EXPECT_EQ(buffer.refused_values(), 4u);
   EXPECT_FALSE(buffer.complete_until());
+}
+
+// The joint buffer against a naive twin that keeps every state in a map.
+
+// Positions of size 10, a handful of operations.
+constexpr double kOracleTolerance = 1e-12;
+constexpr std::int64_t kMaxGap = 50;
+
+struct Oracle {
+  std::vector<std::string> names;
+  std::map<std::string, std::map<std::int64_t, double>> states;
+
+  using Known = std::map<std::int64_t, std::vector<double>>;
+
+  // The stamps at which every one of the variables is known.
+  Known known(const std::vector<std::string>& of) const {
+    Known out;
+    const auto first = states.find(of[0]);
+    if (first == states.end()) return out;
+    for (const auto& [stamp, value] : first->second) {
+      std::vector<double> values;
+      for (const std::string& name : of)
+        if (states.count(name) != 0 && states.at(name).count(stamp) != 0)
+          values.push_back(states.at(name).at(stamp));
+      if (values.size() == of.size()) out[stamp] = values;
+    }
+    return out;
+  }
+};
+
+struct Between {
+  bool ok = false;
+  std::int64_t age = 0;
+  double t = 0.0;
+  std::vector<double> a, b;
+};
+
+Between between(const Oracle::Known& known, std::int64_t stamp) {
+  const auto after = known.lower_bound(stamp);
+  if (after == known.end()) return {};
+  if (after->first == stamp) return {true, 0, 0.0, after->second, after->second};
+  if (after == known.begin()) return {};
+  const auto before = std::prev(after);
+  const std::int64_t gap = after->first - before->first;
+  if (gap > kMaxGap) return {};
+  const std::int64_t passed = stamp - before->first;
+  return {true, std::max(passed, gap - passed), double(passed) / double(gap), before->second,
+          after->second};
+}
+
+std::vector<double> slerp(std::vector<double> a, std::vector<double> b, double t) {
+  double dot = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) dot += a[i] * b[i];
+  const double sign = dot < 0.0 ? -1.0 : 1.0;
+  const double angle = std::acos(std::min(1.0, std::abs(dot)));
+  const double s = std::sin(angle);
+  const double u = s < 1e-9 ? 1.0 - t : std::sin((1.0 - t) * angle) / s;
+  const double v = s < 1e-9 ? t : std::sin(t * angle) / s;
+  for (std::size_t i = 0; i < 4; ++i) a[i] = u * a[i] + sign * v * b[i];
+  return a;
+}
+
+bool turns(const std::string& name) { return name == "j1" || name.ends_with("/yaw"); }
+
+class Fuzz {
+ public:
+  explicit Fuzz(Random& random) : random_(random) {
+    oracle_.names.assign(robot_.variables().begin(), robot_.variables().end());
+  }
+
+  void insert_some() {
+    const auto stamp = std::int64_t(below(random_, 600));
+    std::vector<std::string> names;
+    std::vector<double> values;
+    const auto put = [&](const std::string& name, double value) {
+      names.push_back(name);
+      values.push_back(value);
+      oracle_.states[name][stamp] = value;
+    };
+    for (const std::string& name : oracle_.names)
+      if (name.find("/q") == std::string::npos && below(random_, 3) != 0)
+        put(name, random_position(name));
+    for (const char* joint : {"j2", "j5"})
+      if (below(random_, 3) != 0) put_quaternion(joint, put);
+    names.push_back("stranger");
+    values.push_back(1.0);
+    EXPECT_EQ(buffer_.insert(stamp, names, values), names.size() - 1);
+  }
+
+  void ask() {
+    const auto stamp = std::int64_t(below(random_, 620)) - 10;
+    JointAnswer answer;
+    buffer_.at(stamp, answer);
+    std::int64_t age = 0;
+    std::size_t gaps = 0;
+    bool any_missing = false;
+    for (std::size_t i = 0; i < oracle_.names.size(); ++i) {
+      const std::string& name = oracle_.names[i];
+      const Between found = between(oracle_.known(group_of(i)), stamp);
+      if (found.ok && !jumps(i, found)) {
+        age = std::max(age, found.age);
+        if (answer.status == JointStatus::ok) {
+          EXPECT_NEAR(answer.positions[i], expected(i, found), kOracleTolerance) << name;
+        }
+        continue;
+      }
+      ++gaps;
+      any_missing |= expect_gap(answer, i, stamp);
+    }
+    ASSERT_EQ(answer.gaps.size(), gaps);
+    const JointStatus bad = any_missing ? JointStatus::missing : JointStatus::stale;
+    EXPECT_EQ(answer.status, gaps == 0 ? JointStatus::ok : bad);
+    if (gaps > 0) return;
+    EXPECT_EQ(answer.age, age);
+    ++answered_;
+  }
+
+  std::size_t answered() const { return answered_; }
+
+ private:
+  // Of what turns, few of which lie more than a right angle apart.
+  double random_position(const std::string& name) {
+    const double turn = 2.0 * std::numbers::pi;
+    if (turns(name)) return uniform(random_, -1.0, 1.0) + turn * double(below(random_, 4));
+    return name == "j0" ? uniform(random_, -1.0, 1.0) : uniform(random_, -10.0, 10.0);
+  }
+
+  // Its parts in any order.
+  template <typename Put>
+  void put_quaternion(const std::string& joint, const Put& put) {
+    double q[4];
+    double norm = 0.0;
+    for (double& part : q) {
+      part = uniform(random_, -0.4, 0.4);
+      if (&part == &q[3]) part = part < 0.0 ? -1.0 : 1.0;
+      norm += part * part;
+    }
+    const char* endings[] = {"/qx", "/qy", "/qz", "/qw"};
+    const std::size_t start = below(random_, 4);
+    // A stamp's quaternion is given whole or not at all, so that no two are mixed.
+    for (std::size_t i = 0; i < 4; ++i)
+      put(joint + endings[(start + i) % 4], q[(start + i) % 4] / std::sqrt(norm));
+  }
+
+  std::vector<std::string> group_of(std::size_t i) const {
+    const std::string& name = oracle_.names[i];
+    const std::size_t at = name.find("/q");
+    if (at == std::string::npos) return {name};
+    const std::string joint = name.substr(0, at);
+    return {joint + "/qx", joint + "/qy", joint + "/qz", joint + "/qw"};
+  }
+
+  double expected(std::size_t i, const Between& found) const {
+    const std::string& name = oracle_.names[i];
+    if (found.a.size() == 4)
+      return slerp(found.a, found.b, found.t)[std::string("xyzw").find(name.back())];
+    return found.a[0] + found.t * way(name, found);
+  }
+
+  static double way(const std::string& name, const Between& found) {
+    double way = found.b[0] - found.a[0];
+    const double turn = 2.0 * std::numbers::pi;
+    while (turns(name) && way > std::numbers::pi) way -= turn;
+    while (turns(name) && way < -std::numbers::pi) way += turn;
+    return way;
+  }
+
+  // Whether what turns does so by more than a right angle.
+  bool jumps(std::size_t i, const Between& found) const {
+    const std::string& name = oracle_.names[i];
+    const double most = std::numbers::pi / 2.0;
+    if (found.a.size() == 1)
+      return (turns(name) || name == "j0") && std::abs(way(name, found)) > most;
+    double dot = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) dot += found.a[k] * found.b[k];
+    return 2.0 * std::acos(std::min(1.0, std::abs(dot))) > most;
+  }
+
+  // Whether the variable was never seen.
+  bool expect_gap(const JointAnswer& answer, std::size_t i, std::int64_t stamp) const {
+    const auto gap = std::find_if(answer.gaps.begin(), answer.gaps.end(),
+                                  [&](const JointGap& g) { return g.variable == i; });
+    EXPECT_NE(gap, answer.gaps.end()) << oracle_.names[i] << " at " << stamp;
+    if (gap == answer.gaps.end()) return false;
+    const auto states = oracle_.states.find(oracle_.names[i]);
+    const bool missing = states == oracle_.states.end();
+    EXPECT_EQ(gap->why, missing ? JointStatus::missing : JointStatus::stale);
+    std::optional<std::int64_t> last;
+    if (!missing)
+      for (const auto& [s, value] : states->second)
+        if (s <= stamp) last = s;
+    EXPECT_EQ(gap->last_seen, last);
+    return missing;
+  }
+
+  Random& random_;
+  Robot robot_ = every_kind();
+  JointBuffer buffer_{robot_, {.max_gap = double(kMaxGap) * 1e-9, .history = 1.0}};
+  Oracle oracle_;
+  std::size_t answered_ = 0;
+};
+
+TEST(JointBufferOracle, AgreesOnRandomStates) {
+  Random random = seeded_random(7);
+  std::size_t answered = 0;
+  for (int trial = 0; trial < samples(20); ++trial) {
+    Fuzz fuzz(random);
+    for (int step = 0; step < 120; ++step) {
+      fuzz.insert_some();
+      fuzz.ask();
+      ASSERT_FALSE(testing::Test::HasFailure()) << "trial " << trial << " step " << step;
+    }
+    answered += fuzz.answered();
+  }
+  EXPECT_GT(answered, std::size_t(samples(50)));  // else the test would see gaps only
 }
 
 }  // namespace

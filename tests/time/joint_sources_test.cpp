@@ -1,17 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One joint with several publishers, asked as frames are: while messages arrive.
 #include "../robot/urdf_text.hpp"
-#include "../support/nanoseconds.hpp"
-#include "../support/random.hpp"
-#include "../support/run_length.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/time/joint_buffer.hpp>
 
@@ -53,8 +42,8 @@ struct Publisher {
 
 /// Sends what a publisher, which starts at 0, sent last `lag` before.
 Publisher relay(const Publisher& of, std::int64_t lag, std::int64_t period = 10) {
-  const double step = 1e-3 * static_cast<double>(of.period);
-  const double late = 1e-3 * static_cast<double>(lag), end = 1e-3 * static_cast<double>(of.end);
+  const double step = 1e-3 * double(of.period);
+  const double late = 1e-3 * double(lag), end = 1e-3 * double(of.end);
   const Path path = [=, path = of.path](double t) {
     return path(step * std::max(0.0, std::floor(std::min(t - late, end) / step + 1e-9)));
   };
@@ -67,7 +56,7 @@ struct Message {
   std::string source;
 };
 
-double seconds(std::int64_t stamp) { return 1e-9 * static_cast<double>(stamp); }
+double seconds(std::int64_t stamp) { return 1e-9 * double(stamp); }
 
 std::vector<Message> messages_of(const std::vector<Publisher>& publishers) {
   std::vector<Message> all;
@@ -265,9 +254,7 @@ TEST(JointSources, ManyAreKeptWithinBounds) {
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : random_(seeded_random(seed)) {}
-  double number(double from, double to) {
-    return std::uniform_real_distribution<double>(from, to)(random_);
-  }
+  double number(double from, double to) { return uniform(random_, from, to); }
   std::int64_t time(std::int64_t from, std::int64_t to) {
     return std::uniform_int_distribution<std::int64_t>(from, to)(random_);
   }
@@ -304,7 +291,7 @@ TEST(JointSources, NoPoseOffByMoreThanTheNoiseIsOk) {
     const std::int64_t period = draw.time(2, 20), latency = draw.time(0, 20);
     const Publisher driver{"driver", arm, period, 0, all_ends, latency};
     const Publisher sliders{"sliders", rest(path(0.0)), draw.time(2, 100), draw.time(0, 20)};
-    const double unheard = 3.0 * 1e-3 * static_cast<double>(3 * period + latency);
+    const double unheard = 3.0 * 1e-3 * double(3 * period + latency);
     OneJoint joint;
     for (const auto& [stamp, answer] : joint.frames(draw.sent({driver, sliders})))
       if (stamp >= 150 * ms && answer.status == JointStatus::ok) {

@@ -2,12 +2,7 @@
 // Covariances are true: over many samples of the model, squared errors in units of the covariance
 // follow chi^2 (Bar-Shalom, Li, Kirubarajan 2001, section 5.4: NEES of states, NIS of estimates).
 #include "../support/algebra.hpp"
-#include "../support/random.hpp"
-#include "../support/run_length.hpp"
-#include "random_motion.hpp"
 #include "tracks.hpp"
-
-#include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
@@ -82,9 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Motions, Consistency, testing::ValuesIn(all_motions()))
 
 TEST(PointConsistency, ErrorsFollowChiSquare) {
   auto random = seeded_random(442);
-  PointTrackerConfig config;
-  config.motion = PointMotion::constant_velocity;
-  config.gate = 1e6;
+  const PointTrackerConfig config{.motion = PointMotion::constant_velocity, .gate = 1e6};
   PoseTrackerConfig twin;  // moves as the point does
   twin.motion = Motion::constant_velocity;
   twin.acceleration = config.acceleration;
@@ -98,16 +91,16 @@ TEST(PointConsistency, ErrorsFollowChiSquare) {
       const auto seen = target.estimate(i * frame);
       const auto expected = tracker.at(seen.stamp);
       if (i > 0) {
-        const Eigen::Vector3d innovation = seen.pose.translation() - expected.position;
-        const Eigen::Matrix3d total =
-            expected.covariance + config.sigma * config.sigma * Eigen::Matrix3d::Identity();
+        const Vector3d innovation = seen.pose.translation() - expected.position;
+        const Matrix3d total =
+            expected.covariance + config.sigma * config.sigma * Matrix3d::Identity();
         estimates.add(squared_sigmas(innovation, total), 3);
       }
       tracker.update({seen.stamp, seen.pose.translation()}, Verdict::visible);
       if (i + 1 < frames) target.advance(frame);
     }
     const auto now = tracker.at(stamp_at((frames - 1) * frame));
-    const Eigen::Vector3d error = target.pose().translation() - now.position;
+    const Vector3d error = target.pose().translation() - now.position;
     state.add(squared_sigmas(error, now.covariance), 3);
   }
   EXPECT_LT(std::abs(state.off()), deviations);
@@ -122,11 +115,11 @@ TEST(PointConsistency, HeldPointsSigmaIsThatOfASteadyHand) {
   ChiSquare errors;
   for (int run = 0; run < samples(2000); ++run) {
     PointTracker tracker(config);
-    const Eigen::Vector3d start = normal<3>(random), velocity = 0.5 * normal<3>(random);
+    const Vector3d start = normal<3>(random), velocity = 0.5 * normal<3>(random);
     tracker.update({stamp_at(0), start + config.sigma * normal<3>(random)}, Verdict::visible);
     const double hidden = 0.02 + 0.001 * run;
     const auto held = tracker.at(stamp_at(hidden));
-    const Eigen::Vector3d error = start + hidden * velocity - held.position;
+    const Vector3d error = start + hidden * velocity - held.position;
     errors.add(squared_sigmas(error, held.covariance), 3);
   }
   EXPECT_LT(std::abs(errors.off()), deviations);

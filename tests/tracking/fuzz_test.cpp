@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whatever comes in whatever order: results stay finite and honest.
 #include "../support/algebra.hpp"
-#include "../support/random.hpp"
-#include "../support/run_length.hpp"
-#include "random_motion.hpp"
 #include "tracks.hpp"
 
-#include <limits>
-
 #include <Eigen/Eigenvalues>
-#include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
@@ -21,17 +15,10 @@ class Chance {
   [[nodiscard]] bool one_of(int n) { return below(n) == 0; }
   [[nodiscard]] int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
   [[nodiscard]] double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
+    return test::uniform(random_, low, high);
   }
   [[nodiscard]] double any_number() {
-    const double odd[] = {0,
-                          1e300,
-                          -1e300,
-                          1e-300,
-                          std::numeric_limits<double>::infinity(),
-                          -1e9,
-                          1e155,
-                          std::numeric_limits<double>::quiet_NaN()};
+    const double odd[] = {0, 1e300, -1e300, 1e-300, inf, -1e9, 1e155, nan};
     return odd[below(8)];
   }
   [[nodiscard]] std::int64_t stamp(double now) {
@@ -80,8 +67,8 @@ void expect_honest(const TrackedPose& pose, double timeout) {
   if (std::isinf(pose.age)) return;
   ASSERT_TRUE(pose.pose.matrix().allFinite());
   ASSERT_TRUE(pose.twist.allFinite());
-  const Eigen::Matrix3d r = pose.pose.linear();
-  EXPECT_LT((r.transpose() * r - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  const Matrix3d r = pose.pose.linear();
+  EXPECT_LT((r.transpose() * r - Matrix3d::Identity()).norm(), 1e-12);
   EXPECT_GT(r.determinant(), 0);
   expect_covariance(pose.covariance);
 }
@@ -97,7 +84,7 @@ TEST_P(PoseFuzz, StaysFiniteAndHonest) {
     config.worst = Verdict(run % 3);
     config.memory = run % 4 * 0.5;
     if (run % 2 == 0) config.gate = 1e6;  // so that all motions' corrections are met
-    config.max_estimates = 2 + 5 * static_cast<std::size_t>(run);
+    config.max_estimates = 2 + 5 * std::size_t(run);
     PoseTracker tracker(config);
     double now = 0;
     for (int i = 0; i < 400; ++i) {

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which estimates are taken: verdicts, outliers, the return after an occlusion, the time-out.
+// Which estimates are taken: verdicts, outliers, the return after an occlusion, the time-out; and
+// what cannot be right.
 #include "tracks.hpp"
-
-#include <gtest/gtest.h>
 
 namespace penumbra::test {
 namespace {
 
 constexpr double period = 0.1;
-
-PoseEstimate seen_at(double seconds, double x) {
-  PoseEstimate estimate;
-  estimate.stamp = stamp_at(seconds);
-  estimate.pose.translation().x() = x;
-  return estimate;
-}
 
 /// A tracker of a target at rest, seen in frames 0 to 9.
 PoseTracker settled(const PoseTrackerConfig& config = {}) {
@@ -31,10 +23,8 @@ TEST(Verdicts, WorseOnesAreRefused) {
   const Verdict all[] = {Verdict::visible, Verdict::partial,     Verdict::hidden,
                          Verdict::unknown, Verdict::out_of_view, Verdict::held};
   for (int worst = 0; worst < 3; ++worst) {
-    PoseTrackerConfig config;
-    config.worst = all[worst];
     for (int verdict = 0; verdict < 6; ++verdict) {
-      PoseTracker tracker(config);
+      PoseTracker tracker({.worst = all[worst]});
       const auto outcome = tracker.update(seen_at(0, 0), all[verdict]);
       const bool taken = verdict <= worst;  // unknown, out_of_view and held never
       EXPECT_EQ(outcome, taken ? Outcome::accepted : Outcome::refused_verdict);
@@ -44,17 +34,13 @@ TEST(Verdicts, WorseOnesAreRefused) {
 }
 
 PoseEstimate partly_seen(double seconds, double x, double share) {
-  PoseEstimate estimate = seen_at(seconds, x);
-  estimate.seen = share;
-  return estimate;
+  return {.stamp = stamp_at(seconds), .pose = at(x, 0, 0), .seen = share};
 }
 
 TEST(PartlySeen, CountsLessTheLessWasSeen) {
   double last = 0.02;  // metres to an estimate that is off by 2 cm
   for (const double share : {0.5, 0.8, 0.9, 1.0}) {
-    PoseTrackerConfig config;
-    config.gate = 1e6;
-    auto tracker = settled(config);
+    auto tracker = settled({.gate = 1e6});
     ASSERT_EQ(tracker.update(partly_seen(10 * period, 0.02, share), Verdict::partial),
               Outcome::accepted);
     const double off = 0.02 - x_at(tracker, 10 * period);
@@ -75,12 +61,10 @@ TEST(PartlySeen, IsRefusedHiddenOrBelowTheLeastShareOrByWorst) {
   for (const double share : {0.0, 0.3})
     EXPECT_EQ(tracker.update(partly_seen(10 * period, 0, share), Verdict::partial),
               Outcome::refused_verdict);
-  PoseTrackerConfig strict;
-  strict.worst = Verdict::visible;
-  auto strict_tracker = settled(strict);
-  EXPECT_EQ(strict_tracker.update(partly_seen(10 * period, 0, 0.9), Verdict::partial),
+  auto strict = settled({.worst = Verdict::visible});
+  EXPECT_EQ(strict.update(partly_seen(10 * period, 0, 0.9), Verdict::partial),
             Outcome::refused_verdict);
-  for (const double share : {-0.1, 1.1, std::nan("")})
+  for (const double share : {-0.1, 1.1, nan})
     EXPECT_EQ(tracker.update(partly_seen(10 * period, 0, share), Verdict::partial),
               Outcome::refused_invalid);
 }
@@ -151,11 +135,9 @@ TEST(Gate, ConsistentOutliersMakeANewTrack) {
 // A prediction that went astray: the gate has grown with what is not known, so that the target is
 // found again at once, while what cannot be is still refused.
 TEST(Return, GateGrowsWithTheOcclusion) {
-  PoseTrackerConfig config;
-  config.acceleration = 0.1;
   constexpr double off = 0.15;
   for (const double hidden : {0.2, 2.0}) {
-    auto tracker = settled(config);
+    auto tracker = settled({.acceleration = 0.1});
     const double back = 0.9 + hidden;
     EXPECT_EQ(tracker.update(seen_at(back, 3), Verdict::visible), Outcome::refused_gate);
     EXPECT_EQ(tracker.update(seen_at(back + 0.01, off), Verdict::visible),
@@ -177,6 +159,67 @@ TEST(Return, WhatWasLostBeginsAnew) {
   EXPECT_EQ(anew.pose.translation().x(), 2.5);
   EXPECT_EQ(anew.twist.norm(), 0);
   EXPECT_NEAR(anew.covariance(0, 0), 25e-6, 1e-12);
+}
+
+TEST(TrackerConfig, SaysWhichFieldIsWrong) {
+  using Config = PoseTrackerConfig;
+  const std::vector<std::pair<std::string, Config>> faults{
+      {"position_sigma 0", {.position_sigma = 0}},
+      {"orientation_sigma nan", {.orientation_sigma = nan}},
+      {"acceleration -1", {.acceleration = -1}},
+      {"angular_drift -1", {.angular_drift = -1}},
+      {"timeout 0", {.timeout = 0}},
+      {"gate_patience 0", {.gate_patience = 0}},
+      {"max_estimates 1", {.max_estimates = 1}},
+      {"worst unknown", {.worst = Verdict::unknown}},
+      {"direction is (0, 0, 0)", {.motion = Motion::along_direction}},
+      {"speed is given", {.speed = 1}}};
+  for (const auto& [part, config] : faults) expect_refused([&c = config] { c.check(); }, {part});
+}
+
+/// What becomes of an estimate that was right before `spoil`.
+Outcome outcome_of(const std::function<void(PoseEstimate&)>& spoil) {
+  PoseTracker tracker;
+  PoseEstimate estimate;
+  estimate.covariance = Matrix6d::Identity();
+  spoil(estimate);
+  const Outcome outcome = tracker.update(estimate, Verdict::visible);
+  EXPECT_EQ(tracker.at(0).source, outcome == Outcome::accepted ? Source::measured : Source::lost);
+  return outcome;
+}
+
+TEST(BadEstimates, AreRefusedAsInvalid) {
+  using Estimate = PoseEstimate;
+  EXPECT_EQ(outcome_of([](Estimate&) {}), Outcome::accepted);
+  const std::vector<std::function<void(Estimate&)>> faults{
+      [](Estimate& e) { e.pose.translation().y() = nan; },
+      [](Estimate& e) { e.pose.translation().x() = inf; },
+      [](Estimate& e) { e.pose.linear()(0, 1) = nan; },
+      [](Estimate& e) { e.pose.linear().setZero(); },
+      [](Estimate& e) { e.pose.linear() *= 1.001; },
+      [](Estimate& e) { e.pose.linear()(2, 2) = -1; },
+      [](Estimate& e) { e.pose.linear()(0, 1) = 1e-3; },
+      [](Estimate& e) { (*e.covariance)(0, 0) = nan; },
+      [](Estimate& e) { (*e.covariance)(3, 3) = -1; },
+      [](Estimate& e) { (*e.covariance)(4, 4) = 0; },
+      [](Estimate& e) { (*e.covariance)(0, 1) = 0.5; },
+      [](Estimate& e) { (*e.covariance)(0, 1) = (*e.covariance)(1, 0) = 1.5; },
+      [](Estimate& e) { e.covariance->setZero(); },
+      [](Estimate& e) { *e.covariance *= 1e30; }};
+  for (std::size_t i = 0; i < faults.size(); ++i)
+    EXPECT_EQ(outcome_of(faults[i]), Outcome::refused_invalid) << "fault " << i;
+}
+
+TEST(BadEstimates, RotationsOfTextFilesAreTaken) {
+  Matrix3d rounded = turn({0.3, -1.2, 0.8});
+  rounded = (rounded * 1e5).array().round() / 1e5;
+  PoseTracker tracker;
+  PoseEstimate estimate;
+  estimate.pose.linear() = rounded;
+  EXPECT_EQ(tracker.update(estimate, Verdict::visible), Outcome::accepted);
+  const Matrix3d kept = tracker.at(0).pose.linear();
+  EXPECT_LT((kept.transpose() * kept - Matrix3d::Identity()).norm(), 1e-14);
+  EXPECT_LT((kept - rounded).norm(), 3e-5);  // nine entries, each rounded by half a digit
 }
 
 }  // namespace
