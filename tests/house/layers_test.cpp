@@ -13,9 +13,16 @@ namespace {
 using Names = std::set<std::string>;
 
 const std::map<std::string, Names>& allowed_rooms() {
-  static const Names core{"base",        "mesh",      "robot",    "time",    "camera",   "render",
-                          "labels",      "poses",     "tracking", "targets", "pipeline", "tuning",
-                          "calibration", "diagnosis", "session",  "scene",   "cloud"};
+  static const Names frame{"base",   "mesh",  "robot",    "time",    "camera",  "render",
+                           "labels", "poses", "tracking", "targets", "pipeline"};
+  const auto frame_and = [](std::initializer_list<const char*> more) {
+    Names names = frame;
+    names.insert(more.begin(), more.end());
+    return names;
+  };
+  static const Names setup = frame_and({"tuning", "calibration", "diagnosis"});
+  static const Names core =
+      frame_and({"tuning", "calibration", "diagnosis", "session", "scene", "cloud"});
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", {"base"}},
       {"penumbra/mesh", {"base", "mesh"}},
@@ -29,14 +36,12 @@ const std::map<std::string, Names>& allowed_rooms() {
       {"penumbra/targets",
        {"base", "mesh", "robot", "time", "camera", "render", "labels", "poses", "tracking",
         "targets"}},
-      {"penumbra/pipeline",
-       {"base", "mesh", "robot", "time", "camera", "render", "labels", "poses", "tracking",
-        "targets", "pipeline"}},
-      {"penumbra/tuning", core},
-      {"penumbra/calibration", core},
-      {"penumbra/diagnosis", core},
+      {"penumbra/pipeline", frame},
+      {"penumbra/tuning", setup},
+      {"penumbra/calibration", setup},
+      {"penumbra/diagnosis", setup},
       {"penumbra/session", core},
-      {"penumbra/scene", core},
+      {"penumbra/scene", frame_and({"scene"})},
       {"penumbra/cloud",
        {"base", "mesh", "robot", "time", "camera", "render", "labels", "poses", "tracking",
         "targets", "cloud"}},
