@@ -12,8 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include <boost/asio.hpp>
-#include <boost/beast.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
 
 #include <io/web/shared_limit-inl.hpp>
 #include <io/web/web_guard.hpp>
@@ -162,7 +165,7 @@ class Channel : public std::enable_shared_from_this<Channel> {
 
   Shared& shared_;
   ConnectionSlot slot_;
-  websocket::stream<beast::tcp_stream> stream_;
+  websocket::stream<beast::tcp_stream, false> stream_;  // without compression
   std::unique_ptr<WebChannel> channel_;
   beast::flat_buffer buffer_;
   std::vector<SharedBytes> message_;  // being sent
