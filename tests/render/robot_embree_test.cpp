@@ -188,12 +188,14 @@ TEST_P(RobotAgainstEmbree, AWindowShowsWhatTheWholeImageShows) {
   std::mt19937_64 random = seeded_random(102);
   const std::vector<Body> bodies = link_bodies(robot);
   const Intrinsics intrinsics = random_intrinsics(random, 320, 240);
-  for (const BackendChoice& choice : usable_backend_choices(1)) {
-    const auto whole = make(choice, intrinsics, bodies), part = make(choice, intrinsics, bodies);
-    for (int view = 0; view < views_per_camera; ++view) {
-      const auto poses = random_view(random, robot, bodies, intrinsics, kind_of(view));
-      const int u0 = int(random() % 300), v0 = int(random() % 220);
-      const PixelRectangle window{u0, v0, std::min(u0 + 60, 320), std::min(v0 + 40, 240)};
+  std::vector<std::array<std::unique_ptr<DepthRenderer>, 2>> renderers;
+  for (const BackendChoice& choice : usable_backend_choices(1))
+    renderers.push_back({make(choice, intrinsics, bodies), make(choice, intrinsics, bodies)});
+  for (int view = 0; view < views_per_camera; ++view) {
+    const auto poses = random_view(random, robot, bodies, intrinsics, kind_of(view));
+    const int u0 = int(random() % 300), v0 = int(random() % 220);
+    const PixelRectangle window{u0, v0, std::min(u0 + 60, 320), std::min(v0 + 40, 240)};
+    for (const auto& [whole, part] : renderers) {
       const VirtualDepthView expected = whole->render(poses), seen = part->render(poses, window);
       std::size_t different = 0;
       for (const auto [u, v] : each_pixel(window.u0, window.v0, window.u1, window.v1))

@@ -45,6 +45,13 @@ BruteForceOracle::BruteForceOracle(std::span<const Body> bodies,
           placed.sides[i] = a.cross(b);
           placed.doubt[i] = 1e-14 * a.norm() * b.norm();
         }
+        placed.middle.setZero();
+        for (const auto& corner : placed.corners) placed.middle += corner.normalized();
+        placed.middle.normalize();
+        placed.least = 1.0;
+        for (const auto& corner : placed.corners)
+          placed.least = std::min(placed.least, placed.middle.dot(corner.normalized()) - 1e-12);
+        if (!(placed.least > 0.1)) placed.least = -2.0;
       }
 }
 
@@ -53,6 +60,7 @@ void BruteForceOracle::for_each_hit(const Eigen::Vector3d& direction, F&& f) con
   const Vector3 ray = direction.cast<long double>();
   const double length = direction.norm();
   for (const Triangle& triangle : triangles_) {
+    if (triangle.middle.dot(direction) < triangle.least * length) continue;
     bool left = false, right = false;
     for (std::size_t i = 0; i < 3; ++i) {
       const double side = triangle.sides[i].dot(direction);

@@ -32,6 +32,8 @@ class BruteForceOracle final : public RayOracle {
     std::array<Eigen::Vector3d, 3> corners;  // optical frame
     std::array<Eigen::Vector3d, 3> sides;    // normals of the planes through the origin and an edge
     std::array<double, 3> doubt;             // bound of the rounding error of a unit ray . side
+    Eigen::Vector3d middle;                  // unit rays through the triangle have at least this
+    double least;                            // cosine to its middle; below -1 if it is very wide
     std::size_t body;
   };
   std::vector<Triangle> triangles_;
