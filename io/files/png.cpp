@@ -26,12 +26,12 @@ constexpr png_alloc_size_t max_chunk_bytes = 1 << 20;  // of a chunk that is not
 constexpr std::size_t signature_bytes = 8;
 
 /// What is wrong with an image.
-struct Fault {
+struct PngFault {
   std::string text;
 };
 
 // Errors are thrown through libpng. It warns of what does not touch the pixels.
-[[noreturn]] void on_error(png_structp, png_const_charp text) { throw Fault{text}; }
+[[noreturn]] void on_error(png_structp, png_const_charp text) { throw PngFault{text}; }
 void on_warning(png_structp, png_const_charp) {}
 
 /// The state of libpng: `make` and `free` are its functions for files that are read or written.
@@ -151,7 +151,7 @@ void encode_image(ImageView<const T> image, const Encoding& encoding, std::vecto
   for (int v = 0; v < image.height; ++v)
     png_write_row(png, reinterpret_cast<png_const_bytep>(image.row(v)));
   png_write_end(png, nullptr);
-} catch (const Fault& fault) {
+} catch (const PngFault& fault) {
   throw InputError(name + ": cannot be encoded: " + fault.text);
 }
 
@@ -190,7 +190,7 @@ std::optional<std::string> decode_png(std::span<const std::byte> bytes, Image<T>
   read_rows(png, info, reinterpret_cast<png_bytep>(image.data()),
             static_cast<std::size_t>(image.width()) * sizeof(T), as_rgb);
   return std::nullopt;
-} catch (const Fault& fault) {
+} catch (const PngFault& fault) {
   return "is a damaged PNG: " + fault.text;
 }
 
