@@ -18,7 +18,7 @@
 namespace penumbra::test {
 namespace {
 
-using json = nlohmann::ordered_json;
+using Ordered = nlohmann::ordered_json;
 
 TEST(ReportPage, HoldsReportAndKeyFrames) {
   const TemporaryFolder folder;
@@ -26,8 +26,8 @@ TEST(ReportPage, HoldsReportAndKeyFrames) {
   const auto out = folder.path() / "out";
   ASSERT_EQ(penumbra({"run", folder.path(), "-o", out, "--report"}).status, 0);
   const std::string page = read_file(out / "report.html");
-  EXPECT_EQ(page_json(page, "penumbra-report"), json::parse(read_file(out / "report.json")));
-  const json frames = page_json(page, "penumbra-pictures");
+  EXPECT_EQ(page_json(page, "penumbra-report"), Ordered::parse(read_file(out / "report.json")));
+  const Ordered frames = page_json(page, "penumbra-pictures");
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[0]["index"], 0);
   EXPECT_EQ(frames[1]["index"], 2);
@@ -45,7 +45,7 @@ TEST(ReportPage, HoldsReportAndKeyFrames) {
 }
 
 TEST(ReportPage, NamesCannotEndItsScripts) {
-  const json report{{"input", "</script><script>alert(1)</script><!-- "}};
+  const Ordered report{{"input", "</script><script>alert(1)</script><!-- "}};
   const std::vector<io::PagePicture> pictures = {{0, "data:", "</script>\xff"}};
   const std::string page = io::report_page(report.dump(), pictures);
   EXPECT_EQ(page.find("alert(1)</script>"), std::string::npos);
