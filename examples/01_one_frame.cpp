@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // One frame of a recording, from files to an answer: what of this view is real, and what is robot?
-// Link Penumbra::penumbra and Penumbra::io, which reads the recording's files. A node of your own has
-// its Camera, its depth and its joints from its drivers and fills the same Frame; examples 02 and 03
-// need Penumbra::penumbra alone.
+// Link Penumbra::penumbra and Penumbra::io, which reads the recording's files. A node of your own
+// has its Camera, its depth and its joints from its drivers and fills the same Frame; examples 02
+// and 03 need Penumbra::penumbra alone.
 #include <cstdlib>
 #include <iostream>
 
