@@ -61,7 +61,8 @@ if(TARGET penumbra_io)
     endif()
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/io/${room}
       DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra_io/io COMPONENT ${component}
-      FILES_MATCHING PATTERN "*.hpp" PATTERN "*-inl.hpp" EXCLUDE)
+      FILES_MATCHING PATTERN "*.hpp" PATTERN "*-inl.hpp" EXCLUDE
+      PATTERN "tuning_report.hpp" EXCLUDE)
   endforeach()
 endif()
 

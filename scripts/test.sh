@@ -109,7 +109,8 @@ check_tidy() {
   local folders=$1
   shift
   cmake --preset tidy "$@" >/dev/null && cmake --build build/tidy --target viewer_page >/dev/null || return
-  run-clang-tidy -quiet -j "$(nproc)" -p build/tidy -checks=-bugprone-suspicious-include \
+  # The commands are GCC's.
+  run-clang-tidy -quiet -extra-arg=-Qunused-arguments -j "$(nproc)" -p build/tidy -checks=-bugprone-suspicious-include \
     -header-filter="^$PWD/($folders)/" "^$PWD/(build/tidy/(?!tests/house/headers/))?($folders)/.*\.c(pp|xx)\$" \
     >build/tidy/tidy.log 2>/dev/null || { grep -E 'error:|warning:' build/tidy/tidy.log | sort -u; false; }
   local status=$?
