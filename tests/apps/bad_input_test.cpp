@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+// Recordings, options and bags that `penumbra run` cannot take.
 #include "fixtures.hpp"
 
 #include <cstdint>
-#include <functional>
-#include <utility>
 
 namespace penumbra::test {
 namespace {
@@ -15,9 +14,6 @@ struct BadInput {
   Spoil spoil;
   Words named;
 };
-
-/// Options, and what the one line must name.
-using BadLines = std::vector<std::pair<Words, std::string>>;
 
 Spoil edit(const char* file, const char* from, const char* to) {
   return [=](const fs::path& folder) { edit_file(folder / file, from, to); };
@@ -45,11 +41,10 @@ std::string utf16(const std::string& text, bool with_mark) {
   return bytes;
 }
 
-void expect_all_refused(const std::vector<BadInput>& inputs) {
+void expect_inputs_refused(const std::vector<BadInput>& inputs) {
   for (const BadInput& input : inputs) {
     const TemporaryFolder folder;
     const fs::path recording = folder.path() / "recording";
-    fs::create_directory(recording);
     write_tiny_recording(recording);
     input.spoil(recording);
     expect_refused(penumbra({"run", recording, "-o", folder.path() / "out"}), input.named);
@@ -59,7 +54,7 @@ void expect_all_refused(const std::vector<BadInput>& inputs) {
 using BadInputTest = TinyTest;
 
 TEST(BadInput, Robots) {
-  expect_all_refused({
+  expect_inputs_refused({
       {take_away("tiny.urdf"), {"tiny.urdf"}},
       {replace("tiny.urdf", "<robot name=\"tiny\"><link name=\"base\">"), {"tiny.urdf"}},
       {replace("tiny.urdf", utf16("<robot name=\"tiny\"/>", true)), {"tiny.urdf", "UTF-8"}},
@@ -78,7 +73,7 @@ TEST(BadInput, Robots) {
 
 TEST(BadInput, Recordings) {
   const std::string pose = "1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n";
-  expect_all_refused({
+  expect_inputs_refused({
       {[](const fs::path& folder) { fs::remove_all(folder); }, {"recording"}},
       {take_away("recording.yaml"), {"recording.yaml"}},
       {edit("recording.yaml", "  parent:", "  perent:"), {"recording.yaml:", "perent"}},
@@ -101,7 +96,7 @@ TEST(BadInput, Frames) {
     for (const char* file : {"depth_0.png", "depth_1.png", "depth_2.png"})
       fs::remove(folder / file);
   };
-  expect_all_refused({
+  expect_inputs_refused({
       {take_away("joint_states.csv"), {"joint_states.csv"}},
       {replace("joint_states.csv", "frame,slide\n0,far\n1,near\n"), {"joint_states.csv", "far"}},
       {replace("joint_states.csv", std::string("frame,slide\n0,0.1\n\0", 19)),
@@ -117,60 +112,148 @@ TEST(BadInput, Frames) {
 }
 
 TEST_F(BadInputTest, Targets) {
-  write_file(path("targets.yaml"), "targets:\n- name: a\n  box: [1, 2, 0, 4]\n");
+  write_targets("- name: a\n  box: [1, 2, 0, 4]\n");
   expect_refused(run({"--targets", path("targets.yaml")}), {"targets.yaml:3: targets[0].box"});
   edit_file(path("recording.yaml"), "frames:", "targets: no.yaml\nframes:");
   expect_refused(run(), {"recording.yaml", "no.yaml"});
 }
 
 TEST_F(BadInputTest, Options) {
-  const BadLines lines = {{{"--renderer", "auto"}, "cpu, gl, reference"},
-                          {{"--geometry", "nice"}, "--geometry"},
-                          {{"--tolerance", "0.1,0"}, "--tolerance"},
-                          {{"--tolerance=-1,0,0"}, "-1"},
-                          {{"--front-min-width", "64"}, "0 to 63"},
-                          {{"--fringe-reach", "256"}, "--fringe-reach"},
-                          {{"--sensor", "kinect"}, "kinect"},
-                          {{"--labels", "half"}, "--labels"},
-                          {{"--image", "cooked"}, "--image"},
-                          {{"--save", "labels,video"}, "video"},
-                          {{"--save", "points", "--points-frame", "hand"}, "'hand'"},
-                          {{"--points-frame", "base"}, "--save points"},
-                          {{"--threads", "0"}, "--threads"},
-                          {{"--threads", "100000"}, "1 to 512"},
-                          {{"--renderer", "reference", "--threads", "3"}, "--threads 3"},
-                          {{"--renderer", "gl", "--threads", "2"}, "--threads 2"},
-                          {{"--gl-device", "0"}, "--renderer gl"},
-                          {{"--renderer", "gl", "--gl-device=-1"}, "--gl-device"},
-                          {{"--targets", "t.yaml"}, "t.yaml"},
-                          {{"--time-offset=-0.1"}, "--time-offset"},
-                          {{"--frames", "1:4"}, "0 to 2"},
-                          {{"--frames", "all"}, "--frames"},
-                          {{"--speed"}, "(penumbra run --help lists the options)"},
-                          {{"another"}, "another"}};
-  for (const auto& [options, named] : lines) expect_refused(run(options), {named});
+  expect_all_refused([this](const Words& options) { return run(options); },
+                     {{{"--renderer", "auto"}, "cpu, gl, reference"},
+                      {{"--geometry", "nice"}, "--geometry"},
+                      {{"--tolerance", "0.1,0"}, "--tolerance"},
+                      {{"--tolerance=-1,0,0"}, "-1"},
+                      {{"--front-min-width", "64"}, "0 to 63"},
+                      {{"--fringe-reach", "256"}, "--fringe-reach"},
+                      {{"--sensor", "kinect"}, "kinect"},
+                      {{"--labels", "half"}, "--labels"},
+                      {{"--image", "cooked"}, "--image"},
+                      {{"--save", "labels,video"}, "video"},
+                      {{"--save", "points", "--points-frame", "hand"}, "'hand'"},
+                      {{"--points-frame", "base"}, "--save points"},
+                      {{"--threads", "0"}, "--threads"},
+                      {{"--threads", "100000"}, "1 to 512"},
+                      {{"--renderer", "reference", "--threads", "3"}, "--threads 3"},
+                      {{"--renderer", "gl", "--threads", "2"}, "--threads 2"},
+                      {{"--gl-device", "0"}, "--renderer gl"},
+                      {{"--renderer", "gl", "--gl-device=-1"}, "--gl-device"},
+                      {{"--targets", "t.yaml"}, "t.yaml"},
+                      {{"--time-offset=-0.1"}, "--time-offset"},
+                      {{"--frames", "1:4"}, "0 to 2"},
+                      {{"--frames", "all"}, "--frames"},
+                      {{"--speed"}, "(penumbra run --help lists the options)"},
+                      {{"another"}, "another"}});
 }
 
 TEST(BadInput, CommandLines) {
-  const BadLines lines = {
-      {{}, "a command is needed"},
-      {{"walk"}, "no such command"},
-      {{"calibrat"}, "did you mean calibrate"},
-      {{"init"}, "FOLDER"},
-      {{"init", "nowhere"}, "nowhere"},
-      {{"run"}, "INPUT"},
-      {{"run", "x.mcap", "-o", "out"}, "x.mcap"},
-      {{"run", "/etc/passwd", "-o", "out"}, "is neither a recording"},
-      {{"render"}, "--robot"},
-      {{"inspect"}, "URDF"},
-      {{"inspect", "nowhere.urdf"}, "nowhere.urdf"},
-      {{"doctor", "--fast"}, "--fast"},
-      {{"run", "x.mcap", "-o", "out", "--package", "name=nowhere"}, "a folder that exists"},
-      {{"run", "x.mcap", "-o", "out", "--package", "n=/", "--package", "n=/tmp"}, "n=/tmp"},
-      {{"run", "recording", "-o", ""}, "-o,--output"},
-      {{"run", "", "-o", "out"}, "INPUT"},
-      {{"inspect", ""}, "URDF"}};
-  for (const auto& [line, named] : lines) expect_refused(penumbra(line), {named});
+  expect_all_refused(
+      [](const Words& line) { return penumbra(line); },
+      {{{}, "a command is needed"},
+       {{"walk"}, "no such command"},
+       {{"calibrat"}, "did you mean calibrate"},
+       {{"init"}, "FOLDER"},
+       {{"init", "nowhere"}, "nowhere"},
+       {{"run"}, "INPUT"},
+       {{"run", "x.mcap", "-o", "out"}, "x.mcap"},
+       {{"run", "/etc/passwd", "-o", "out"}, "is neither a recording"},
+       {{"render"}, "--robot"},
+       {{"inspect"}, "URDF"},
+       {{"inspect", "nowhere.urdf"}, "nowhere.urdf"},
+       {{"doctor", "--fast"}, "--fast"},
+       {{"run", "x.mcap", "-o", "out", "--package", "name=nowhere"}, "a folder that exists"},
+       {{"run", "x.mcap", "-o", "out", "--package", "n=/", "--package", "n=/tmp"}, "n=/tmp"},
+       {{"run", "recording", "-o", ""}, "-o,--output"},
+       {{"run", "", "-o", "out"}, "INPUT"},
+       {{"inspect", ""}, "URDF"}});
+}
+
+class BadBagTest : public BagTest {
+ protected:
+  /// The tiny bag as it is after `spoil` is refused.
+  void expect_spoilt(const std::function<void(TinyBag&)>& spoil, const Words& named) {
+    const TinyBag sound = bag_;
+    spoil(bag_);
+    expect_refused(run(), named);
+    bag_ = sound;
+  }
+  static auto without(const std::string& topic) {
+    return [topic](TinyBag& bag) { bag.remove(topic); };
+  }
+  /// Its messages are on two topics.
+  static auto twice(const std::string& topic, const std::string& one, const std::string& other) {
+    return [=](TinyBag& bag) { bag.rename(topic, one), bag.copy(one, other); };
+  }
+};
+
+TEST_F(BadBagTest, NamesWhatTheCameraLacks) {
+  const std::string depth = "/camera/depth/image_rect_raw", info = "/camera/depth/camera_info";
+  const auto edit_info = [&](const auto& change) {
+    return [=](TinyBag& bag) { bag.edit<io::CameraInfoMessage>(info, change); };
+  };
+  expect_spoilt(without(depth), {"/camera/color/image_raw/compressed", "--depth-topic"});
+  expect_spoilt([&](TinyBag& bag) { bag.copy(depth, "/second/depth/image_raw"); },
+                {depth + ", /second/depth/image_raw", "--depth-topic"});
+  expect_spoilt(without(info), {"camera_info"});
+  expect_spoilt(twice(info, "/left/camera_info", "/right/camera_info"),
+                {"/left/camera_info, /right/camera_info", "--camera-info-topic"});
+  expect_spoilt(edit_info([](auto& message) { message.header.frame_id = "left"; }),
+                {"'left'", "'optical'", "--camera-info-topic"});
+  expect_spoilt(edit_info([](auto& message) { message.p[0] = 0; }), {info + ": p: "});
+}
+
+TEST_F(BadBagTest, NamesWhatTheRobotLacks) {
+  expect_spoilt(without("/robot_description"), {"robot_description", "--robot"});
+  expect_spoilt(
+      [](TinyBag& bag) {
+        bag.edit<io::StringMessage>("/robot_description",
+                                    [](auto& text) { text.data = "no robot"; });
+      },
+      {"robot_description"});
+  expect_spoilt([](TinyBag& bag) { bag.remove("/joint_states"), bag.remove("/tf_static"); },
+                {"joint states", "tf"});
+  expect_spoilt(twice("/joint_states", "/a/joint_states", "/b/joint_states"),
+                {"/a/joint_states, /b/joint_states", "--joint-topic"});
+  expect_spoilt(without("/tf_static"), {"has no tf", "--pose"});
+  expect_spoilt(
+      [](TinyBag& bag) {
+        bag.edit<io::TfMessage>("/tf_static", [](auto& tf) {
+          std::string& child = tf.transforms[0].child_frame_id;
+          if (child == "optical") child = "lens";
+        });
+      },
+      {"'optical'", "--camera-frame"});
+}
+
+TEST_F(BadBagTest, NamesTheOption) {
+  const std::vector<std::pair<Words, std::string>> cases = {
+      {{"--depth-topic", "/nowhere"}, "/nowhere"},
+      {{"--depth-topic", "/joint_states"}, "sensor_msgs/msg/JointState"},
+      {{"--parent", "bas"}, "bas"},
+      {{"--target-topic", "/joint_states"}, "vision_msgs/msg/Detection2DArray"},
+      {{"--poses", "latest"}, "--poses"},
+      {{"--time-offset", "soon"}, "--time-offset"},
+      {{"--frames", "1:4"}, "0 to 2"}};
+  for (const auto& [options, named] : cases) expect_refused(run(options), {options[0], named});
+}
+
+TEST_F(BadBagTest, NamesTheFile) {
+  expect_spoilt([](TinyBag& bag) { bag.encoding = bag.profile = "ros1"; }, {"ros1", "cdr"});
+  expect_spoilt([](TinyBag& bag) { bag.messages.clear(); }, {"holds no messages"});
+  const std::string whole = read_file(tiny_mcap());
+  for (const auto& [file, content] : {std::pair<std::string, std::string>("empty.mcap", ""),
+                                      {"empty.db3", ""},
+                                      {"head.mcap", whole.substr(0, 100)},
+                                      {"cut.mcap", whole.substr(0, 300)},  // in the first chunk
+                                      {"text.mcap", "a text of some length, but no bag"},
+                                      {"text.db3", "a text of some length, but no bag"}}) {
+    write_file(path(file), content);
+    expect_refused(run({}, file), {file});
+  }
+  fs::create_directory(path("folder"));
+  write_file(path("folder/notes.txt"), "x");
+  expect_refused(run({}, "folder"), {"recording.yaml"});
+  expect_refused(run({"--depth-topic", "/depth"}, "folder"), {"recording.yaml"});
 }
 
 }  // namespace

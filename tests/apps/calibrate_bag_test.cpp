@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // penumbra calibrate on bags whose tf places the camera, against the pose that was rendered.
 #include "fixtures.hpp"
-#include "recording_bag.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -34,88 +33,70 @@ Eigen::Isometry3d off(Eigen::Isometry3d pose) {
   return pose;
 }
 
-class CalibrateBagTest : public testing::Test {
+class CalibrateBagTest : public FolderTest {
  protected:
-  [[nodiscard]] fs::path path(const std::string& name) const { return folder_.path() / name; }
-
-  /// Calibrates an input into a folder; options of bags are added for a bag.
-  Outcome calibrate(const std::string& input, const std::string& output, Words options = {}) const {
-    options.insert(options.begin(), {"calibrate", path(input), "-o", path(output)});
-    return penumbra(with_packages(input, options));
-  }
-  [[nodiscard]] Words with_packages(const std::string& input, Words options) const {
-    if (input.ends_with(".mcap"))
-      options.insert(options.end(),
-                     {"--package", "arm_description=" + (example_ / "arm_description").string()});
-    return options;
+  /// Calls a command; options of bags are added for a bag.
+  Outcome call(const std::string& command, const std::string& input, const std::string& output,
+               const Words& options = {}) const {
+    const bool is_bag = input.ends_with(".mcap");
+    return penumbra(Words{command, path(input), "-o", path(output)} + options +
+                    (is_bag ? example_package : Words{}));
   }
   [[nodiscard]] Eigen::Isometry3d found(const std::string& output) const {
     return io::read_pose_csv(path(output) / "camera_pose.csv");
   }
 
   /// A bag of the recording and the recording itself, both with the pose off, give the truth.
-  void expect_both_find(const std::string& recording, const Eigen::Isometry3d& truth) const {
+  /// Returns what is said of the bag.
+  Outcome expect_both_find(const std::string& recording, const Eigen::Isometry3d& truth) const {
     const Eigen::Isometry3d wrong = off(truth);
-    ASSERT_GT(mm_between(wrong, truth), 60.0);
+    EXPECT_GT(mm_between(wrong, truth), 60.0);
     recording_bag(path(recording), wrong).write_mcap(path("off.mcap"));
     io::write_pose_csv(path("off.csv"), wrong);
-    for (const Words& given : {Words{"off.mcap", "bag"}, Words{recording, "folder"}}) {
-      const Outcome outcome = calibrate(
-          given[0], given[1], given[1] == "bag" ? Words{} : Words{"--initial", path("off.csv")});
-      ASSERT_EQ(outcome.status, 0) << given[0] << ": " << outcome.err;
-      EXPECT_LT(mm_between(found(given[1]), truth), near_mm) << given[0];
-      EXPECT_LT(degrees_between(found(given[1]), truth), near_degrees) << given[0];
+    Outcome of_bag = succeed(call("calibrate", "off.mcap", "bag"));
+    succeed(call("calibrate", recording, "folder", {"--initial", path("off.csv")}));
+    for (const char* of : {"bag", "folder"}) {
+      EXPECT_LT(mm_between(found(of), truth), near_mm) << of;
+      EXPECT_LT(degrees_between(found(of), truth), near_degrees) << of;
     }
     EXPECT_LT(mm_between(found("bag"), found("folder")), same_mm);
     EXPECT_LT(degrees_between(found("bag"), found("folder")), same_degrees);
+    return of_bag;
   }
-
-  const fs::path example_ = fs::path(PENUMBRA_SOURCE_DIR) / "examples/arm_over_table";
-  TemporaryFolder folder_;
 };
 
 class CalibrateExampleBag : public CalibrateBagTest {
  protected:
-  CalibrateExampleBag() { fs::copy(example_, path("example"), fs::copy_options::recursive); }
-  const Eigen::Isometry3d truth_ = io::read_pose_csv(example_ / "camera_pose.csv");
+  const Eigen::Isometry3d truth_ = io::read_pose_csv(example / "camera_pose.csv");
 };
 
-TEST_F(CalibrateExampleBag, BringsBackACameraInTheCell) { expect_both_find("example", truth_); }
-
-TEST_F(CalibrateExampleBag, PrintsOptionsWithWhichRunShowsTheRobotWhereItIs) {
-  recording_bag(path("example"), off(truth_)).write_mcap(path("off.mcap"));
-  const Outcome before =
-      penumbra(with_packages("off.mcap", {"run", path("off.mcap"), "-o", path("a")}));
-  expect_has(before.err, {"penumbra calibrate"});
-  const Outcome outcome = calibrate("off.mcap", "found");
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  const fs::path pose = path("found/camera_pose.csv");
-  expect_has(outcome.out, {"--pose " + pose.string() + " --parent base_link",
-                           "--frame-id base_link --child-frame-id camera_optical_frame"});
-  const Outcome after =
-      penumbra(with_packages("off.mcap", {"run", path("off.mcap"), "-o", path("b"), "--pose", pose,
-                                          "--parent", "base_link"}));
-  EXPECT_EQ(after.status, 0);
-  EXPECT_EQ(after.err.find("penumbra calibrate"), std::string::npos) << after.err;
+TEST_F(CalibrateExampleBag, BringsBackACameraInTheCell) {
+  fs::copy(example, path("example"), fs::copy_options::recursive);
+  const fs::path pose = path("bag/camera_pose.csv");
+  expect_has(expect_both_find("example", truth_).out,
+             {"--pose " + pose.string() + " --parent base_link",
+              "--frame-id base_link --child-frame-id camera_optical_frame"});
+  // With these options `run` shows the robot where it is.
+  expect_has(call("run", "off.mcap", "a").err, {"penumbra calibrate"});
+  expect_lacks(succeed(call("run", "off.mcap", "b", {"--pose", pose, "--parent", "base_link"})).err,
+               {"penumbra calibrate"});
 }
 
 TEST_F(CalibrateExampleBag, NeedsNoPoseInTheBagWithAGuess) {
-  TinyBag bag = recording_bag(path("example"), truth_);
+  TinyBag bag = recording_bag(example, truth_);
   bag.remove("/tf_static");
   bag.write_mcap(path("bare.mcap"));
   io::write_pose_csv(path("off.csv"), off(truth_));
-  const Outcome refused = calibrate("bare.mcap", "none");
-  expect_refused(refused, {"bare.mcap", "has no tf", "--pose"});
+  expect_refused(call("calibrate", "bare.mcap", "none"), {"bare.mcap", "has no tf", "--pose"});
   for (const Words& options : {Words{"--initial", path("off.csv")},
                                Words{"--pose", path("off.csv"), "--parent", "base_link"}}) {
-    const Outcome outcome = calibrate("bare.mcap", "bare", options);
-    ASSERT_EQ(outcome.status, 0) << options[0] << ": " << outcome.err;
+    succeed(call("calibrate", "bare.mcap", "bare", options));
     EXPECT_LT(mm_between(found("bare"), truth_), near_mm) << options[0];
   }
 }
 
 TEST_F(CalibrateExampleBag, RefusesACameraThatTfMoves) {
-  TinyBag bag = recording_bag(path("example"), truth_);
+  TinyBag bag = recording_bag(example, truth_);
   bag.remove("/tf_static");
   const std::int64_t begin = bag.messages.front().log_time;
   for (int i = 0; i < 13; ++i) {
@@ -124,10 +105,9 @@ TEST_F(CalibrateExampleBag, RefusesACameraThatTfMoves) {
     const std::int64_t stamp = begin + i * 100'000'000;
     bag.add("/tf", stamp, io::TfMessage{{{{stamp, "base_link"}, "camera_optical_frame", pose}}});
   }
-  std::stable_sort(bag.messages.begin(), bag.messages.end(),
-                   [](const auto& a, const auto& b) { return a.log_time < b.log_time; });
+  bag.sort();
   bag.write_mcap(path("moving.mcap"));
-  expect_refused(calibrate("moving.mcap", "out"),
+  expect_refused(call("calibrate", "moving.mcap", "out"),
                  {"moving.mcap: frame 1", "tf moves the camera", "base_link", "--frames"});
   EXPECT_FALSE(fs::exists(path("out/camera_pose.csv")));
 }
@@ -140,13 +120,12 @@ class CalibrateHandBag : public CalibrateBagTest {
     truth_.linear() = Eigen::AngleAxisd(-0.5, Eigen::Vector3d::UnitX()).matrix();
     fs::create_directory(path("hand"));
     io::write_pose_csv(path("hand/pose.csv"), truth_);
-    const std::string urdf = example_ / "arm_description/arm.urdf";
     write_file(path("hand/recording.yaml"),
-               "robot:\n  urdf: " + urdf +
-                   "\n  packages: {arm_description: " + (example_ / "arm_description").string() +
+               "robot:\n  urdf: " + (example / "arm_description/arm.urdf").string() +
+                   "\n  packages: {arm_description: " + (example / "arm_description").string() +
                    "}\ncamera: {info: camera_info.yaml, parent: flange, pose: pose.csv}\n"
                    "frames: {joints: joints.csv, depth: depth_%d.npy}\n");
-    fs::copy(example_ / "camera_info.yaml", path("hand/camera_info.yaml"));
+    fs::copy(example / "camera_info.yaml", path("hand/camera_info.yaml"));
     std::string rows = "frame,stamp," + joined(joints_) + ",gripper_left\n";
     for (int i = 0; i < poses; ++i) rows += render(i);
     write_file(path("hand/joints.csv"), rows);
@@ -160,26 +139,25 @@ class CalibrateHandBag : public CalibrateBagTest {
 
   /// Renders a frame and returns its row of joints. The wrist looks back at the arm.
   std::string render(int frame) {
-    Words options = {"render",
-                     "--robot",
-                     example_ / "arm_description/arm.urdf",
-                     "--package",
-                     "arm_description=" + (example_ / "arm_description").string(),
-                     "--camera",
-                     path("hand/camera_info.yaml"),
-                     "--pose",
-                     path("hand/pose.csv"),
-                     "--parent",
-                     "flange",
-                     "-o",
-                     path("hand/depth_" + std::to_string(frame) + ".npy")};
+    Words options = Words{"render",
+                          "--robot",
+                          example / "arm_description/arm.urdf",
+                          "--camera",
+                          path("hand/camera_info.yaml"),
+                          "--pose",
+                          path("hand/pose.csv"),
+                          "--parent",
+                          "flange",
+                          "-o",
+                          path("hand/depth_" + std::to_string(frame) + ".npy")} +
+                    example_package;
     Words values;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const double swing = 0.35 * std::sin(1.7 * frame + 2.1 * static_cast<double>(i));
       values.push_back(std::to_string(looking_back_[i] + swing));
       options.insert(options.end(), {"--joint", joints_[i] + "=" + values.back()});
     }
-    EXPECT_EQ(penumbra(options).status, 0);
+    succeed(penumbra(options));
     return std::to_string(frame) + "," + std::to_string(1'000'000'000LL * (frame + 1)) + "," +
            joined(values) + ",0.01\n";
   }

@@ -13,25 +13,18 @@ class CamerasTest : public TinyTest {
  protected:
   CamerasTest() {
     write_yaml("");
-    write_file(path("joint_states.csv"), "frame,stamp,slide\n0,0,0.0\n1,100000000,0.05\n");
+    write_joints("frame,stamp,slide\n0,0,0.0\n1,100000000,0.05\n");
     write_file(path("late.csv"), "frame,stamp,slide\n0,20000000,0.0\n1,520000000,0.05\n");
-    write_file(path("targets.yaml"),
-               "targets:\n  - name: part\n    point: [-0.05, 0.0, 0.5]\n    radius: 0.03\n"
-               "    link: base\n    depth_margin: 0.05\n");
+    write_targets(
+        "- {name: part, point: [-0.05, 0, 0.5], radius: 0.03, link: base, depth_margin: 0.05}\n");
     write_file(path("behind.yaml"),
-               "targets:\n  - name: part\n    point: [0.1, 0.0, 1.5]\n    radius: 0.03\n"
-               "    link: base\n");
+               "targets: [{name: part, point: [0.1, 0, 1.5], radius: 0.03, link: base}]\n");
   }
   void write_yaml(const std::string& of_right) const {
-    const std::string camera =
-        "    info: camera_info.yaml\n    parent: base\n    pose: camera_pose.csv\n"
-        "    depth: depth_%d.png\n    color: color_%d.png\n";
-    write_file(path("recording.yaml"), "robot:\n  urdf: tiny.urdf\ncameras:\n  left:\n" + camera +
-                                           "  right:\n" + camera + of_right +
-                                           "frames:\n  joints: joint_states.csv\n"
-                                           "targets: targets.yaml\n");
+    write_file(path("recording.yaml"), two_cameras_yaml(of_right, "targets: targets.yaml\n"));
   }
-  [[nodiscard]] Json views() const { return Json::parse(read_file(out() / "views.json")); }
+  [[nodiscard]] Json views() const { return read_json(out("views.json")); }
+  [[nodiscard]] Outcome view() const { return penumbra({"view", out(), "--port", "0"}); }
 };
 
 /// A report without what differs from run to run.
@@ -42,30 +35,25 @@ Json without_times(Json report) {
 }
 
 TEST_F(CamerasTest, EachCameraGetsTheResultsOfItsOwnRun) {
-  const Outcome outcome = run({"--save", "labels"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  expect_has(outcome.out, {"camera left:", "camera right:", "over 2 cameras", "views.json"});
+  expect_has(succeed(run({"--save", "labels"})).out,
+             {"camera left:", "camera right:", "over 2 cameras", "views.json"});
   const fs::path alone = path("alone");
-  ASSERT_EQ(penumbra({"run", path(), "-o", alone, "--camera", "right", "--save", "labels"}).status,
-            0);
-  EXPECT_EQ(without_times(Json::parse(read_file(out() / "right" / "report.json"))),
-            without_times(Json::parse(read_file(alone / "report.json"))));
-  EXPECT_EQ(read_file(out() / "right" / "labels" / "000001.png"),
-            read_file(alone / "labels" / "000001.png"));
+  succeed(penumbra({"run", path(), "-o", alone, "--camera", "right", "--save", "labels"}));
+  EXPECT_EQ(without_times(read_json(out("right/report.json"))),
+            without_times(read_json(alone / "report.json")));
+  EXPECT_EQ(read_file(out("right/labels/000001.png")), read_file(alone / "labels/000001.png"));
   EXPECT_FALSE(fs::exists(alone / "views.json"));
-  EXPECT_EQ(run().status, 0) << "a second run replaces the first";
-}
 
-TEST_F(CamerasTest, TheNumberOfThreadsChangesNothing) {
-  ASSERT_EQ(run({"--threads", "1"}).status, 0);
-  const std::string one = read_file(out() / "views.json");
-  ASSERT_EQ(run({"--threads", "4"}).status, 0);
-  EXPECT_EQ(read_file(out() / "views.json"), one);
+  // A second run replaces the first; the number of threads changes nothing.
+  succeed(run({"--threads", "1"}));
+  const std::string one = read_file(out("views.json"));
+  succeed(run({"--threads", "4"}));
+  EXPECT_EQ(read_file(out("views.json")), one);
 }
 
 TEST_F(CamerasTest, HiddenInOneCameraAndSeenInAnotherIsVisible) {
   write_yaml("    targets: behind.yaml\n");
-  ASSERT_EQ(run().status, 0);
+  succeed(run({"--report"}));
   const Json json = views();
   EXPECT_EQ(keys(json), (Words{"penumbra", "input", "cameras", "frames"}));
   EXPECT_EQ(json["cameras"], (Json{"left", "right"}));
@@ -76,55 +64,51 @@ TEST_F(CamerasTest, HiddenInOneCameraAndSeenInAnotherIsVisible) {
   EXPECT_EQ(keys(target["views"][0]),
             (Words{"camera", "stamp_ns", "verdict", "reason", "visible_fraction", "point",
                    "distance_m", "angle_rad"}));
-  EXPECT_EQ(target["views"][0]["verdict"], "visible") << target.dump();
-  EXPECT_EQ(target["views"][1]["verdict"], "hidden");
-  EXPECT_EQ(target["verdict"], "visible");
-  EXPECT_EQ(target["best"], "left");
+  expect_values(target, {{"/views/0/verdict", "visible"},
+                         {"/views/1/verdict", "hidden"},
+                         {"/verdict", "visible"},
+                         {"/best", "left"}});
   EXPECT_EQ(target["covariance"].size(), 9U);
   ASSERT_EQ(target["point"].size(), 3U);
   constexpr double radius = 0.03, rounding = 0.001;  // metres; of whole pixels
   EXPECT_NEAR(target["point"][2], 0.5 + radius / 2, rounding) << "behind the depth image's";
-}
 
-TEST_F(CamerasTest, TheReportHasAllCameras) {
-  write_yaml("    targets: behind.yaml\n");
-  ASSERT_EQ(run({"--report"}).status, 0);
-  EXPECT_EQ(page_json(read_file(out() / "report.html"), "penumbra-report"), views());
-  EXPECT_TRUE(fs::exists(out() / "right" / "report.html"));
+  EXPECT_EQ(page_json(read_file(out("report.html")), "penumbra-report"), json);
+  EXPECT_TRUE(fs::exists(out("right/report.html")));
 }
 
 TEST_F(CamerasTest, AFormerRunStaysUntilAllInputsAreOpen) {
-  ASSERT_EQ(run({"--report"}).status, 0);
+  succeed(run({"--report"}));
   write_yaml("    targets: none.yaml\n");
   EXPECT_NE(run().status, 0);
   for (const char* const file : {"views.json", "report.html", "left/report.json"})
-    EXPECT_TRUE(fs::exists(out() / file)) << file;
+    EXPECT_TRUE(fs::exists(out(file))) << file;
   write_yaml("");
-  fs::remove_all(out() / "right" / "labels");
-  fs::create_directories(out() / "right" / "labels" / "000000.png" / "in the way");
+  fs::remove_all(out("right/labels"));
+  fs::create_directories(out("right/labels/000000.png/in the way"));
   EXPECT_NE(run({"--force", "--save", "labels"}).status, 0);
   for (const char* const file : {"views.json", "report.html", "right/report.json"})
-    EXPECT_FALSE(fs::exists(out() / file)) << file;
+    EXPECT_FALSE(fs::exists(out(file))) << file;
 }
 
 TEST_F(CamerasTest, FilesOfTheUserStay) {
   fs::create_directory(out());
   for (const char* const file : {"views.json", "report.html"}) {
-    write_file(out() / file, "mine");
+    write_file(out(file), "mine");
     expect_refused(run({"--report"}), {"--force"});
     expect_refused(run({"--frames", "5:4"}), {"out"});
-    EXPECT_EQ(read_file(out() / file), "mine");
-    fs::remove(out() / file);
+    EXPECT_EQ(read_file(out(file)), "mine");
+    fs::remove(out(file));
   }
 }
 
 TEST_F(CamerasTest, ASecondRunIntoTheFolderIsRefused) {
-  ASSERT_EQ(run({"--save", "labels"}).status, 0);
-  for (const fs::path& folder : {out(), out() / "left"}) {
+  succeed(run({"--save", "labels"}));
+  for (const fs::path& folder : {out(), out("left")}) {
     const io::FileLock lock(folder);
     expect_refused(run({"--save", "labels"}), {"another program is writing it"});
-    EXPECT_TRUE(fs::exists(out() / "left" / "labels" / "000000.png"));
-    EXPECT_TRUE(fs::exists(out() / "views.json"));
+    EXPECT_TRUE(fs::exists(out("left/labels/000000.png")));
+    EXPECT_TRUE(fs::exists(out("views.json")));
   }
 }
 
@@ -138,55 +122,49 @@ TEST_F(CamerasTest, NamesAreFoldersAndPlainText) {
   write_file(path("recording.yaml"), whole);
   edit_file(path("recording.yaml"),
             "left:", R"("x\" autofocus onfocus=\"document.title='run'\" y=\"":)");
-  ASSERT_EQ(run({"--report"}).status, 0);
-  const std::string page = read_file(out() / "report.html");
-  EXPECT_EQ(page.find("autofocus onfocus=\""), std::string::npos);
+  succeed(run({"--report"}));
+  const std::string page = read_file(out("report.html"));
+  expect_lacks(page, {"autofocus onfocus=\""});
   EXPECT_EQ(page_json(page, "penumbra-report"), views());
 }
 
-TEST_F(CamerasTest, ViewServesNoOtherFolder) {
-  ASSERT_EQ(run().status, 0);
-  fs::rename(out() / "right", path("elsewhere"));
-  fs::create_directory_symlink(path("elsewhere"), out() / "right");
-  expect_refused(penumbra({"view", out(), "--port", "0"}), {"right", "link"});
+TEST_F(CamerasTest, ViewServesNoOtherFolderAndNothingThatIsNotWhole) {
+  succeed(run());
+  fs::rename(out("right"), path("elsewhere"));
+  expect_refused(view(), {"right"});
+  fs::create_directory_symlink(path("elsewhere"), out("right"));
+  expect_refused(view(), {"right", "link"});
   for (const fs::path& name : {fs::path("../elsewhere"), path("elsewhere")}) {
-    write_file(out() / "views.json", "{\"cameras\": [\"left\", \"" + name.string() + "\"]}");
-    expect_refused(penumbra({"view", out(), "--port", "0"}), {"name"});
+    write_file(out("views.json"), "{\"cameras\": [\"left\", \"" + name.string() + "\"]}");
+    expect_refused(view(), {"name"});
   }
-}
-
-TEST_F(CamerasTest, ViewRefusesWhatIsNotWhole) {
-  ASSERT_EQ(run().status, 0);
-  fs::remove_all(out() / "right");
-  expect_refused(penumbra({"view", out(), "--port", "0"}), {"right"});
-  write_file(out() / "views.json", "{");
-  expect_refused(penumbra({"view", out(), "--port", "0"}), {"views.json"});
+  write_file(out("views.json"), "{");
+  expect_refused(view(), {"views.json"});
 }
 
 TEST_F(CamerasTest, EachImageIsJudgedAtItsOwnStamp) {
   write_yaml("    joints: late.csv\n");
-  ASSERT_EQ(run().status, 0);
+  succeed(run());
   const Json json = views();
   std::vector<std::int64_t> stamps;
   for (const Json& frame : json["frames"]) stamps.push_back(frame["stamp_ns"]);
   EXPECT_EQ(stamps, (std::vector<std::int64_t>{0, 20000000, 100000000, 520000000}));
-  const auto right = [&](int frame) { return json["frames"][frame]["targets"][0]["views"][1]; };
-  EXPECT_TRUE(right(0)["stamp_ns"].is_null()) << "it has no image yet";
-  EXPECT_EQ(right(0)["verdict"], "unknown");
-  EXPECT_EQ(right(2)["stamp_ns"], 20000000);
-  EXPECT_EQ(json["frames"][3]["targets"][0]["views"][0]["verdict"], "unknown")
-      << "the left camera's last image is 0.42 s old";
+  expect_values(json, {{"/frames/0/targets/0/views/1/stamp_ns", nullptr},  // it has no image yet
+                       {"/frames/0/targets/0/views/1/verdict", "unknown"},
+                       {"/frames/2/targets/0/views/1/stamp_ns", 20000000},
+                       // The left camera's last image is 0.42 s old.
+                       {"/frames/3/targets/0/views/0/verdict", "unknown"}});
 }
 
 TEST_F(CamerasTest, BadInputIsOneLine) {
   expect_refused(run({"--camera", "middle"}), {"recording.yaml", "middle", "left, right"});
   expect_refused(penumbra({"tune", path(), "-o", out()}), {"--camera", "left, right"});
   expect_refused(penumbra({"run", path(), "-o", path("out.mcap")}), {"--camera"});
-  write_file(path("joint_states.csv"), "frame,slide\n0,0.0\n1,0.05\n");
+  write_joints("frame,slide\n0,0.0\n1,0.05\n");
   expect_refused(run(), {"left", "stamp", "--fps"});
-  EXPECT_EQ(run({"--fps", "10"}).status, 0);
+  succeed(run({"--fps", "10"}));
   fs::remove_all(out());
-  write_file(path("joint_states.csv"), "frame,stamp,slide\n0,0,0.0\n1,100000000,0.05\n");
+  write_joints("frame,stamp,slide\n0,0,0.0\n1,100000000,0.05\n");
   write_yaml("    depht: other.png\n");
   expect_refused(run(), {"recording.yaml", "depht"});
   write_yaml("  ../up:\n    info: camera_info.yaml\n");

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include <io/bag/bag_reader.hpp>
 #include <io/cloud/cloud_file.hpp>
 
 namespace penumbra::test {
@@ -15,37 +14,28 @@ class CloudBag : public BagTest {
  protected:
   CloudBag() { add_clouds(bag_); }
 
-  Outcome cloud(Words options = {}) const {
-    bag_.write_mcap(path("tiny.mcap"));
-    options.insert(options.begin(), {"cloud", path("tiny.mcap"), "-o", path("clean.mcap")});
-    return penumbra(options);
+  Outcome cloud(const Words& options = {}) const {
+    return penumbra(Words{"cloud", tiny_mcap(), "-o", clean} + options);
   }
 
   /// Calls `call` with each message of a topic; expects `count`.
   template <typename M, typename F>
   void for_each(const std::string& topic, const F& call, std::size_t count = 3) const {
-    const auto bag = io::open_bag(path("clean.mcap"));
-    std::size_t found = 0;
-    for (io::BagMessage message; bag->next(message);) {
-      const io::BagTopic& from = bag->topics()[message.topic];
-      if (from.name != topic) continue;
-      M decoded;
-      const auto fault = io::Decoder<M>(from.type, from.definition).decode(message.data, decoded);
-      ASSERT_FALSE(fault) << *fault;
-      EXPECT_EQ(decoded.header.stamp, tiny_stamp(static_cast<int>(found)) + one_ms);
-      EXPECT_EQ(message.log_time, decoded.header.stamp + 10 * one_ms);
-      ++found;
-      call(decoded);
-    }
+    const auto found = for_each_message<M>(
+        clean, topic, [&](const M& message, std::int64_t log_time, std::size_t number) {
+          EXPECT_EQ(message.header.stamp, tiny_stamp(static_cast<int>(number)) + one_ms);
+          EXPECT_EQ(log_time, message.header.stamp + 10 * one_ms);
+          call(message);
+        });
     EXPECT_EQ(found, count) << topic;
   }
+
+  const fs::path clean = path("clean.mcap");
 };
 
 TEST_F(CloudBag, LosesTheRobot) {
   bag_.copy("/points", "/penumbra/points");  // of an earlier `penumbra live`
-  const Outcome outcome = cloud();
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  expect_has(outcome.out,
+  expect_has(succeed(cloud()).out,
              {"no times", "/points", "/scan", "/livox/lidar", "frame 'laser' on link 'base'"});
   for_each<io::PointCloud2Message>("/penumbra/points", [](const auto& message) {
     EXPECT_EQ(numbers_of(message), (std::vector{1, 2}));
@@ -63,23 +53,13 @@ TEST_F(CloudBag, LosesTheRobot) {
 }
 
 TEST_F(CloudBag, LeavesOutLinksThatAreIgnored) {
-  const Outcome outcome = cloud({"--topic", "/points", "--ignore-links", "board"});
-  EXPECT_EQ(outcome.status, 2);
-  expect_has(outcome.err, {"no link is rendered", "ignore_links"});
+  expect_failed(cloud({"--topic", "/points", "--ignore-links", "board"}),
+                {"no link is rendered", "ignore_links"});
   expect_refused(cloud({"--ignore-links", "lidar_*"}), {"ignore_links", "lidar_*"});
 }
 
-TEST_F(CloudBag, AsksWhatToDoWithTheLabels) {
-  bag_.write_mcap(path("tiny.mcap"));
-  const std::string bag = path("tiny.mcap");
-  expect_refused(penumbra({"cloud", bag}), {"--output", "--port", "--tune"});
-  expect_refused(penumbra({"cloud", bag, "--tune", "--port", "0"}), {"--tune", "--port"});
-  expect_refused(penumbra({"cloud", bag, "-o", path("c.mcap"), "--address", "0.0.0.0"}),
-                 {"--port, too"});
-}
-
 TEST_F(CloudBag, KeepsAllPointsWithLabelsIfAsked) {
-  ASSERT_EQ(cloud({"--label", "--topic", "/points"}).status, 0);
+  succeed(cloud({"--label", "--topic", "/points"}));
   for_each<io::PointCloud2Message>("/penumbra/points", [](const auto& message) {
     EXPECT_EQ(numbers_of(message), (std::vector{0, 1, 2, 3}));
     using enum Label;
@@ -89,7 +69,7 @@ TEST_F(CloudBag, KeepsAllPointsWithLabelsIfAsked) {
   });
   for_each<io::LaserScanMessage>(
       "/penumbra/scan", [](const auto&) {}, 0);
-  ASSERT_EQ(cloud({"--removed-ranges", "inf"}).status, 0);
+  succeed(cloud({"--removed-ranges", "inf"}));
   for_each<io::LaserScanMessage>("/penumbra/scan",
                                  [](const auto& scan) { EXPECT_TRUE(std::isinf(scan.ranges[1])); });
 }
@@ -100,46 +80,38 @@ TEST_F(CloudBag, JudgesTargetsOnTheCloudsOfTheirStamp) {
     knob.pose.translation() = Eigen::Vector3d(0, 0, 1.5);
     bag_.add("/knob", tiny_stamp(i) + 50 * one_ms, knob);  // late, as detectors are
   }
-  ASSERT_EQ(cloud({"--topic", "/points", "--target-topic", "/knob"}).status, 0);
-  std::size_t judged = 0;
-  const auto bag = io::open_bag(path("clean.mcap"));
-  for (io::BagMessage message; bag->next(message);) {
-    if (bag->topics()[message.topic].name != "/penumbra/points/targets") continue;
-    io::TargetsMessage targets;
-    ASSERT_FALSE(io::Decoder<io::TargetsMessage>().decode(message.data, targets));
-    EXPECT_EQ(targets.header.stamp, tiny_stamp(static_cast<int>(judged++)) + one_ms);
-    ASSERT_EQ(targets.targets.size(), 1U);
-    // Two rays are too few for a verdict.
-    EXPECT_EQ(targets.targets[0].verdict, io::TargetMessage::unknown);
-    EXPECT_NE(targets.targets[0].reason.find("rays"), std::string::npos)
-        << targets.targets[0].reason;
-  }
+  succeed(cloud({"--topic", "/points", "--target-topic", "/knob"}));
+  const auto judged = for_each_message<io::TargetsMessage>(
+      clean, "/penumbra/points/targets", [](const auto& all, std::int64_t, std::size_t number) {
+        EXPECT_EQ(all.header.stamp, tiny_stamp(static_cast<int>(number)) + one_ms);
+        ASSERT_EQ(all.targets.size(), 1U);
+        EXPECT_EQ(all.targets[0].verdict, io::TargetMessage::unknown);
+        expect_has(all.targets[0].reason, {"rays"});  // two are too few for a verdict
+      });
   EXPECT_EQ(judged, 3U);
   bag_.add("/boxes", tiny_stamp(0), io::KeypointsMessage{});
   expect_refused(cloud({"--target-topic", "/boxes"}), {"Keypoints", "Detection3DArray"});
 }
 
 TEST_F(CloudBag, MeasuresTheSensorOrSaysWhyNot) {
-  const auto tune = [&](Words more = {}) {
-    bag_.write_mcap(path("tiny.mcap"));
-    more.insert(more.begin(), {"cloud", path("tiny.mcap"), "--tune", "--topic", "/points"});
-    return penumbra(more);
+  const auto call = [&](const Words& options) {
+    return penumbra(Words{"cloud", tiny_mcap()} + options);
   };
-  const Outcome few = tune();
-  EXPECT_EQ(few.status, 2) << few.err;
-  expect_has(few.err, {"/points: only 1 points are on the robot"});
-  EXPECT_FALSE(fs::exists(path("clean.mcap")));
-  expect_refused(tune({"-o", path("clean.mcap")}), {"--tune", "--output"});
-  expect_refused(penumbra({"cloud", path("tiny.mcap")}), {"--output", "--tune"});
+  expect_failed(call({"--tune", "--topic", "/points"}),
+                {"/points: only 1 points are on the robot"});
+  EXPECT_FALSE(fs::exists(clean));
+  expect_refused(call({}), {"--output", "--port", "--tune"});
+  expect_refused(call({"--tune", "-o", clean}), {"--tune", "--output"});
+  expect_refused(call({"--tune", "--port", "0"}), {"--tune", "--port"});
+  expect_refused(call({"-o", clean, "--address", "0.0.0.0"}), {"--port, too"});
 }
 
 TEST_F(CloudBag, WithoutPosesTrustsNothing) {
   std::erase_if(bag_.messages, [](const TinyBag::Message& message) {
     return message.topic == "/joint_states" && message.log_time > tiny_stamp(1) - 300 * one_ms;
   });
-  const Outcome outcome = cloud({"--topic", "/points"});
-  EXPECT_EQ(outcome.status, 0);
-  expect_has(outcome.err, {"/points: 2 of 3 clouds are stale_joints", "slide"});
+  expect_has(succeed(cloud({"--topic", "/points"})).err,
+             {"/points: 2 of 3 clouds are stale_joints", "slide"});
   std::vector<std::size_t> sizes;
   for_each<io::PointCloud2Message>("/penumbra/points",
                                    [&](const auto& message) { sizes.push_back(message.width); });
@@ -150,15 +122,10 @@ TEST_F(CloudBag, WithoutPosesTrustsNothing) {
 
 TEST_F(CloudBag, ACloudWithoutAStampIsNotTrusted) {
   bag_.edit<io::PointCloud2Message>("/points", [](auto& message) { message.header.stamp = 0; });
-  const Outcome outcome = cloud({"--topic", "/points"});
-  EXPECT_EQ(outcome.status, 2);
-  expect_has(outcome.err, {"no_stamp"});
-  const auto bag = io::open_bag(path("clean.mcap"));
-  for (io::BagMessage message; bag->next(message);) {
-    io::PointCloud2Message decoded;
-    ASSERT_FALSE(io::Decoder<io::PointCloud2Message>().decode(message.data, decoded));
-    EXPECT_EQ(decoded.width, 0U);
-  }
+  expect_failed(cloud({"--topic", "/points"}), {"no_stamp"});
+  for_each_message<io::PointCloud2Message>(
+      clean, "/penumbra/points",
+      [](const auto& message, std::int64_t, std::size_t) { EXPECT_EQ(message.width, 0U); });
 }
 
 TEST_F(CloudBag, SaysWhatIsWrong) {
@@ -166,13 +133,13 @@ TEST_F(CloudBag, SaysWhatIsWrong) {
   expect_refused(cloud({"--topic", "/joint_states"}), {"JointState", "PointCloud2"});
   expect_refused(cloud({"--sensor", "eyes"}), {"lidar_2cm"});
   expect_refused(cloud({"--beam", "1"}), {"--beam", "0.01"});
+  expect_refused(cloud({"--pose", path("camera_pose.csv"), "--parent", "base"}),
+                 {"3 topics of clouds", "--topic"});
   expect_refused(penumbra({"cloud", path("tiny.mcap"), "-o", path("out")}), {"*.mcap"});
   expect_refused(penumbra({"cloud", path("tiny.mcap"), "-o", path("tiny.mcap")}), {"is the input"});
   expect_refused(penumbra({"cloud", path("none.mcap"), "-o", path("x.mcap")}), {"none.mcap"});
   bag_.edit<io::PointCloud2Message>("/points", [](auto& message) { message.width = 1'000'000; });
-  const Outcome lies = cloud({"--topic", "/points"});
-  EXPECT_EQ(lies.status, 2);
-  expect_has(lies.err, {"do not fit"});
+  expect_failed(cloud({"--topic", "/points"}), {"do not fit"});
   for (const char* const topic : {"/points", "/scan", "/livox/lidar"}) bag_.remove(topic);
   expect_refused(cloud(), {"has no clouds", "LaserScan"});
 }
@@ -184,13 +151,8 @@ TEST_F(CloudBag, AFrameThatTfLacksIsRefused) {
   bag_.add("/tf_static", tiny_stamp(0),
            io::TfMessage{{{{0, "lidar"}, "base", Eigen::Isometry3d::Identity()}}});
   expect_refused(cloud({"--topic", "/points"}), {"above the robot", "--sensor-frame", "--merged"});
-  EXPECT_EQ(cloud({"--topic", "/points", "--sensor-frame", "optical"}).status, 0);
-  EXPECT_EQ(cloud({"--topic", "/points", "--merged"}).status, 0);
-}
-
-TEST_F(CloudBag, OptionsOfOneSensorAreNotForSeveral) {
-  expect_refused(cloud({"--pose", path("camera_pose.csv"), "--parent", "base"}),
-                 {"3 topics of clouds", "--topic"});
+  succeed(cloud({"--topic", "/points", "--sensor-frame", "optical"}));
+  succeed(cloud({"--topic", "/points", "--merged"}));
 }
 
 class CloudFolder : public TinyTest {
@@ -205,44 +167,40 @@ class CloudFolder : public TinyTest {
                "targets: knob.yaml\n");
     write_file(path("knob.yaml"), "targets: [{name: knob, point: [0, 0, 1.5]}]\n");
   }
-  Outcome cloud(Words options = {}) const {
-    options.insert(options.begin(), {"cloud", path("clouds.yaml"), "-o", out()});
-    return penumbra(options);
+  Outcome cloud(const Words& options = {}) const {
+    return penumbra(Words{"cloud", path("clouds.yaml"), "-o", out()} + options);
   }
 };
 
 TEST_F(CloudFolder, LosesTheRobot) {
-  const Outcome outcome = cloud();
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  for (int i = 0; i < 3; ++i) {
-    const io::StoredCloud read = io::read_cloud(out() / "clouds" / (std::to_string(i) + ".pcd"));
-    EXPECT_EQ(numbers_of(read.cloud), (std::vector{1, 2}));
-  }
+  succeed(cloud());
+  for (const char* file : {"clouds/0.pcd", "clouds/1.pcd", "clouds/2.pcd"})
+    EXPECT_EQ(numbers_of(io::read_cloud(out(file)).cloud), (std::vector{1, 2}));
   const Json json = report();
   EXPECT_EQ(json["clouds"].size(), 3U);
-  EXPECT_EQ(json["clouds"][0]["targets"][0]["name"], "knob");
-  EXPECT_EQ(json["clouds"][0]["targets"][0]["verdict"], "unknown") << "of one ray";
-  EXPECT_EQ(json["clouds"][0]["points"]["occluded"], 1);
-  EXPECT_EQ(json["clouds"][0]["status"], "ok");
-  ASSERT_EQ(cloud({"--label", "--frames", "1:2"}).status, 0) << "replaces former results";
+  expect_values(json, {{"/clouds/0/targets/0/name", "knob"},
+                       {"/clouds/0/targets/0/verdict", "unknown"},  // of one ray
+                       {"/clouds/0/points/occluded", 1},
+                       {"/clouds/0/status", "ok"}});
+  succeed(cloud({"--label", "--frames", "1:2"}));  // replaces former results
   expect_refused(penumbra({"cloud", path("clouds.yaml"), "-o", path(), "--force"}), {"own folder"});
-  EXPECT_FALSE(fs::exists(out() / "clouds/0.pcd"));
-  EXPECT_EQ(io::read_cloud(out() / "clouds/1.pcd").cloud.fields.back().name, "link");
+  EXPECT_FALSE(fs::exists(out("clouds/0.pcd")));
+  EXPECT_EQ(io::read_cloud(out("clouds/1.pcd")).cloud.fields.back().name, "link");
 }
 
 TEST_F(CloudFolder, CloudsOfOthersStay) {
-  ASSERT_EQ(cloud().status, 0);
+  succeed(cloud());
   for (const char* const name : {"notes.txt", "scan_0.pcd"})
-    write_file(out() / "clouds" / name, "the user's own");
+    write_file(out("clouds") / name, "the user's own");
   expect_refused(cloud(), {"clouds/scan_0.pcd", "--force"});
-  EXPECT_TRUE(fs::exists(out() / "clouds/0.pcd"));
-  EXPECT_EQ(cloud({"--force"}).status, 0);
+  EXPECT_TRUE(fs::exists(out("clouds/0.pcd")));
+  succeed(cloud({"--force"}));
   for (const char* const name : {"notes.txt", "scan_0.pcd"})
-    EXPECT_EQ(read_file(out() / "clouds" / name), "the user's own");
-  fs::remove(out() / "clouds/scan_0.pcd");
-  EXPECT_EQ(cloud().status, 0);
+    EXPECT_EQ(read_file(out("clouds") / name), "the user's own");
+  fs::remove(out("clouds/scan_0.pcd"));
+  succeed(cloud());
   expect_refused(cloud({"--frames", "7:9"}), {"--frames"});
-  EXPECT_TRUE(fs::exists(out() / "report.json")) << "until the input is known";
+  EXPECT_TRUE(fs::exists(out("report.json"))) << "until the input is known";
 }
 
 TEST_F(CloudFolder, EachCloudHasAFileOfItsOwn) {
@@ -258,10 +216,8 @@ TEST_F(CloudFolder, EachCloudHasAFileOfItsOwn) {
 TEST_F(CloudFolder, BadFilesAreSaid) {
   write_file(path("scans/0.pcd"), "");
   fs::remove(path("scans/1.pcd"));
-  const Outcome outcome = cloud();
-  EXPECT_EQ(outcome.status, 0);
-  expect_has(outcome.err, {"2 of 3 clouds are bad_depth", "0.pcd"});
-  EXPECT_FALSE(fs::exists(out() / "clouds/0.pcd"));
+  expect_has(succeed(cloud()).err, {"2 of 3 clouds are bad_depth", "0.pcd"});
+  EXPECT_FALSE(fs::exists(out("clouds/0.pcd")));
   expect_refused(penumbra({"run", path("clouds.yaml"), "-o", path("x")}), {"penumbra cloud"});
   expect_refused(penumbra({"cloud", path(), "-o", path("x")}), {"no frames.cloud", "penumbra run"});
   edit_file(path("clouds.yaml"), "%d.pcd", "%d.xyz");

@@ -2,15 +2,12 @@
 // Each command with each kind of input: it works, or refuses in one line that names the remedy.
 #include "../web/viewer_process.hpp"
 #include "fixtures.hpp"
-#include "recording_bag.hpp"
 #include "tiny_clouds.hpp"
 
-#include <functional>
 #include <map>
 #include <set>
 #include <sstream>
 
-#include <io/bag/bag_reader.hpp>
 #include <io/cloud/cloud_file.hpp>
 #include <io/dds/participant.hpp>
 #include <io/files/pose_file.hpp>
@@ -20,7 +17,6 @@ namespace {
 
 constexpr std::size_t example_frames = 12;
 constexpr double near = 0.003;  // metres; docs/calibration.md
-const fs::path shipped = fs::path(PENUMBRA_SOURCE_DIR) / "examples/arm_over_table";
 
 /// Inputs by name, and the options that a command needs to take them.
 const std::vector<std::pair<std::string, Words>> kinds = {
@@ -43,33 +39,25 @@ const std::vector<std::pair<std::string, Words>> kinds = {
 constexpr std::size_t no_pose = 4;  // of them
 
 const std::string works;
+/// What commands on images make of recordings and bags, and all commands of other things.
+const Words image_row = {works, works, "penumbra cloud", works, works, works, "penumbra cloud"};
+const Words other_row = {"penumbra init", "*.mcap",         "*.mcap",
+                         "is empty",      "recording.yaml", "No such file"};
 /// By command: what it makes of each of `kinds`; a word of the remedy where it refuses the input.
 const std::map<std::string, Words> table = {
     // recording, without depth, clouds; bag: tf, no pose, no depth, clouds; results, images, URDF;
     // text, empty file, empty folder, nothing
-    {"run",
-     {works, works, "penumbra cloud", works, works, works, "penumbra cloud", "penumbra view",
-      "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml", "No such file"}},
-    {"view",
-     {works, works, "penumbra cloud", works, works, works, "penumbra cloud", works, "penumbra init",
-      "*.mcap", "*.mcap", "is empty", "recording.yaml", "No such file"}},
-    {"tune",
-     {works, "calibrate", "penumbra cloud", works, works, "calibrate", "penumbra cloud",
-      "penumbra view", "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml",
-      "No such file"}},
-    {"calibrate",
-     {works, works, "penumbra cloud", works, works, works, "penumbra cloud", "penumbra view",
-      "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml", "No such file"}},
-    {"view-planning",
-     {works, works, "penumbra cloud", works, works, works, "penumbra cloud", "penumbra view",
-      "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml", "No such file"}},
-    {"look-ahead",
-     {works, works, "penumbra cloud", works, works, works, "penumbra cloud", "penumbra view",
-      "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml", "No such file"}},
-    {"cloud",
-     {"penumbra run", "penumbra run", works, "penumbra run", "penumbra run", "penumbra run", works,
-      "penumbra view", "penumbra init", "*.mcap", "*.mcap", "is empty", "recording.yaml",
-      "No such file"}},
+    {"run", image_row + Words{"penumbra view"} + other_row},
+    {"view", image_row + Words{works} + other_row},
+    {"tune", Words{works, "calibrate", "penumbra cloud", works, works, "calibrate",
+                   "penumbra cloud", "penumbra view"} +
+                 other_row},
+    {"calibrate", image_row + Words{"penumbra view"} + other_row},
+    {"view-planning", image_row + Words{"penumbra view"} + other_row},
+    {"look-ahead", image_row + Words{"penumbra view"} + other_row},
+    {"cloud", Words{"penumbra run", "penumbra run", works, "penumbra run", "penumbra run",
+                    "penumbra run", works, "penumbra view"} +
+                  other_row},
     {"play",
      {"*.mcap", "*.mcap", "*.mcap", works, works, works, works, "*.mcap", "*.mcap", "*.mcap",
       "*.mcap", "is empty", "*.mcap", "No such file"}},
@@ -81,25 +69,27 @@ const std::map<std::string, Words> table = {
       "name a file", works, "XML", "XML", "name a file", "No such file"}},
 };
 
-class InputsTest : public testing::TestWithParam<std::string> {
+class InputsTest : public FolderTest, public testing::WithParamInterface<std::string> {
  protected:
   InputsTest() {
-    fs::copy(shipped, path("recording"), fs::copy_options::recursive);
-    fs::copy(shipped, path("without_depth"), fs::copy_options::recursive);
+    fs::copy(example, path("recording"), fs::copy_options::recursive);
+    fs::copy(example, path("without_depth"), fs::copy_options::recursive);
     edit_file(path("without_depth/recording.yaml"), "  depth: depth/%d.png", "  #");
-    fs::copy(shipped, path("images"), fs::copy_options::recursive);
+    fs::copy(example, path("images"), fs::copy_options::recursive);
     fs::remove(path("images/recording.yaml"));
     write_clouds();
     write_bags();
-    EXPECT_EQ(penumbra({"run", path("recording"), "-o", path("results")}).status, 0);
+    const bool needs_all = GetParam() == "run" || GetParam() == "view";
+    succeed(penumbra(
+        {"run", path("recording"), "-o", path("results"), "--frames", needs_all ? ":" : "0:1"}));
     write_file(path("notes.txt"), "a text\n");
     write_file(path("empty.mcap"), "");
     fs::create_directory(path("empty"));
   }
 
   void write_clouds() {
-    for (const char* folder : {"clouds/scans", "of_clouds"}) fs::create_directories(path(folder));
     for (const char* folder : {"clouds", "of_clouds"}) write_tiny_recording(path(folder));
+    fs::create_directory(path("clouds/scans"));
     TinyBag bag = tiny_bag(path("of_clouds"));
     add_clouds(bag);
     for (const char* images : {"/camera/depth/image_rect_raw", "/camera/depth/camera_info",
@@ -116,16 +106,15 @@ class InputsTest : public testing::TestWithParam<std::string> {
   void write_bags() {
     TinyBag bag = recording_bag(path("recording"), truth_);
     bag.write_mcap(path("tf.mcap"));
-    TinyBag color = bag;
-    color.remove("/camera/depth/image");
-    color.rename("/camera/depth/camera_info", "/camera/color/camera_info");
-    color.write_mcap(path("no_depth.mcap"));
+    TinyBag colored = bag;
+    colored.remove("/camera/depth/image");
+    colored.rename("/camera/depth/camera_info", "/camera/color/camera_info");
+    colored.write_mcap(path("no_depth.mcap"));
     bag.remove("/camera/color/image");
     bag.remove("/tf_static");
     bag.write_mcap(path("no_pose.mcap"));
   }
 
-  [[nodiscard]] fs::path path(const std::string& name) const { return folder_.path() / name; }
   [[nodiscard]] bool is_bag(const std::string& kind) const { return kind.ends_with(".mcap"); }
   /// Returns a new place for the results.
   [[nodiscard]] fs::path out(const std::string& kind) const {
@@ -136,42 +125,37 @@ class InputsTest : public testing::TestWithParam<std::string> {
   /// Returns the command line for an input.
   [[nodiscard]] Words line(const std::string& kind, const Words& needed) const {
     const std::string& command = GetParam();
+    const fs::path inputs = example / "..", targets = inputs / "view_planning/targets.yaml";
     Words words{command, path(kind)};
-    const auto add = [&](const Words& more) {
-      words.insert(words.end(), more.begin(), more.end());
-    };
-    if (command == "init" || command == "inspect") {
-      const fs::path description = path("images/arm_description");
-      if (kind != "results") add({"--package", "arm_description=" + description.string()});
-      return words;
-    }
-    if (command == "play") {
-      add({"--rate", "100", "--delay", "0"});
-      return words;
-    }
-    if (command != "view") add({"-o", out(kind)});
-    if (command == "calibrate" && kind == "without_depth") add({"--masks", "truth/%d.png"});
+    if (command == "init" || command == "inspect")
+      return kind == "results"
+                 ? words
+                 : words + Words{"--package",
+                                 "arm_description=" + path("images/arm_description").string()};
+    if (command == "play") return words + Words{"--rate", "100", "--delay", "0"};
+    if (command != "view") words = words + Words{"-o", out(kind)};
+    if (command == "calibrate" && kind == "without_depth")
+      words = words + Words{"--masks", "truth/%d.png"};
     if (command == "calibrate" && kind == "no_depth.mcap")
-      add({"--masks", "recording/truth/%d.png"});
-    const fs::path targets = shipped / "../view_planning/targets.yaml";
+      words = words + Words{"--masks", "recording/truth/%d.png"};
     if (command == "view-planning")
-      add({"--targets", targets, "--candidates", shipped / "../view_planning/candidates.csv"});
+      words = words +
+              Words{"--targets", targets, "--candidates", inputs / "view_planning/candidates.csv"};
     if (command == "look-ahead")
-      add({"--targets", targets, "--trajectory", shipped / "../look_ahead/sweep_left.csv"});
+      words =
+          words + Words{"--targets", targets, "--trajectory", inputs / "look_ahead/sweep_left.csv"};
     const std::map<std::string, Words> options = {
-        {"--package",
-         {"--package", "arm_description=" + path("recording/arm_description").string()}},
-        {"--pose", {"--pose", shipped / "camera_pose.csv", "--parent", "base_link"}},
+        {"--package", example_package},
+        {"--pose", {"--pose", example / "camera_pose.csv", "--parent", "base_link"}},
         {"--no-depth", {"--no-depth"}}};
     for (const std::string& option : needed)
-      if (command != "cloud" || option != "--no-depth") add(options.at(option));
+      if (command != "cloud" || option != "--no-depth") words = words + options.at(option);
     return words;
   }
 
   void expect_works(const std::string& kind, const Words& words) {
     if (GetParam() == "view") return expect_view(kind, words);
-    const Outcome outcome = penumbra(words, {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Outcome outcome = succeed(penumbra(words, {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"}));
     const std::map<std::string, std::function<void()>> checks = {
         {"run", [&] { expect_run(kind); }},
         {"tune", [&] { expect_same("tune.json", "fringe", kind); }},
@@ -186,8 +170,8 @@ class InputsTest : public testing::TestWithParam<std::string> {
   }
 
   void expect_run(const std::string& kind) {
-    const Json report = Json::parse(read_file(out(kind) / "report.json"));
-    const Json wanted = Json::parse(read_file(path("results/report.json")));
+    const Json report = read_json(out(kind) / "report.json");
+    const Json wanted = read_json(path("results/report.json"));
     ASSERT_EQ(report["frames"].size(), example_frames);
     for (std::size_t i = 0; i < example_frames; ++i) {
       EXPECT_EQ(report["frames"][i]["status"], "ok");
@@ -196,7 +180,7 @@ class InputsTest : public testing::TestWithParam<std::string> {
   }
   /// A key of the report is that of the recording.
   void expect_same(const std::string& file, const std::string& key, const std::string& kind) {
-    const Json found = Json::parse(read_file(out(kind) / file));
+    const Json found = read_json(out(kind) / file);
     ASSERT_TRUE(found.contains(key)) << found;
     if (first_.is_null()) first_ = found[key];
     EXPECT_EQ(found[key], first_);
@@ -206,15 +190,10 @@ class InputsTest : public testing::TestWithParam<std::string> {
     EXPECT_LT((found.translation() - truth_.translation()).norm(), near);
   }
   void expect_clouds(const std::string& kind) {
-    if (!is_bag(kind)) {
-      const io::StoredCloud read = io::read_cloud(out(kind) / "clouds/0.pcd");
-      EXPECT_EQ(numbers_of(read.cloud), (std::vector{1, 2}));
-      return;
-    }
-    std::map<std::string, int> messages;
-    const auto bag = io::open_bag(out(kind));
-    for (io::BagMessage message; bag->next(message);) ++messages[bag->topics()[message.topic].name];
-    EXPECT_EQ(messages["/penumbra/points"], 3);
+    if (!is_bag(kind))
+      EXPECT_EQ(numbers_of(io::read_cloud(out(kind) / "clouds/0.pcd").cloud), (std::vector{1, 2}));
+    else
+      EXPECT_EQ(topic_counts(out(kind)).at("/penumbra/points"), 3U);
   }
   void expect_view(const std::string& kind, const Words& words) {
     const ViewerProcess viewer({words.begin() + 1, words.end()});
@@ -222,9 +201,8 @@ class InputsTest : public testing::TestWithParam<std::string> {
     EXPECT_EQ(viewer.complete_session()["frames"], example_frames);
   }
 
-  const Eigen::Isometry3d truth_ = io::read_pose_csv(shipped / "camera_pose.csv");
+  const Eigen::Isometry3d truth_ = io::read_pose_csv(example / "camera_pose.csv");
   Json first_;
-  TemporaryFolder folder_;
 };
 
 TEST_P(InputsTest, WorkOrAreRefusedWithARemedy) {

@@ -6,13 +6,14 @@
 namespace penumbra::test {
 namespace {
 
-struct Refused {
-  std::vector<std::string> options;
-  std::string words;
-};
+/// Runs it on a graph of this machine alone.
+Outcome live(const Words& options, const Words& environment = {}) {
+  return penumbra(Words{"live"} + options,
+                  environment + Words{"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
+}
 
 TEST(LiveCommand, RefusesWhatCannotBe) {
-  const std::vector<Refused> all = {
+  const std::vector<std::pair<Words, std::string>> all = {
       {{"--domain", "233"}, "--domain"},
       {{"--camera", "left"}, "NAME=TOPIC"},
       {{"--camera", "a=/x", "--camera", "a=/y"}, "given twice"},
@@ -40,55 +41,35 @@ TEST(LiveCommand, RefusesWhatCannotBe) {
       {{"--robot", "/nonexistent.urdf"}, "nonexistent.urdf"},  // before any camera is there
       {{"--pose", "/nonexistent.csv"}, "nonexistent.csv"},
       {{"--duration", "0.5"}, "no camera was found: "}};
-  for (const Refused& refused : all) {
-    std::vector<std::string> arguments = refused.options;
-    arguments.insert(arguments.begin(), "live");
-    const Outcome outcome = penumbra(arguments, {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
-    EXPECT_EQ(outcome.status, 2) << refused.words << outcome.err;
-    EXPECT_NE(outcome.err.find(refused.words), std::string::npos) << outcome.err;
+  for (const auto& [options, named] : all) {
+    const Outcome outcome = live(options);
+    EXPECT_EQ(outcome.status, 2) << named << outcome.err;
+    expect_has(outcome.err, {named});
     EXPECT_LE(count_lines(outcome.err), 2U) << outcome.err;  // and what the kernel's buffers lack
   }
 }
 
 TEST(LiveCommand, ADeviceThatCannotDrawIsRefusedBeforeTheGraphIsJoined) {
-  const auto expect_refused = [](std::vector<std::string> renderer, const std::string& words,
-                                 std::vector<std::string> environment = {}) {
-    renderer.insert(renderer.begin(), {"live", "--depth-topic", "/depth", "--duration", "0.5"});
-    environment.emplace_back("ROS_LOCALHOST_ONLY=1");
-    environment.emplace_back("ROS_DOMAIN_ID=231");
-    const Outcome outcome = penumbra(renderer, environment);
-    EXPECT_EQ(outcome.status, 2) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-  };
-  expect_refused({"--renderer", "gl"}, "renderer 'gl'", no_egl_driver);
+  const Words line = {"--depth-topic", "/depth", "--duration", "0.5", "--renderer", "gl"};
+  const Outcome without = live(line, no_egl_driver);
+  expect_refused(without, {"renderer 'gl'"});
+  EXPECT_EQ(without.out, "");
   if (!has_opengl()) GTEST_SKIP() << no_opengl;
-  expect_refused({"--renderer", "gl", "--gl-device", "99"}, "there is no device 99");
+  const Outcome other = live(line + Words{"--gl-device", "99"});
+  expect_refused(other, {"there is no device 99"});
+  EXPECT_EQ(other.out, "");
 }
 
 TEST(LiveCommand, EndsByItselfAndSaysWhatCame) {
   const TemporaryFolder folder;
-  const std::string summary = folder.path() / "live.json";
-  const Outcome outcome = penumbra(
-      {"live", "--depth-topic", "/nobody/depth", "--duration", "1.2", "--summary", summary},
-      {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
-  EXPECT_EQ(outcome.status, 2) << outcome.err;
-  expect_has(outcome.err, {"nothing was judged"});
-  expect_has(outcome.err, {"no publisher of /nobody/depth"});
-  expect_has(read_file(summary), {"\"received\": 0"});
-  expect_has(read_file(summary), {"\"renderer\": null"});
-}
-
-TEST(LiveCommand, AFormerSummaryStaysWhereNothingIsSummed) {
-  const TemporaryFolder folder;
-  const std::string summary = folder.path() / "live.json";
+  const fs::path summary = folder.path() / "live.json";
   write_file(summary, "former");
-  const Outcome outcome = penumbra({"live", "--duration", "0.3", "--summary", summary},
-                                   {"ROS_LOCALHOST_ONLY=1", "ROS_DOMAIN_ID=231"});
-  EXPECT_EQ(outcome.status, 2) << outcome.err;
-  expect_has(outcome.err, {"no camera was found"});
+  expect_failed(live({"--duration", "0.3", "--summary", summary}), {"no camera was found"});
   EXPECT_EQ(read_file(summary), "former");
+
+  expect_failed(live({"--depth-topic", "/nobody/depth", "--duration", "1.2", "--summary", summary}),
+                {"nothing was judged", "no publisher of /nobody/depth"});
+  expect_has(read_file(summary), {"\"received\": 0", "\"renderer\": null"});
 }
 
 }  // namespace

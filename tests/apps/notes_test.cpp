@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What run and render say of input that is understood, but looks wrong.
+// What run and render say of input that is understood, but looks wrong, and of links without a
+// mesh.
 #include "fixtures.hpp"
 
 namespace penumbra::test {
@@ -10,16 +11,21 @@ class NotesTest : public TinyTest {
   /// Runs and expects this one note, on stderr and in the report; "": none.
   void expect_note_of_run(const std::string& words, int status = 0) {
     const Outcome outcome = run();
-    const Json summary = report()["summary"];
-    expect_note(outcome, summary["notes"], words, status);
-    EXPECT_EQ(summary["bad_frames"], 0);
+    expect_note(outcome, report()["summary"]["notes"], words, status);
+    EXPECT_EQ(report()["summary"]["bad_frames"], 0);
   }
-
   /// The same of render.
-  void expect_note_of_render(Words options, const std::string& words) {
-    options.emplace_back("--json");
-    const Outcome outcome = render(options);
+  void expect_note_of_render(const Words& options, const std::string& words) {
+    const Outcome outcome = render(options + Words{"--json"});
     expect_note(outcome, Json::parse(outcome.out)["notes"], words);
+  }
+  /// The same of both.
+  void expect_note_of_both(const std::string& words) {
+    expect_note_of_run(words);
+    expect_note_of_render({}, words);
+  }
+  void put_camera_at(const std::string& z) const {
+    write_file(path("camera_pose.csv"), "1,0,0,0\n0,1,0,0\n0,0,1," + z + "\n0,0,0,1\n");
   }
 
  private:
@@ -32,7 +38,7 @@ class NotesTest : public TinyTest {
       return;
     }
     ASSERT_EQ(notes.size(), 1U) << notes;
-    EXPECT_NE(notes[0].get<std::string>().find(words), std::string::npos) << notes;
+    expect_has(notes[0], {words});
     EXPECT_EQ(outcome.err, "penumbra: note: " + notes[0].get<std::string>() + "\n");
   }
 };
@@ -47,8 +53,7 @@ TEST_F(NotesTest, TextsOfFilesControlNoTerminal) {
   edit_file(path("recording.yaml"), "depth_%d.png", "depth_%d.npy");
   const auto expect_plain = [](const Outcome& outcome) {
     expect_has(outcome.err, {"depth_0.npy", "[31m"});
-    for (const char c : std::string("\033\r\233\177"))
-      EXPECT_EQ(outcome.err.find(c), std::string::npos) << outcome.err;
+    expect_lacks(outcome.err, {"\033", "\r", "\233", "\177"});
   };
   expect_plain(run());
   expect_plain(penumbra_interrupted({"view", path(), "--port", "0"}, [](const Outcome& printed) {
@@ -57,51 +62,44 @@ TEST_F(NotesTest, TextsOfFilesControlNoTerminal) {
 }
 
 TEST_F(NotesTest, ARobotThatIsNeverInView) {
-  const auto camera_at = [&](const std::string& z) {
-    write_file(path("camera_pose.csv"), "1,0,0,0\n0,1,0,0\n0,0,1," + z + "\n0,0,0,1\n");
-  };
-  camera_at("0");
-  expect_note_of_run("");
-  expect_note_of_render({}, "");
-  camera_at("2");  // the inverse: the robot is behind the camera
+  put_camera_at("0");
+  expect_note_of_both("");
+  put_camera_at("2");  // the inverse: the robot is behind the camera
   expect_note_of_run("the robot is in no frame", 2);
   expect_note_of_render({}, "the robot is not in the image");
-  camera_at("-2000");  // millimetres
+  put_camera_at("-2000");  // millimetres
   expect_note_of_run("the robot is in no frame", 2);
 }
 
 TEST_F(NotesTest, ACameraPoseThatDoesNotFitTheDepth) {
-  write_file(path("camera_pose.csv"), "1,0,0,0\n0,1,0,0\n0,0,1,-2\n0,0,0,1\n");
+  put_camera_at("-2");
   expect_note_of_run("camera's pose");
   expect_note_of_render({}, "");
 }
 
 TEST_F(NotesTest, RawPixelsThatTheLensModelDoesNotReach) {
   edit_file(path("camera_info.yaml"), "d: [0.0,", "d: [-0.6,");
-  expect_note_of_run("the lens model does not reach ");
-  expect_note_of_render({}, "the lens model does not reach ");
-  const Outcome ran = run();
-  expect_has(ran.out, {" uncovered pixels"});
-  const Outcome rendered = render({"--json"});
-  EXPECT_GT(Json::parse(rendered.out)["uncovered"], 0) << rendered.out;
+  expect_note_of_both("the lens model does not reach ");
+  expect_has(run().out, {" uncovered pixels"});
+  const std::string rendered = render({"--json"}).out;
+  EXPECT_GT(Json::parse(rendered)["uncovered"], 0) << rendered;
 }
 
 TEST_F(NotesTest, LinksThatAreTiny) {
-  edit_file(path("tiny.urdf"), "</robot>",
-            "<link name=\"speck\"><collision><geometry><mesh filename=\"board.stl\" scale=\"0.001 "
-            "0.001 0.001\"/></geometry></collision></link><joint name=\"hold\" "
-            "type=\"fixed\"><parent link=\"board\"/><child link=\"speck\"/></joint></robot>");
+  add_to_robot(
+      R"(<link name="speck"><collision><geometry>
+           <mesh filename="board.stl" scale="0.001 0.001 0.001"/></geometry></collision></link>
+         <joint name="hold" type="fixed"><parent link="board"/><child link="speck"/></joint>)");
   const std::string words = "link 'speck': its geometry is only 0.4 mm large; check the unit";
-  expect_note_of_run(words);
-  expect_note_of_render({}, words);
-  EXPECT_NE(inspect().out.find("note: " + words), std::string::npos);
+  expect_note_of_both(words);
+  expect_has(inspect().out, {"note: " + words});
 }
 
 TEST_F(NotesTest, PartsBeforeTheNearPlane) {
-  edit_file(path("tiny.urdf"), "</robot>",
-            "<link name=\"plate\"><collision><geometry><box size=\"1 1 0.002\"/></geometry>"
-            "</collision></link><joint name=\"hold\" type=\"fixed\"><parent link=\"base\"/><child "
-            "link=\"plate\"/><origin xyz=\"0 0 0.005\"/></joint></robot>");
+  add_to_robot(
+      R"(<link name="plate"><collision><geometry><box size="1 1 0.002"/></geometry></collision>
+         </link><joint name="hold" type="fixed"><parent link="base"/><child link="plate"/>
+         <origin xyz="0 0 0.005"/></joint>)");
   const std::string words = "part of link 'plate' lies within 1 cm of the camera and is not drawn ";
   expect_note_of_run(words + "in 3 frames");
   expect_note_of_render({}, words + "in 1 frame");
@@ -109,34 +107,89 @@ TEST_F(NotesTest, PartsBeforeTheNearPlane) {
   expect_note_of_run("");
 }
 
-TEST_F(NotesTest, StampsOfAnotherUnit) {
-  write_file(path("joint_states.csv"),
-             "frame,stamp,slide\n0,1700000000000000,0\n"
-             "1,1700000000033333,0.05\n2,1700000000066667,0.1\n");
+TEST_F(NotesTest, StampsOfAnotherUnitOrThatDoNotRise) {
+  write_joints(
+      "frame,stamp,slide\n0,1700000000000000,0\n"
+      "1,1700000000033333,0.05\n2,1700000000066667,0.1\n");
   expect_note_of_run("are stamps in nanoseconds?");
-}
-
-TEST_F(NotesTest, StampsThatDoNotRise) {
-  write_file(path("joint_states.csv"), "frame,stamp,slide\n0,7,0.0\n1,7,0.05\n2,6,0.1\n");
+  write_joints("frame,stamp,slide\n0,7,0.0\n1,7,0.05\n2,6,0.1\n");
   expect_note_of_run("2 stamps not after the frame's before, first in frame 1");
 }
 
 TEST_F(NotesTest, JointsBeyondTheirLimits) {
-  write_file(path("joint_states.csv"), "frame,slide\n0,0.0\n1,1.5\n2,2.5\n");
+  write_joints("frame,slide\n0,0.0\n1,1.5\n2,2.5\n");
   expect_note_of_run("joint 'slide' beyond its limits in 2 frames");
   expect_note_of_render({"--joint", "slide=1.5"}, "joint 'slide' beyond its limits in 1 frame");
 }
 
 TEST_F(NotesTest, JointsThatRenderWasNotGiven) {
-  edit_file(path("tiny.urdf"), "</robot>",
-            "<link name=\"hand\"/><link name=\"tip\"/>"
-            "<joint name=\"wrist\" type=\"continuous\"><parent link=\"board\"/><child "
-            "link=\"hand\"/></joint><joint name=\"finger\" type=\"continuous\"><parent "
-            "link=\"hand\"/><child link=\"tip\"/></joint></robot>");
+  add_to_robot(
+      R"(<link name="hand"/><link name="tip"/>
+         <joint name="wrist" type="continuous"><parent link="board"/><child link="hand"/></joint>
+         <joint name="finger" type="continuous"><parent link="hand"/><child link="tip"/></joint>)");
   expect_note_of_render({"--joint", "slide=0.1"},
                         "no --joint for wrist, finger: drawn at rest (0, or no rotation)");
   expect_note_of_render({}, "");
   expect_note_of_render({"--joint", "slide=0", "--joint", "wrist=0", "--joint", "finger=1"}, "");
+}
+
+/// The tiny recording with one more link on its base.
+class LeniencyTest : public TinyTest {
+ protected:
+  void add_link(const std::string& geometry) {
+    add_to_robot("<link name=\"more\">" + geometry +
+                 "</link><joint name=\"fix\" type=\"fixed\"><parent link=\"base\"/>"
+                 "<child link=\"more\"/></joint>");
+  }
+};
+
+constexpr const char* ball =
+    "<visual><origin xyz=\"0 0 2\"/><geometry><sphere radius=\"1\"/></geometry></visual>";
+
+TEST_F(LeniencyTest, EveryResultNamesLinksWithoutTheirMesh) {
+  add_link("<collision><geometry><mesh filename=\"nowhere.stl\"/></geometry></collision>");
+  for (const Outcome& outcome : {run(), render(), inspect()}) {
+    EXPECT_EQ(outcome.status, 2);
+    expect_has(outcome.err, {"nowhere.stl"});
+  }
+  const std::string allowed = "--allow-missing-meshes";
+
+  expect_has(succeed(run({allowed})).err, {"missing_link in 3 of 3 frames", "'more'"});
+  expect_values(report(),
+                {{"/summary/missing_links", Json{"more"}}, {"/frames/0/status", "missing_link"}});
+  expect_has(message(0), {"'more'"});
+
+  const Outcome rendered = succeed(render({allowed, "--json"}));
+  EXPECT_EQ(rendered.err, "penumbra: missing_link: no geometry of link 'more'\n");
+  EXPECT_EQ(Json::parse(rendered.out)["missing_links"], Json{"more"});
+  EXPECT_EQ(Json::parse(succeed(inspect({allowed, "--json"})).out)["links"][2]["missing"], true);
+}
+
+TEST_F(LeniencyTest, LinksOfTheOtherGeometryAreDrawnWhereThatIsAskedFor) {
+  add_link(ball);
+  const std::string fallback = "--geometry-fallback";
+  const auto robot_pixels = [&](const std::string& option) {
+    return Json::parse(render({option, "--json"}).out)["robot_pixels"].get<int>();
+  };
+  EXPECT_GT(robot_pixels(fallback), robot_pixels("--allow-missing-meshes"));
+  const std::string told = run({fallback}).err;
+  expect_has(told, {"do not show the robot"});
+  expect_lacks(told, {"only visual"});
+  const Json link = Json::parse(inspect({fallback, "--json"}).out)["links"][2];
+  EXPECT_EQ(link["drawn"], true);
+  EXPECT_EQ(link["reason"], "visual, as it has no collision");
+}
+
+TEST_F(LeniencyTest, LinksOfTheOtherGeometryAreNeverLeftOutInSilence) {
+  add_link(ball);
+  for (const Outcome& outcome : {run(), render()}) {
+    EXPECT_EQ(outcome.status, 2);
+    expect_has(outcome.err, {"1 link has no collision geometry, only visual: \"more\"",
+                             "--geometry-fallback", "--geometry visual", "ignore_links"});
+  }
+  expect_has(succeed(run({"--allow-missing-meshes"})).err, {"missing_link in 3 of 3 frames"});
+  EXPECT_EQ(report()["summary"]["missing_links"], Json{"more"});
+  expect_has(notes(), {"only visual"});
 }
 
 }  // namespace

@@ -52,16 +52,9 @@ Files files_of(const fs::path& place) {
 class Outputs : public TinyTest, public testing::WithParamInterface<Command> {
  protected:
   Outputs() {
-    write_file(path("joint_states.csv"),
-               "frame,stamp,slide\n0,0,0.0\n1,100000000,0.05\n2,200000000,0.1\n");
-    const std::string camera =
-        "    info: camera_info.yaml\n    parent: base\n    pose: camera_pose.csv\n"
-        "    depth: depth_%d.png\n    color: color_%d.png\n";
-    write_file(path("cameras.yaml"), "robot:\n  urdf: tiny.urdf\ncameras:\n  left:\n" + camera +
-                                         "  right:\n" + camera +
-                                         "frames:\n  joints: joint_states.csv\n");
-    write_file(path("targets.yaml"),
-               "targets:\n- {name: hole, point: [0, 0, 2], radius: 0.05, link: base}\n");
+    write_joints("frame,stamp,slide\n0,0,0.0\n1,100000000,0.05\n2,200000000,0.1\n");
+    write_file(path("cameras.yaml"), two_cameras_yaml());
+    write_targets("- {name: hole, point: [0, 0, 2], radius: 0.05, link: base}\n");
     write_file(path("poses.csv"), "name,x,y,z,qx,qy,qz,qw\nahead,0,0,0,0,0,0,1\n");
     write_file(path("plan.csv"), "time,slide\n0,0\n1,1\n");
     write_clouds();
@@ -108,13 +101,11 @@ class Outputs : public TinyTest, public testing::WithParamInterface<Command> {
   }
   /// Returns the results of a command that nothing disturbs.
   [[nodiscard]] Files results() const {
-    const Outcome outcome = penumbra(line(undisturbed()));
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    succeed(penumbra(line(undisturbed())));
     return files_of(undisturbed());
   }
   void expect_results(const Files& wanted, const std::string& after) const {
-    const Outcome outcome = penumbra(line(output()));
-    EXPECT_EQ(outcome.status, 0) << after << ": " << outcome.err;
+    succeed(penumbra(line(output())));
     EXPECT_TRUE(files_of(output()) == wanted) << after;
   }
 
@@ -232,13 +223,13 @@ TEST_F(Init, LeavesNoHalfRecordingAndFollowsNoLink) {
     EXPECT_NE(penumbra_within(too_few, what, line), 0);
     EXPECT_FALSE(fs::exists(file));
   }
-  ASSERT_EQ(penumbra(line).status, 0);
+  succeed(penumbra(line));
   const std::string wanted = read_file(file);
   write_file(path("precious"), "the user's own");
   fs::remove(file);
   fs::create_symlink("precious", file);
   expect_refused(penumbra(line), {"recording.yaml", "--force"});
-  ASSERT_EQ(penumbra({"init", path(), "--force"}).status, 0);
+  succeed(penumbra({"init", path(), "--force"}));
   EXPECT_EQ(read_file(file), wanted);
   EXPECT_EQ(read_file(path("precious")), "the user's own");
 }

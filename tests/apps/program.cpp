@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <thread>
 
@@ -30,8 +31,8 @@ int status_of(int wait_status) {
 
 /// Calls `prepare` in the new process.
 template <typename Prepare>
-pid_t start_program(const Words& arguments, const std::filesystem::path& out,
-                    const std::filesystem::path& err, const Prepare& prepare) {
+pid_t start_program(const Words& arguments, const fs::path& out, const fs::path& err,
+                    const Prepare& prepare) {
   std::vector<char*> words = {const_cast<char*>(PENUMBRA_PROGRAM)};
   for (const std::string& argument : arguments)
     words.push_back(const_cast<char*>(argument.c_str()));
@@ -47,6 +48,16 @@ pid_t start_program(const Words& arguments, const std::filesystem::path& out,
 
 }  // namespace
 
+Words split(const std::string& text) {
+  std::istringstream words(text);
+  return {std::istream_iterator<std::string>(words), {}};
+}
+
+Words operator+(Words first, const Words& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
 Outcome penumbra(const Words& arguments, const Words& environment) {
   const TemporaryFolder folder;
   std::string command = "env";
@@ -58,6 +69,15 @@ Outcome penumbra(const Words& arguments, const Words& environment) {
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder.path() / "out"),
           read_file(folder.path() / "err")};
+}
+
+double peak_memory_mb(const Words& arguments) {
+  const pid_t child = start_program(arguments, "/dev/null", "/dev/null", [] {});
+  int status = -1;
+  rusage usage{};
+  EXPECT_EQ(wait4(child, &status, 0, &usage), child);
+  EXPECT_EQ(status, 0);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
 int penumbra_within(std::size_t bytes, TooLarge what, const Words& arguments) {
@@ -88,7 +108,53 @@ Outcome penumbra_interrupted(const Words& arguments,
   return outcome(status);
 }
 
-std::string read_file(const std::filesystem::path& file) {
+Outcome succeed(Outcome outcome) {
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return outcome;
+}
+
+void expect_failed(const Outcome& outcome, const Words& named) {
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  expect_has(outcome.err, named);
+}
+
+void expect_refused(const Outcome& outcome, const Words& named) {
+  expect_failed(outcome, named);
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+}
+
+void expect_all_refused(const std::function<Outcome(const Words&)>& run,
+                        const std::vector<std::pair<Words, std::string>>& lines) {
+  for (const auto& [options, named] : lines) expect_refused(run(options), {named});
+}
+
+void expect_has(const std::string& text, const Words& words) {
+  for (const std::string& word : words)
+    EXPECT_NE(text.find(word), std::string::npos) << word << " is not in: " << text;
+}
+
+void expect_lacks(const std::string& text, const Words& words) {
+  for (const std::string& word : words)
+    EXPECT_EQ(text.find(word), std::string::npos) << word << " is in: " << text;
+}
+
+Json read_json(const fs::path& file) { return Json::parse(read_file(file)); }
+
+Words keys(const Json& json) {
+  Words names;
+  for (const auto& [name, value] : json.items()) names.push_back(name);
+  return names;
+}
+
+void expect_values(const Json& json, const std::vector<std::pair<std::string, Json>>& values) {
+  for (const auto& [place, value] : values) {
+    const Json::json_pointer pointer(place);
+    ASSERT_TRUE(json.contains(pointer)) << place;
+    EXPECT_EQ(json.at(pointer), value) << place;
+  }
+}
+
+std::string read_file(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   EXPECT_TRUE(stream) << file;
   std::ostringstream content;
@@ -96,13 +162,13 @@ std::string read_file(const std::filesystem::path& file) {
   return content.str();
 }
 
-void write_file(const std::filesystem::path& file, const std::string& content) {
+void write_file(const fs::path& file, const std::string& content) {
   std::ofstream stream(file, std::ios::binary);
   stream << content;
   EXPECT_TRUE(stream.flush()) << file;
 }
 
-void edit_file(const std::filesystem::path& file, const std::string& from, const std::string& to) {
+void edit_file(const fs::path& file, const std::string& from, const std::string& to) {
   std::string content = read_file(file);
   const std::size_t at = content.find(from);
   ASSERT_NE(at, std::string::npos) << file << " has no " << from;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Runs the command line `penumbra` and looks at what it wrote.
 #pragma once
 
 #include "../support/temporary_folder.hpp"
@@ -7,11 +8,22 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 namespace penumbra::test {
 
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
+
+/// Returns the words of a text, which blanks separate.
+[[nodiscard]] Words split(const std::string& text);
+
+/// Returns both lists in one.
+[[nodiscard]] Words operator+(Words first, const Words& second);
 
 /// What a program did. A program that is killed or does not end in time has another status than
 /// any of its own.
@@ -21,9 +33,13 @@ struct Outcome {
   std::string err;
 };
 
-/// Runs the command line `penumbra` with these arguments, at most 60 s, with NAME=VALUE added to
+/// Runs the command line `penumbra` with these arguments, at most 600 s, with NAME=VALUE added to
 /// its environment.
 [[nodiscard]] Outcome penumbra(const Words& arguments, const Words& environment = {});
+
+/// Runs the program silently and returns the peak of its resident memory, MB. Fails the test unless
+/// it ends with status 0.
+[[nodiscard]] double peak_memory_mb(const Words& arguments);
 
 /// What happens to a program that makes a file too large: the same as on a full disk, or the same
 /// as kill -9 does.
@@ -40,14 +56,37 @@ enum class TooLarge { fails, kills };
 /// An environment in which EGL finds no driver.
 inline const Words no_egl_driver = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"};
 
-[[nodiscard]] std::string read_file(const std::filesystem::path& file);
-void write_file(const std::filesystem::path& file, const std::string& content);
+/// Fails the test unless the status is 0.
+Outcome succeed(Outcome outcome);
+
+/// Fails the test unless the status is 2 and stderr has all these words; if refused, in one line.
+void expect_failed(const Outcome& outcome, const Words& named);
+void expect_refused(const Outcome& outcome, const Words& named);
+
+/// Options that are refused, each with what the one line names.
+void expect_all_refused(const std::function<Outcome(const Words&)>& run,
+                        const std::vector<std::pair<Words, std::string>>& lines);
+
+/// Fails the test unless all words are in the text, or if any is.
+void expect_has(const std::string& text, const Words& words);
+void expect_lacks(const std::string& text, const Words& words);
+
+[[nodiscard]] Json read_json(const fs::path& file);
+
+/// Returns the keys of an object in their order.
+[[nodiscard]] Words keys(const Json& json);
+
+/// Fails the test unless the JSON has these values at these places ("/frames/0/status").
+void expect_values(const Json& json, const std::vector<std::pair<std::string, Json>>& values);
+
+[[nodiscard]] std::string read_file(const fs::path& file);
+void write_file(const fs::path& file, const std::string& content);
 
 /// Replaces the first `from` in a file; fails the test if there is none.
-void edit_file(const std::filesystem::path& file, const std::string& from, const std::string& to);
+void edit_file(const fs::path& file, const std::string& from, const std::string& to);
 
 /// Names the cases of a test by themselves.
-inline constexpr auto name_of = [](const auto& test) { return test.param.name; };
+inline constexpr auto name_of = [](const auto& test) { return std::string(test.param.name); };
 
 [[nodiscard]] std::size_t count_lines(const std::string& text);
 

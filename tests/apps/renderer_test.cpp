@@ -1,32 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
-// --renderer and --gl-device: what is taken, what the report says of it, what is refused.
+// What penumbra doctor says of this machine, and --renderer and --gl-device: what is taken, what
+// the report says of it, what is refused.
 #include "../support/opengl.hpp"
 #include "fixtures.hpp"
 
+#include <penumbra/base/simd_target.hpp>
+#include <penumbra/base/version.hpp>
 #include <penumbra/render/gl/gl_devices.hpp>
 
 namespace penumbra::test {
 namespace {
 
-class RendererTest : public TinyTest {
- protected:
-  Outcome run(Words options, const Words& environment = {}) const {
-    options.insert(options.begin(), {"run", path(), "-o", out()});
-    return penumbra(options, environment);
-  }
-};
+Json doctor_json(const Words& environment = {}) {
+  const Outcome outcome = succeed(penumbra({"doctor", "--json"}, environment));
+  EXPECT_EQ(outcome.err, "");
+  return Json::parse(outcome.out);
+}
+
+TEST(Doctor, JsonHasTheBuildAndTheMachine) {
+  const Json json = doctor_json();
+  EXPECT_EQ(keys(json),
+            (Words{"penumbra", "build", "cpu", "opengl", "renderers", "network", "libraries"}));
+  EXPECT_EQ(json["penumbra"], PENUMBRA_VERSION);
+  EXPECT_EQ(keys(json["build"]), (Words{"type", "compiler", "sanitizers", "opengl", "dds"}));
+  EXPECT_EQ(json["cpu"]["simd"], Json(simd_target_names()));
+  EXPECT_GT(json["cpu"]["threads"], 0);
+  for (const Json& device : json["opengl"]["devices"])
+    EXPECT_EQ(keys(device), (Words{"index", "name", "version", "vendor", "software", "fault"}));
+  EXPECT_EQ(json["renderers"],
+            has_opengl() ? Json({"cpu", "gl", "reference"}) : Json({"cpu", "reference"}));
+}
+
+TEST(Doctor, SaysWhatToInstallWhereThereIsNoDriver) {
+  const Json json = doctor_json(no_egl_driver);
+  const Json& opengl = json["opengl"];
+  for (const Json& device : opengl["devices"]) EXPECT_FALSE(device["fault"].is_null()) << device;
+  EXPECT_EQ(opengl["fault"].is_null(), !opengl["devices"].empty()) << opengl;
+  EXPECT_EQ(json["renderers"], Json({"cpu", "reference"}));
+  expect_has(succeed(penumbra({"doctor"}, no_egl_driver)).out, {"cannot be used", "install"});
+}
+
+using RendererTest = TinyTest;
 
 TEST_F(RendererTest, TheCpuIsTheDefault) {
-  ASSERT_EQ(run({}, no_egl_driver).status, 0);
+  succeed(run({}, no_egl_driver));
   EXPECT_EQ(report()["renderer"]["backend"], "cpu");
-  const Outcome outcome = render({"--json"}, no_egl_driver);
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Outcome outcome = succeed(render({"--json"}, no_egl_driver));
   EXPECT_EQ(Json::parse(outcome.out)["renderer"], report()["renderer"]);
 }
 
 TEST_F(RendererTest, OpenGlByNameIsNeverReplaced) {
   expect_refused(run({"--renderer", "gl"}, no_egl_driver), {"renderer 'gl'"});
-  EXPECT_FALSE(fs::exists(out() / "report.json"));
+  EXPECT_FALSE(fs::exists(out("report.json")));
   expect_refused(render({"--renderer", "gl"}, no_egl_driver), {"renderer 'gl'"});
   EXPECT_FALSE(fs::exists(path("vdi.npy")));
 }
@@ -34,15 +59,14 @@ TEST_F(RendererTest, OpenGlByNameIsNeverReplaced) {
 TEST_F(RendererTest, OpenGlIsNamedInTheReport) {
   const auto device = working_device();
   if (!device) GTEST_SKIP() << "no OpenGL device works here";
-  const Outcome outcome = run({"--renderer", "gl", "--gl-device", std::to_string(*device)});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  succeed(run({"--renderer", "gl", "--gl-device", std::to_string(*device)}));
   const Json json = report();
-  EXPECT_EQ(json["renderer"]["backend"], "gl");
-  EXPECT_TRUE(json["renderer"]["isa"].is_null());
-  EXPECT_TRUE(json["renderer"]["threads"].is_null());
+  expect_values(json, {{"/renderer/backend", "gl"},
+                       {"/renderer/isa", nullptr},
+                       {"/renderer/threads", nullptr},
+                       {"/frames/0/pixels/front", 64}});  // the object of 8 x 8 pixels
   const std::string words = json["renderer"]["device"];
   EXPECT_TRUE(words.starts_with(gl_devices()[*device].name)) << words;
-  EXPECT_EQ(json["frames"][0]["pixels"]["front"], 64) << "the object of 8 x 8 pixels";
 }
 
 }  // namespace

@@ -7,8 +7,12 @@
 
 #include <algorithm>
 #include <map>
+#include <type_traits>
+#include <variant>
 
+#include <io/files/frame_reader.hpp>
 #include <io/files/image_size.hpp>
+#include <io/files/recording.hpp>
 #include <io/ros/image_codec.hpp>
 #include <io/ros/message_definition.hpp>
 
@@ -16,18 +20,6 @@ namespace penumbra::test {
 namespace {
 
 constexpr std::int64_t millisecond = 1'000'000;
-
-io::CameraInfoMessage tiny_camera() {
-  io::CameraInfoMessage info{.header = {0, "optical"},
-                             .height = tiny_height,
-                             .width = tiny_width,
-                             .distortion_model = "plumb_bob",
-                             .d = {0, 0, 0, 0, 0}};
-  info.k = {60, 0, 31.3, 0, 60, 23.7, 0, 0, 1};
-  info.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info.p = {60, 0, 31.3, 0, 0, 60, 23.7, 0, 0, 0, 1, 0};
-  return info;
-}
 
 Eigen::Isometry3d shift(double x) { return Eigen::Isometry3d(Eigen::Translation3d(x, 0, 0)); }
 
@@ -38,8 +30,8 @@ void add_frame(TinyBag& bag, int frame, const std::filesystem::path& folder) {
   Image<Rgb8> color;
   io::read_png(folder / ("depth" + ending), depth).require();
   io::read_png(folder / ("color" + ending), color).require();
-  io::CameraInfoMessage info = tiny_camera();
-  info.header.stamp = stamp;
+  const io::CameraInfoMessage info =
+      camera_info_of({tiny_width, tiny_height, 60, 60, 31.3, 23.7}, {stamp, "optical"});
   bag.add("/camera/depth/camera_info", arrival, info);
   bag.add("/camera/depth/image_rect_raw", arrival,
           io::image_message(info.header, "16UC1", std::as_const(depth).view()));
@@ -51,15 +43,48 @@ void add_frame(TinyBag& bag, int frame, const std::filesystem::path& folder) {
 void add_joints(TinyBag& bag) {
   for (std::int64_t stamp = tiny_stamp(0) - 170 * millisecond; stamp < tiny_stamp(3);
        stamp += 50 * millisecond) {
-    const double seconds = static_cast<double>(stamp - tiny_stamp(0)) * 1e-9;
+    const double since = static_cast<double>(stamp - tiny_stamp(0)) * 1e-9;
     bag.add("/joint_states", stamp + millisecond,
             io::JointStateMessage{.header = {stamp, ""},
                                   .names = {"other", "slide"},
-                                  .positions = {9.0, tiny_speed * seconds}});
+                                  .positions = {9.0, tiny_speed * since}});
   }
 }
 
 }  // namespace
+
+io::CameraInfoMessage camera_info_of(const Intrinsics& of, const io::MessageHeader& header) {
+  io::CameraInfoMessage info{.header = header,
+                             .height = static_cast<std::uint32_t>(of.height()),
+                             .width = static_cast<std::uint32_t>(of.width()),
+                             .distortion_model = "plumb_bob",
+                             .d = {0, 0, 0, 0, 0}};
+  info.k = {of.fx(), 0, of.cx(), 0, of.fy(), of.cy(), 0, 0, 1};
+  info.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  info.p = {of.fx(), 0, of.cx(), 0, 0, of.fy(), of.cy(), 0, 0, 0, 1, 0};
+  return info;
+}
+
+std::map<std::string, std::size_t> topic_counts(const std::filesystem::path& file) {
+  std::map<std::string, std::size_t> counts;
+  const auto bag = io::open_bag(file);
+  for (io::BagMessage message; bag->next(message);) ++counts[bag->topics()[message.topic].name];
+  return counts;
+}
+
+void TinyBag::sort() {
+  std::stable_sort(messages.begin(), messages.end(),
+                   [](const Message& a, const Message& b) { return a.log_time < b.log_time; });
+}
+
+void TinyBag::add_board_frames() {
+  for (std::int64_t stamp = tiny_stamp(0) - 130 * millisecond; stamp < tiny_stamp(3);
+       stamp += 100 * millisecond) {
+    const double since = static_cast<double>(stamp - tiny_stamp(0)) * 1e-9;
+    const Eigen::Isometry3d pose(Eigen::Translation3d(0, 0, 1 + tiny_speed * since));
+    add("/tf", stamp, io::TfMessage{{{{stamp, "base"}, "board", pose}}});
+  }
+}
 
 void TinyBag::remove(const std::string& topic) {
   std::erase_if(messages, [&](const Message& message) { return message.topic == topic; });
@@ -124,8 +149,42 @@ TinyBag tiny_bag(const std::filesystem::path& folder) {
   bag.add("/tf_static", before + 1, io::TfMessage{{{{0, "mount"}, "optical", shift(-0.25)}}});
   add_joints(bag);
   for (int frame = 0; frame < 3; ++frame) add_frame(bag, frame, folder);
-  std::stable_sort(bag.messages.begin(), bag.messages.end(),
-                   [](const auto& a, const auto& b) { return a.log_time < b.log_time; });
+  bag.sort();
+  return bag;
+}
+
+TinyBag recording_bag(const std::filesystem::path& folder,
+                      const Eigen::Isometry3d& T_parent_camera) {
+  const auto recording = io::Recording::open(folder);
+  const Robot robot = recording.load_robot();
+  const io::FrameReader frames(recording, robot);
+  const std::string camera_frame = "camera_optical_frame";
+  TinyBag bag;
+  const std::int64_t begin = *frames.read(0, false).stamp;
+  bag.add("/robot_description", begin, io::StringMessage{read_file(recording.robots.front().urdf)});
+  bag.add("/tf_static", begin,
+          io::TfMessage{{{{0, recording.camera.parent}, camera_frame, T_parent_camera}}});
+  io::CameraInfoMessage info =
+      camera_info_of(recording.camera.camera.intrinsics, {0, camera_frame});
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Frame frame = frames.read(i, recording.frames.color.has_value());
+    info.header.stamp = *frame.stamp;
+    bag.add("/joint_states", *frame.stamp,
+            io::JointStateMessage{.header = {*frame.stamp, ""},
+                                  .names = {robot.variables().begin(), robot.variables().end()},
+                                  .positions = frame.pose.positions});
+    bag.add("/camera/depth/camera_info", *frame.stamp, info);
+    std::visit(
+        [&](const auto& depth) {
+          const bool is_metres = std::is_same_v<std::decay_t<decltype(*depth.data)>, float>;
+          bag.add("/camera/depth/image", *frame.stamp,
+                  io::image_message(info.header, is_metres ? "32FC1" : "16UC1", depth));
+        },
+        frame.depth.view);
+    if (frame.color.view.empty()) continue;
+    bag.add("/camera/color/image", *frame.stamp,
+            io::image_message(info.header, "rgb8", frame.color.view));
+  }
   return bag;
 }
 

@@ -9,11 +9,42 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <penumbra/camera/intrinsics.hpp>
+
+#include <io/bag/bag_reader.hpp>
 #include <io/ros/message_decoder.hpp>
 #include <io/ros/message_encoder.hpp>
 #include <io/ros/messages.hpp>
 
 namespace penumbra::test {
+
+/// Returns what the driver of a camera without distortion publishes.
+[[nodiscard]] io::CameraInfoMessage camera_info_of(const Intrinsics& of,
+                                                   const io::MessageHeader& header);
+
+/// Calls `call(message, log_time, number)` with each message of a topic of a bag, in their order,
+/// and returns their count.
+template <typename M, typename Call>
+std::size_t for_each_message(const std::filesystem::path& file, const std::string& topic,
+                             const Call& call) {
+  const auto bag = io::open_bag(file);
+  std::size_t number = 0;
+  M decoded;
+  for (io::BagMessage message; bag->next(message);) {
+    const io::BagTopic& from = bag->topics()[message.topic];
+    if (from.name != topic) continue;
+    EXPECT_FALSE(io::Decoder<M>(from.type, from.definition).decode(message.data, decoded));
+    call(decoded, message.log_time, number++);
+  }
+  EXPECT_TRUE(bag->faults().empty());
+  return number;
+}
+
+/// Returns how many messages a bag has of each topic.
+[[nodiscard]] std::map<std::string, std::size_t> topic_counts(const std::filesystem::path& file);
 
 /// Messages of a bag as they are before they are written.
 struct TinyBag {
@@ -51,6 +82,10 @@ struct TinyBag {
   void rename(const std::string& from, const std::string& to);
   /// The same messages on another topic, too.
   void copy(const std::string& from, const std::string& to);
+  /// Brings the messages into the order of their times.
+  void sort();
+  /// Adds what robot_state_publisher sends of the tiny board, on /tf at 10 Hz.
+  void add_board_frames();
 
   void write_mcap(const std::filesystem::path& file) const;
   /// A bag of Humble, without definitions.
@@ -69,5 +104,12 @@ constexpr double tiny_speed = 0.125;
 /// their stamps. Depth: /camera/depth/image_rect_raw, color: /camera/color/image_raw/compressed,
 /// both of the frame "optical".
 [[nodiscard]] TinyBag tiny_bag(const std::filesystem::path& folder);
+
+/// Returns the frames of a recording folder as its robot and camera would publish them: joint
+/// states, depth (/camera/depth/image) and colour (/camera/color/image), if there is any, with the
+/// stamps of the frames, which need them; and the frame "camera_optical_frame" of both at this pose
+/// on the camera's link, in tf_static.
+[[nodiscard]] TinyBag recording_bag(const std::filesystem::path& folder,
+                                    const Eigen::Isometry3d& T_parent_camera);
 
 }  // namespace penumbra::test

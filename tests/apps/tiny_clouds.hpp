@@ -4,7 +4,6 @@
 
 #include "tiny_bag.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -75,8 +74,7 @@ inline void add_clouds(TinyBag& bag) {
                          .point_num = 2,
                          .points = {{.x = on_board(i)}, {.offset_time = 1000, .x = 3, .y = 2}}});
   }
-  std::stable_sort(bag.messages.begin(), bag.messages.end(),
-                   [](const auto& a, const auto& b) { return a.log_time < b.log_time; });
+  bag.sort();
 }
 
 }  // namespace penumbra::test

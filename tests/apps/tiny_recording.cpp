@@ -84,6 +84,7 @@ std::string board_stl() {
 }
 
 void write_tiny_recording(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
   write_file(folder / "tiny.urdf", tiny_urdf);
   write_file(folder / "board.stl", board_stl());
   write_file(folder / "recording.yaml", yaml);

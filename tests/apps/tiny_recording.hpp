@@ -10,12 +10,13 @@ namespace penumbra::test {
 inline constexpr int tiny_width = 64;
 inline constexpr int tiny_height = 48;
 
-/// Writes a recording of three frames: a board of 0.4 m x 0.2 m whose near face is 0.95 m + "slide"
-/// before the camera, a wall at 3 m, in every frame an object of 8 x 8 pixels at 0.5 m before the
-/// board and 8 x 4 pixels without measurement. The board's mesh is board.stl.
+/// Writes a recording into a folder, which it makes if there is none. It has three frames: a board
+/// of 0.4 m x 0.2 m whose near face is 0.95 m + "slide" before the camera, a wall at 3 m, in every
+/// frame an object of 8 x 8 pixels at 0.5 m before the board and 8 x 4 pixels without measurement.
+/// The board's mesh is board.stl.
 void write_tiny_recording(const std::filesystem::path& folder);
 
-/// The board as an ASCII STL file, with its vertices' text changed from `from` to `to`.
+/// Returns the board as an ASCII STL file.
 [[nodiscard]] std::string board_stl();
 
 }  // namespace penumbra::test

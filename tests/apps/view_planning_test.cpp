@@ -8,13 +8,12 @@ namespace penumbra::test {
 namespace {
 
 constexpr const char* header = "name,x,y,z,qx,qy,qz,qw\n";
-constexpr const char* hole =
-    "targets:\n- {name: hole, point: [0, 0, 2], radius: 0.05, link: base}\n";
+constexpr const char* hole = "- {name: hole, point: [0, 0, 2], radius: 0.05, link: base}\n";
 
 class ViewPlanningTest : public BagTest {
  protected:
   ViewPlanningTest() {
-    write_file(path("targets.yaml"), hole);
+    write_targets(hole);
     // Behind the board; past its side; turned away.
     write_file(path("poses.csv"), std::string(header) +
                                       "ahead,0,0,0,0,0,0,1\n"
@@ -22,76 +21,64 @@ class ViewPlanningTest : public BagTest {
                                       "away,0,0,0,0,1,0,0\n");
   }
 
-  Outcome plan(Words options = {}, const std::string& input = "") const {
-    options.insert(options.begin(),
-                   {"view-planning", input.empty() ? path() : path(input), "-o", out(), "--targets",
-                    path("targets.yaml"), "--candidates", path("poses.csv")});
-    return penumbra(options);
+  Outcome plan(const Words& options = {}, const std::string& input = ".") const {
+    return penumbra(Words{"view-planning", path(input), "-o", out(), "--targets",
+                          path("targets.yaml"), "--candidates", path("poses.csv")} +
+                    options);
   }
-  [[nodiscard]] Json planned() const {
-    return Json::parse(read_file(out() / "view_planning.json"));
-  }
+  [[nodiscard]] Json planned() const { return read_json(out("view_planning.json")); }
 };
 
 TEST_F(ViewPlanningTest, TellsWhatEachCandidateSeesAndTheBestSet) {
-  const Outcome outcome = plan({"--cameras", "2", "--threads", "2"});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Outcome outcome = succeed(plan({"--cameras", "2", "--threads", "2"}));
   EXPECT_EQ(outcome.err, "");
   expect_has(outcome.out, {"candidate", "beside", "100.0 %", "ahead + beside", "per second"});
-  const Json json = planned();
-  EXPECT_EQ(json["frames"], Json({0, 1, 2}));
-  EXPECT_EQ(json["frames_left_out"], 0);
-  const std::vector<std::pair<std::string, std::string>> wanted{
-      {"ahead", "hhh"}, {"beside", "vvv"}, {"away", "ooo"}};
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    EXPECT_EQ(json["candidates"][i]["name"], wanted[i].first);
-    EXPECT_EQ(json["candidates"][i]["targets"][0]["by_frame"], wanted[i].second);
-  }
-  EXPECT_EQ(json["candidates"][0]["targets"][0]["hidden"], 1.0);
-  EXPECT_EQ(json["best"][0]["cameras"], Json({"beside"}));
-  EXPECT_EQ(json["best"][1]["visible"]["hole"], 1.0);
-  EXPECT_EQ(page_json(read_file(out() / "report.html"), "penumbra-report"), json);
+  expect_values(planned(), {{"/frames", {0, 1, 2}},
+                            {"/frames_left_out", 0},
+                            {"/candidates/0/name", "ahead"},
+                            {"/candidates/0/targets/0/by_frame", "hhh"},
+                            {"/candidates/0/targets/0/hidden", 1.0},
+                            {"/candidates/1/name", "beside"},
+                            {"/candidates/1/targets/0/by_frame", "vvv"},
+                            {"/candidates/2/name", "away"},
+                            {"/candidates/2/targets/0/by_frame", "ooo"},
+                            {"/best/0/cameras", Json{"beside"}},
+                            {"/best/1/visible/hole", 1.0}});
+  EXPECT_EQ(page_json(read_file(out("report.html")), "penumbra-report"), planned());
 }
 
 TEST_F(ViewPlanningTest, TakesBagsAttachedBodiesAndFramesWithoutDepth) {
-  ASSERT_EQ(plan({"--frames", "0:2"}).status, 0);
+  succeed(plan({"--frames", "0:2"}));
   const Json recorded = planned()["candidates"];
   bag_.write_mcap(path("tiny.mcap"));
-  const Outcome of_bag = plan({"--frames", "0:2"}, "tiny.mcap");
-  ASSERT_EQ(of_bag.status, 0) << of_bag.err;
+  succeed(plan({"--frames", "0:2"}, "tiny.mcap"));
   EXPECT_EQ(planned()["candidates"], recorded);
 
   write_file(path("depth_0.png"), "no picture");
   edit_file(path("recording.yaml"), "frames:",
             "attached:\n  - {name: part, link: board, box: [3, 3, 0.1], pose: [0, 0, 0.5, 0, 0, 0, "
             "1], frames: [1, 2]}\nframes:");
-  const Outcome attached = plan();
-  ASSERT_EQ(attached.status, 0) << attached.err;
+  succeed(plan());
   EXPECT_EQ(planned()["candidates"][1]["targets"][0]["by_frame"], "vhv");
 }
 
 TEST_F(ViewPlanningTest, PlacesTargetsOfTheCamerasFrameByTheRecordedCamera) {
-  write_file(path("targets.yaml"), "targets:\n- {name: hole, point: [0, 0, 2], radius: 0.05}\n");
-  ASSERT_EQ(plan().status, 0);  // the recorded camera is at the base
+  write_targets("- {name: hole, point: [0, 0, 2], radius: 0.05}\n");
+  succeed(plan());  // the recorded camera is at the base
   EXPECT_EQ(planned()["candidates"][1]["targets"][0]["by_frame"], "vvv");
   EXPECT_EQ(planned()["candidates"][2]["targets"][0]["by_frame"], "ooo");
 }
 
 TEST_F(ViewPlanningTest, LeavesOutFramesWithoutAPose) {
   edit_file(path("joint_states.csv"), "\n1,", "\n7,");
-  const Outcome outcome = plan();
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
-  expect_has(outcome.err, {"are left out", "no row for frame 1"});
+  expect_has(succeed(plan()).err, {"are left out", "no row for frame 1"});
   EXPECT_EQ(planned()["frames_left_out"], 1);
 }
 
 TEST_F(ViewPlanningTest, RunsOnTheExample) {
-  const fs::path examples = fs::path(PENUMBRA_SOURCE_DIR) / "examples";
-  const Outcome outcome =
-      penumbra({"view-planning", examples / "arm_over_table", "--targets",
-                examples / "view_planning/targets.yaml", "--candidates",
-                examples / "view_planning/candidates.csv", "--cameras", "2", "-o", out()});
-  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const fs::path inputs = example / "../view_planning";
+  succeed(penumbra({"view-planning", example, "--targets", inputs / "targets.yaml", "--candidates",
+                    inputs / "candidates.csv", "--cameras", "2", "-o", out()}));
   EXPECT_EQ(planned()["best"][1]["mean_visible"], 1.0);
   EXPECT_LT(planned()["best"][0]["mean_visible"], 1.0);
 }
@@ -118,19 +105,16 @@ TEST_F(ViewPlanningTest, RefusesWithOneLine) {
        hole,
        {},
        {"poses.csv:2", "'bord'", "board"}},
-      {one,
-       "targets:\n- {name: cup, box: [1, 1, 9, 9]}\n",
-       {},
-       {"targets.yaml", "'cup'", "pixels"}},
-      {one, "targets:\n- {name: cup, keypoint: [1, 1]}\n", {}, {"targets.yaml", "'cup'", "pixels"}},
-      {one, "targets: []\n", {}, {"targets.yaml", "no targets"}},
+      {one, "- {name: cup, box: [1, 1, 9, 9]}\n", {}, {"targets.yaml", "'cup'", "pixels"}},
+      {one, "- {name: cup, keypoint: [1, 1]}\n", {}, {"targets.yaml", "'cup'", "pixels"}},
+      {one, "  []\n", {}, {"targets.yaml", "no targets"}},
       {one, hole, {"--cameras", "2"}, {"--cameras", "poses.csv", "candidates, 1"}},
       {one, hole, {"--cameras", "0"}, {"--cameras"}},
       {one, hole, {"--target-topic", "/found"}, {"--target-topic"}},
       {one, hole, {"--threads", "0"}, {"--threads"}}};
   for (const Bad& bad : all) {
     write_file(path("poses.csv"), bad.poses);
-    write_file(path("targets.yaml"), bad.targets);
+    write_targets(bad.targets);
     expect_refused(plan(bad.options), bad.named);
   }
   const std::string poses = path("poses.csv"), targets = path("targets.yaml");

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // `penumbra play` and `penumbra topics`, and who listens.
-#include "../apps/program.hpp"
-#include "../apps/tiny_bag.hpp"
-#include "listening.hpp"
-#include "live_program.hpp"
-#include "lone_domain.hpp"
+#include "live_graph.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <future>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -33,26 +22,27 @@ io::JointStateMessage joints(int i) {
           .positions = {0.5 * i, -1.0}};
 }
 
-class Commands : public testing::Test {
+std::int64_t system_now() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+class Commands : public LiveGraph {
  protected:
   Commands() {
     bag_.add("/robot_description", first_log - 1, io::StringMessage{"<robot/>"});
     for (int i = 0; i < 25; ++i) bag_.add("/joint_states", first_log + period * i, joints(i));
     bag_.write_mcap(file());
   }
-  [[nodiscard]] std::filesystem::path file() const { return folder_.path() / "bag.mcap"; }
+  [[nodiscard]] fs::path file() const { return path("bag.mcap"); }
 
-  Outcome play(std::vector<std::string> options) const {
-    options.insert(options.begin(), {"play", file(), "--domain", std::to_string(domain_.id())});
-    return penumbra(options);
-  }
-  /// While this runs on, `penumbra play` does.
-  std::future<Outcome> playing(const std::vector<std::string>& options) const {
-    return std::async(std::launch::async, [this, options] { return play(options); });
+  Outcome play(const Words& options) const {
+    return penumbra(on_domain("play", Words{file()} + options));
   }
 
   /// Messages of a topic until the player is done.
-  std::vector<Bytes> hear(io::Subscription& heard, std::future<Outcome>& player) {
+  std::vector<Bytes> hear_until_done(io::Subscription& heard, std::future<Outcome>& player) {
     std::vector<Bytes> messages;
     io::Sample sample;
     bool done = false;
@@ -63,14 +53,11 @@ class Commands : public testing::Test {
     } while (!done);
     return messages;
   }
-  std::vector<Bytes> hear_joints(const std::vector<std::string>& options,
-                                 const std::string& topic = "/joint_states") {
-    const auto heard = graph_->subscribe(topic, joint_type, {.reliable = true, .depth = 100});
-    auto player = playing(options);
-    auto messages = hear(*heard, player);
-    const Outcome outcome = player.get();
-    EXPECT_EQ(outcome.status, 0) << outcome.err;
-    out_ = outcome.out;
+  std::vector<Bytes> hear_joints(const Words& options, const std::string& topic = "/joint_states") {
+    const auto heard = hear(topic, joint_type);
+    auto player = std::async(std::launch::async, [&] { return play(options); });
+    auto messages = hear_until_done(*heard, player);
+    out_ = succeed(player.get()).out;
     return messages;
   }
   [[nodiscard]] std::vector<Bytes> recorded(const std::string& topic, std::size_t from = 0) const {
@@ -86,29 +73,18 @@ class Commands : public testing::Test {
     return message;
   }
 
-  TemporaryFolder folder_;
-  LoneDomain domain_;
   TinyBag bag_;
-  std::unique_ptr<io::Participant> graph_ = io::join_graph({.domain = domain_.id()});
   std::string out_;
 };
 
 TEST_F(Commands, PlayPublishesTheBagByteForByteAndSaysSo) {
   EXPECT_EQ(hear_joints({}), recorded("/joint_states"));
-  EXPECT_NE(out_.find("/joint_states"), std::string::npos) << out_;
-  EXPECT_NE(out_.find("reliable, latched"), std::string::npos) << out_;
-  EXPECT_NE(out_.find("26 messages published"), std::string::npos) << out_;
+  expect_has(out_, {"/joint_states", "reliable, latched", "26 messages published"});
 }
 
 TEST_F(Commands, PlayLoopsUntilCtrlCAndLatecomersHaveLatchedTopics) {
-  constexpr int until_ctrl_c = 4;  // s, of which 1 is the delay
-  const std::string command = "timeout --preserve-status -s INT " + std::to_string(until_ctrl_c) +
-                              " '" PENUMBRA_PROGRAM "' play --loop --domain " +
-                              std::to_string(domain_.id()) + " '" + file().string() +
-                              "' >/dev/null";
-  auto player = std::async(std::launch::async, [&] { return std::system(command.c_str()); });
-  const auto joints =
-      graph_->subscribe("/joint_states", joint_type, {.reliable = true, .depth = 100});
+  const auto joints = hear("/joint_states", joint_type);
+  const auto player = play_in_loop(bag_);
   io::Sample sample;
   ASSERT_TRUE(eventually(*graph_, [&] { return joints->take(sample); }));
   const auto late = graph_->subscribe("/robot_description", "std_msgs/msg/String",
@@ -119,42 +95,37 @@ TEST_F(Commands, PlayLoopsUntilCtrlCAndLatecomersHaveLatchedTopics) {
   EXPECT_LE(sample.data.size(), wanted.size() + padding);
   EXPECT_TRUE(std::equal(wanted.begin(), wanted.end(), sample.data.begin()));
   std::size_t messages = 1;
-  while (player.wait_for(0s) != std::future_status::ready) {
-    graph_->wait(20ms);
+  EXPECT_TRUE(eventually(*graph_, [&] {
     while (joints->take(sample)) ++messages;
-  }
-  EXPECT_EQ(player.get(), 0);
-  EXPECT_GT(messages, recorded("/joint_states").size());
+    return messages > recorded("/joint_states").size();
+  }));
+  EXPECT_EQ(player->end(SIGINT), 0);
 }
 
+/// It is never faster. That it is not slower is in the stamps of PlayRestampsToNow.
 TEST_F(Commands, PlayKeepsThePaceOfTheRecording) {
-  constexpr double length = 0.48, slack = 2.0;  // s; of a busy machine
+  constexpr double length = 0.48;  // s
   for (const double rate : {0.5, 4.0}) {
-    const auto heard =
-        graph_->subscribe("/joint_states", joint_type, {.reliable = true, .depth = 100});
-    auto player = playing({"--rate", std::to_string(rate), "--delay", "0.5"});
+    const auto heard = hear("/joint_states", joint_type);
+    RunningProgram player(on_domain("play", {file(), "--rate", std::to_string(rate)}),
+                          path("play.log"));
     std::vector<std::int64_t> times;
     io::Sample sample;
     ASSERT_TRUE(eventually(*graph_, [&] {
       while (heard->take(sample)) times.push_back(sample.source_time);
       return times.size() >= 25;
     }));
-    const double took = static_cast<double>(times.back() - times.front()) * 1e-9;
-    EXPECT_GT(took, 0.9 * length / rate);
-    EXPECT_LT(took, length / rate + slack);
-    EXPECT_EQ(player.get().status, 0);
+    EXPECT_GT(static_cast<double>(times.back() - times.front()) * 1e-9, 0.9 * length / rate);
   }
 }
 
 TEST_F(Commands, PlayRestampsToNow) {
+  const std::int64_t before = system_now();
   const auto messages = hear_joints({"--restamp", "--rate", "2"});
   ASSERT_EQ(messages.size(), 25U);
-  const auto now = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                       std::chrono::system_clock::now().time_since_epoch())
-                       .count();
   const std::int64_t first = decoded(messages.front()).header.stamp;
-  EXPECT_LT(now - first, 20'000'000'000);
-  EXPECT_GT(now - first, 0);
+  EXPECT_GT(first, before);
+  EXPECT_LT(first, system_now());
   for (int i = 0; i < 25; ++i) {
     const auto message = decoded(messages[static_cast<std::size_t>(i)]);
     EXPECT_NEAR(static_cast<double>(message.header.stamp - first), period / 2.0 * i, 1.0);
@@ -165,7 +136,7 @@ TEST_F(Commands, PlayRestampsToNow) {
 TEST_F(Commands, PlayStartsLaterButLatchedTopicsAreThere) {
   // 0.2 s after the first message, the description's, 1 ns before the joint states'.
   EXPECT_EQ(hear_joints({"--start", "0.2"}), recorded("/joint_states", 10));
-  EXPECT_NE(out_.find("16 messages published"), std::string::npos) << out_;
+  expect_has(out_, {"16 messages published"});
 }
 
 TEST_F(Commands, PlayRenamesAndChoosesTopics) {
@@ -173,7 +144,7 @@ TEST_F(Commands, PlayRenamesAndChoosesTopics) {
   EXPECT_EQ(hear_joints({"--topics", "/joint_states", "--remap", "/joint_states:=/arm/joints"},
                         "/arm/joints"),
             all);
-  EXPECT_EQ(out_.find("/robot_description"), std::string::npos) << out_;
+  expect_lacks(out_, {"/robot_description"});
 }
 
 TEST_F(Commands, PlayLatchesWhatWasLatched) {
@@ -188,112 +159,68 @@ TEST_F(Commands, PlayLatchesWhatWasLatched) {
     return text.substr(begin, text.find('\n', begin) - begin);
   };
   for (const bool by_sqlite : {false, true}) {
-    const auto bag = folder_.path() / (by_sqlite ? "qos.db3" : "qos.mcap");
+    const fs::path bag = path(by_sqlite ? "qos.db3" : "qos.mcap");
     by_sqlite ? bag_.write_sqlite(bag) : bag_.write_mcap(bag);
-    const std::vector<std::string> words = {
-        "play", bag, "--domain", std::to_string(domain_.id()), "--delay", "0", "--rate", "1000"};
-    const Outcome outcome = penumbra(words);
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Words words = on_domain("play", {bag, "--delay", "0", "--rate", "1000"});
+    const Outcome outcome = succeed(penumbra(words));
     for (const char* topic : {"/map", "/words"})
       EXPECT_TRUE(line_of(outcome.out, topic).ends_with("reliable, latched")) << outcome.out;
     for (const char* topic : {"/joint_states", "/robot_description"})
       EXPECT_TRUE(line_of(outcome.out, topic).ends_with(" reliable")) << outcome.out;
-    EXPECT_NE(outcome.err.find("/joint_states: the bag's QoS cannot be read"), std::string::npos)
-        << outcome.err;
+    expect_has(outcome.err, {"/joint_states: the bag's QoS cannot be read"});
     EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-    auto by_option = words;
-    by_option.insert(by_option.end(), {"--latched", "/words"});
-    const Outcome chosen = penumbra(by_option);
+    const Outcome chosen = penumbra(words + Words{"--latched", "/words"});
     EXPECT_TRUE(line_of(chosen.out, "/map").ends_with(" reliable")) << chosen.out;
     EXPECT_TRUE(line_of(chosen.out, "/words").ends_with("latched")) << chosen.out;
   }
 }
 
-TEST_F(Commands, PlayTellsWhatItLeavesOut) {
+TEST_F(Commands, PlayTellsWhatItLeavesOutAndWhatIsDamaged) {
   bag_.add("no_slash", first_log, io::StringMessage{"x"});
   bag_.write_mcap(file());
-  const Outcome outcome = play({"--delay", "0"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("no_slash is not played"), std::string::npos) << outcome.err;
+  expect_has(succeed(play({"--delay", "0"})).err, {"no_slash is not played"});
   EXPECT_EQ(play({"--topics", "no_slash"}).status, 2);
-}
-
-TEST_F(Commands, PlayOfABagCutAtItsBeginningTellsTheDamage) {
-  std::filesystem::resize_file(file(), 2000);
-  const Outcome outcome = play({});
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  EXPECT_NE(outcome.err.find("there is nothing to play"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("byte "), std::string::npos) << outcome.err;
+  fs::resize_file(file(), 2000);
+  expect_refused(play({}), {"there is nothing to play", "byte "});
 }
 
 TEST_F(Commands, BadInputIsStatus2AndOneLine) {
-  TinyBag().write_mcap(folder_.path() / "empty.mcap");
-  const std::string bag = file(), empty = folder_.path() / "empty.mcap";
-  const std::vector<std::vector<std::string>> cases = {
-      {"play"},
-      {"play", folder_.path() / "none.mcap"},
-      {"play", empty},
-      {"play", bag, "--rate", "0"},
-      {"play", bag, "--rate", "-1"},
-      {"play", bag, "--rate", "nan"},
-      {"play", bag, "--start", "-1"},
-      {"play", bag, "--topics", "/nope"},
-      {"play", bag, "--latched", "/nope"},
-      {"play", bag, "--remap", "/joint_states"},
-      {"play", bag, "--remap", "/joint_states:=x y"},
-      {"play", bag, "--remap", "/nope:=/x"},
-      {"play", bag, "--domain", "233"},
-      {"topics", "--domain", "-1"},
-      {"topics", "--domain", "x"},
-      {"topics", "--wait", "forever"}};
-  for (const auto& arguments : cases) {
-    const Outcome outcome = penumbra(arguments);
-    const std::string shown = testing::PrintToString(arguments) + ": " + outcome.err;
-    EXPECT_EQ(outcome.status, 2) << shown;
-    EXPECT_EQ(count_lines(outcome.err), 1U) << shown;
-  }
-  const Outcome settings = penumbra({"topics"}, {"CYCLONEDDS_URI=nonsense"});
-  EXPECT_EQ(settings.status, 2);
-  EXPECT_NE(settings.err.find("CYCLONEDDS_URI"), std::string::npos) << settings.err;
+  TinyBag().write_mcap(path("empty.mcap"));
+  const std::string bag = file();
+  const std::vector<Words> cases = {{"play"},
+                                    {"play", path("none.mcap")},
+                                    {"play", path("empty.mcap")},
+                                    {"play", bag, "--rate", "0"},
+                                    {"play", bag, "--rate", "-1"},
+                                    {"play", bag, "--rate", "nan"},
+                                    {"play", bag, "--start", "-1"},
+                                    {"play", bag, "--topics", "/nope"},
+                                    {"play", bag, "--latched", "/nope"},
+                                    {"play", bag, "--remap", "/joint_states"},
+                                    {"play", bag, "--remap", "/joint_states:=x y"},
+                                    {"play", bag, "--remap", "/nope:=/x"},
+                                    {"play", bag, "--domain", "233"},
+                                    {"topics", "--domain", "-1"},
+                                    {"topics", "--domain", "x"},
+                                    {"topics", "--wait", "forever"}};
+  for (const Words& line : cases) expect_refused(penumbra(line), {});
+  expect_failed(penumbra({"topics"}, {"CYCLONEDDS_URI=nonsense"}), {"CYCLONEDDS_URI"});
   EXPECT_EQ(penumbra({"topics"}, {"ROS_DOMAIN_ID=x"}).status, 2);
 }
 
 TEST_F(Commands, TopicsListsBothSides) {
   const auto said = graph_->advertise("/a", joint_type, {.reliable = true, .latched = true});
   const auto heard = graph_->subscribe("/b", joint_type, {});
-  const std::vector<std::string> words = {"topics", "--domain", std::to_string(domain_.id()),
-                                          "--wait", "1"};
-  const Outcome table = penumbra(words);
-  EXPECT_EQ(table.status, 0);
-  EXPECT_NE(table.out.find("reliable, latched"), std::string::npos) << table.out;
-  auto with_json = words;
-  with_json.emplace_back("--json");
-  const auto json = nlohmann::json::parse(penumbra(with_json).out);
-  EXPECT_EQ(json["domain"], domain_.id());
+  const Words words = on_domain("topics", {"--wait", "3"});
+  expect_has(succeed(penumbra(words)).out, {"reliable, latched"});
+  const Json json = Json::parse(penumbra(words + Words{"--json"}).out);
   ASSERT_EQ(json["topics"].size(), 2U);
-  EXPECT_EQ(json["topics"][0]["name"], "/a");
-  EXPECT_EQ(json["topics"][0]["type"], joint_type);
   ASSERT_EQ(json["topics"][0]["publishers"].size(), 1U);
-  EXPECT_EQ(json["topics"][0]["publishers"][0]["latched"], true);
-  EXPECT_EQ(json["topics"][1]["subscribers"][0]["reliable"], false);
-}
-
-TEST_F(Commands, LiveRemapsItsDiagnostics) {
-  const auto heard =
-      graph_->subscribe("/cell/health", "diagnostic_msgs/msg/DiagnosticArray", {.reliable = true});
-  LiveProgram live({"--domain", std::to_string(domain_.id()), "--depth-topic", "/depth", "--remap",
-                    "/diagnostics:=/cell/health"},
-                   folder_.path() / "live.log");
-  io::Sample sample;
-  ASSERT_TRUE(eventually(*graph_, [&] { return heard->take(sample); }));
-  io::DiagnosticArrayMessage message;
-  ASSERT_FALSE(io::Decoder<io::DiagnosticArrayMessage>().decode(sample.data, message));
-  EXPECT_FALSE(message.status.empty());
-  const auto topics = graph_->graph();
-  EXPECT_TRUE(std::none_of(topics.begin(), topics.end(),
-                           [](const auto& topic) { return topic.name == "/diagnostics"; }));
-  EXPECT_EQ(live.end(), 0);
+  expect_values(json, {{"/domain", domain_.id()},
+                       {"/topics/0/name", "/a"},
+                       {"/topics/0/type", joint_type},
+                       {"/topics/0/publishers/0/latched", true},
+                       {"/topics/1/subscribers/0/reliable", false}});
 }
 
 }  // namespace

@@ -14,12 +14,11 @@
 //     "NUMBER STAMP ARRIVAL DIGEST" for each message with a header: its writer's sequence number,
 //     from 1 on, and stamp and arrival in nanoseconds since 1970
 //   fast_dds_peer DOMAIN count TOPIC TYPE QOS
-//     "NUMBER SIZE" for each message of pattern.hpp
+//     says "ready", "matched", and "NUMBER SIZE" for each message of pattern.hpp
 // TOPIC and TYPE are DDS's: rt/image, sensor_msgs::msg::dds_::Image_. QOS: words of reliable,
 // latched, depth=N with commas between, or "best_effort". DOMAIN: on this machine alone. Ends
 // with stdin.
 #include "pattern.hpp"
-#include "stamped_message.hpp"
 
 #include <algorithm>
 #include <array>
@@ -287,6 +286,12 @@ void publish(dds::DataWriter& writer, const std::vector<std::string>& words) {
 void subscribe(dds::DataReader& reader, const std::string& mode) {
   if (mode == "count") {
     say("ready");
+    dds::SubscriptionMatchedStatus matched;
+    while (matched.current_count == 0 && !stdin_ended()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      static_cast<void>(reader.get_subscription_matched_status(matched));
+    }
+    say("matched");
     read_until_stdin_ends(reader, [](const Bytes& message, const dds::SampleInfo&) {
       say(std::to_string(penumbra::test::pattern_number(message)) + " " +
           std::to_string(message.size()));

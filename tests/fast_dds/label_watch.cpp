@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "label_watch.hpp"
 
+#include "pattern.hpp"
 #include "soak_publishers.hpp"
-#include "stamped_message.hpp"
 
 #include <algorithm>
 #include <functional>
-#include <future>
 #include <sstream>
 
 namespace penumbra::test {
@@ -88,31 +87,17 @@ io::LatencyHistogram LabelWatch::latency() const {
   return all;
 }
 
-LabelVerdict LabelWatch::judge(std::size_t from, std::size_t step) const {
-  LabelVerdict verdict;
-  LiveTruth truth(lens_);
-  for (std::size_t i = from; i < heard_.size(); i += step) {
-    const HeardLabels& one = heard_[i];
-    if (!one.is_known) {
-      ++verdict.unknown;
-      continue;
-    }
-    ++verdict.known;
-    if (digest_of(labels_message(one.stamp, truth.judge(one.stamp).labels)) == one.digest) continue;
-    ++verdict.wrong;
-    verdict.first_wrong = one.stamp;
-  }
-  return verdict;
-}
-
 LabelVerdict LabelWatch::judge() const {
-  auto other = std::async(std::launch::async, [this] { return judge(1, 2); });
-  LabelVerdict all = judge(0, 2);
-  const LabelVerdict half = other.get();
-  all.known += half.known;
-  all.unknown += half.unknown;
-  all.wrong += half.wrong;
-  if (half.wrong > 0) all.first_wrong = half.first_wrong;
+  LabelVerdict all;
+  LiveTruth truth(lens_);
+  for (const HeardLabels& one : heard_) {
+    ++(one.is_known ? all.known : all.unknown);
+    if (!one.is_known ||
+        digest_of(labels_message(one.stamp, truth.judge(one.stamp).labels)) == one.digest)
+      continue;
+    ++all.wrong;
+    all.first_wrong = one.stamp;
+  }
   const auto is_known = [](const HeardLabels& one) { return one.is_known; };
   const auto first = std::find_if(heard_.begin(), heard_.end(), is_known);
   all.lost_again =

@@ -58,7 +58,6 @@ class LabelWatch {
 
  private:
   void read();
-  [[nodiscard]] LabelVerdict judge(std::size_t from, std::size_t step) const;
 
   LiveLens lens_;
   std::unique_ptr<PeerProcess> process_;

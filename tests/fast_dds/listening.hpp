@@ -11,9 +11,9 @@
 
 namespace penumbra::test {
 
-inline constexpr std::chrono::seconds dds_patience(20);
+inline constexpr std::chrono::seconds dds_patience(120);
 
-/// Waits until `is_so`, at most 20 s; calls it after each wait on the graph.
+/// Waits until `is_so`, at most 120 s; calls it after each wait on the graph.
 template <typename IsSo>
 bool eventually(io::Participant& graph, IsSo is_so) {
   const auto end = std::chrono::steady_clock::now() + dds_patience;

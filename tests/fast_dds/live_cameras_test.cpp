@@ -6,8 +6,8 @@
 #include "../support/run_length.hpp"
 #include "../support/temporary_folder.hpp"
 #include "label_watch.hpp"
-#include "live_program.hpp"
 #include "lone_domain.hpp"
+#include "running_program.hpp"
 #include "soak_publishers.hpp"
 
 #include <array>
@@ -65,12 +65,13 @@ TEST_F(LiveCameras, TwoOfOneRobotByTf) {
   mount_->give(encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
   LabelWatch left(domain_.id(), {}, "/penumbra/left/labels");
   LabelWatch right(domain_.id(), {}, "/penumbra/right/labels");
-  LiveProgram live({"--domain", std::to_string(domain_.id()), "--camera", "left=/left/depth",
-                    "--camera", "right=/right/depth/compressedDepth", "--poses", "tf"},
-                   folder_.path() / "live.log");
+  RunningProgram live(
+      {"live", "--domain", std::to_string(domain_.id()), "--camera", "left=/left/depth", "--camera",
+       "right=/right/depth/compressedDepth", "--poses", "tf"},
+      folder_.path() / "live.log");
   constexpr std::size_t enough = 20;  // known labels; until all topics are found they are unknown
   auto next = std::chrono::steady_clock::now();
-  const auto end = next + 20s;
+  const auto end = next + 60s;
   for (int tick = 0; next < end && (left.known_count() < enough || right.known_count() < enough);
        ++tick, next += 10ms) {
     std::this_thread::sleep_until(next);

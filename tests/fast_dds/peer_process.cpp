@@ -15,7 +15,7 @@
 namespace penumbra::test {
 namespace {
 
-constexpr int patience_ms = 20'000;
+constexpr int patience_ms = 120'000;
 
 }  // namespace
 

@@ -20,7 +20,7 @@ class PeerProcess {
   PeerProcess(const PeerProcess&) = delete;
   PeerProcess& operator=(const PeerProcess&) = delete;
 
-  /// The next line that it says, if it comes within 20 s.
+  /// The next line that it says, if it comes within 120 s.
   [[nodiscard]] std::optional<std::string> line();
 
   /// Waits until it says so; false: it says something else or nothing.

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "soak_publishers.hpp"
 
-#include "stamped_message.hpp"
+#include "pattern.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <stdexcept>
 #include <utility>
@@ -15,8 +14,6 @@ namespace {
 constexpr const char* image_type = "sensor_msgs::msg::dds_::Image_";
 constexpr const char* info_type = "sensor_msgs::msg::dds_::CameraInfo_";
 constexpr const char* latched = "reliable,latched,depth=1";
-
-bool is_of_color(Part part) { return part == Part::color || part == Part::color_info; }
 
 /// Shades with a sensor's noise: an even image would be compressed in no time.
 std::vector<std::byte> color_image(const LiveLens& lens) {
@@ -33,13 +30,10 @@ std::vector<std::byte> color_image(const LiveLens& lens) {
 }
 
 /// The number behind a word of a line.
-template <typename T>
-std::optional<T> number_behind(const std::optional<std::string>& line, const std::string& word) {
+std::optional<std::int64_t> number_behind(const std::optional<std::string>& line,
+                                          const std::string& word) {
   if (!line || !line->starts_with(word)) return std::nullopt;
-  T number = 0;
-  const char* const end = line->data() + line->size();
-  if (std::from_chars(line->data() + word.size(), end, number).ptr != end) return std::nullopt;
-  return number;
+  return std::stoll(line->substr(word.size()));
 }
 
 }  // namespace
@@ -99,18 +93,10 @@ void JointFeed::tell_until(std::int64_t time) {
 }
 
 std::string topic_of(Part part) {
-  switch (part) {
-    case Part::depth:
-      return "/camera/depth/image_rect_raw";
-    case Part::depth_info:
-      return "/camera/depth/camera_info";
-    case Part::color:
-      return "/camera/color/image_raw";
-    case Part::color_info:
-      return "/camera/color/camera_info";
-    default:
-      return "/joint_states";
-  }
+  static const std::array<std::string, all_parts.size()> topics = {
+      "/camera/depth/image_rect_raw", "/camera/depth/camera_info", "/camera/color/image_raw",
+      "/camera/color/camera_info", "/joint_states"};
+  return topics.at(static_cast<std::size_t>(part));
 }
 
 SoakPublishers::SoakPublishers(int domain, const SoakScene& scene)
@@ -142,11 +128,6 @@ void SoakPublishers::start(Part part) {
   camera_[static_cast<std::size_t>(part)] = std::move(made);
 }
 
-void SoakPublishers::start_all() {
-  for (const Part part : all_parts)
-    if (scene_.with_color || !is_of_color(part)) start(part);
-}
-
 void SoakPublishers::kill(Part part) {
   if (part == Part::joints) return joints_.kill();
   camera_[static_cast<std::size_t>(part)].reset();
@@ -157,14 +138,15 @@ PeerProcess* SoakPublishers::process(Part part) {
 }
 
 std::optional<std::int64_t> SoakPublishers::heard(Part part) {
-  return number_behind<std::int64_t>(process(part)->line(), "heard ");
+  return number_behind(process(part)->line(), "heard ");
 }
 
 std::size_t SoakPublishers::end(Part part) {
   PeerProcess& peer = *process(part);
   peer.end();
   for (auto line = peer.line(); line; line = peer.line())
-    if (const auto written = number_behind<std::size_t>(line, "written ")) return *written;
+    if (const auto written = number_behind(line, "written "))
+      return static_cast<std::size_t>(*written);
   return 0;
 }
 

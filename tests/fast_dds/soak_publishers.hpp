@@ -61,7 +61,7 @@ class JointFeed {
   std::thread thread_;
 };
 
-/// What is published; those behind `joints` are told once.
+/// What is published.
 enum class Part { depth, depth_info, color, color_info, joints };
 inline constexpr std::array all_parts = {Part::depth, Part::depth_info, Part::color,
                                          Part::color_info, Part::joints};
@@ -73,7 +73,6 @@ struct SoakScene {
   int joint_hertz = 100;
   JointFaults joint_faults = {};
   std::uint64_t seed = 0;
-  bool with_color = true;
 };
 
 class SoakPublishers {
@@ -82,11 +81,10 @@ class SoakPublishers {
   SoakPublishers(int domain, const SoakScene& scene);
 
   void start(Part part);
-  void start_all();
   void kill(Part part);
 
   /// When what a part's process said was heard first, nanoseconds since 1970; nothing: nobody heard
-  /// it within 20 s.
+  /// it within 120 s.
   [[nodiscard]] std::optional<std::int64_t> heard(Part part);
 
   /// Ends a camera's part; how many messages were written since somebody heard one.

@@ -16,6 +16,16 @@ constexpr const char* ros_image = "sensor_msgs/msg/Image";
 constexpr const char* peers_image = "sensor_msgs::msg::dds_::Image_";
 constexpr std::size_t large = 1280 * 720 * 4 + 67;  // the last bytes fill no four
 
+/// Returns how many numbers are left out; they rise.
+std::uint64_t gaps_in(const std::vector<std::int64_t>& numbers) {
+  std::uint64_t gaps = 0;
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    EXPECT_GT(numbers[i], numbers[i - 1]);
+    gaps += static_cast<std::uint64_t>(numbers[i] - numbers[i - 1] - 1);
+  }
+  return gaps;
+}
+
 class Vendors : public testing::Test {
  protected:
   /// "publish" or "count" and more of Fast DDS on /a.
@@ -24,6 +34,13 @@ class Vendors : public testing::Test {
     std::vector<std::string> words = {std::to_string(domain.id()), mode, "rt/a", peers_image, qos};
     words.insert(words.end(), more.begin(), more.end());
     return PeerProcess(words);
+  }
+
+  /// Waits until a subscriber and the publication know of each other.
+  void begin(PeerProcess& subscriber, const io::Publication& said) const {
+    ASSERT_TRUE(subscriber.says("ready"));
+    ASSERT_TRUE(subscriber.says("matched"));
+    ASSERT_TRUE(eventually(*graph, [&] { return said.subscribers() == 1; }));
   }
 
   /// Lets a publisher begin once the subscription and it know of each other.
@@ -80,9 +97,7 @@ TEST_P(BothWays, FromFastDdsEveryByteArrives) {
 TEST_P(BothWays, ToFastDdsEveryByteArrives) {
   const auto said = graph->advertise("/a", ros_image, qos());
   auto other = peer("count", peers_qos());
-  ASSERT_TRUE(other.says("ready"));
-  ASSERT_TRUE(eventually(*graph, [&] { return said->subscribers() == 1; }));
-  std::this_thread::sleep_for(200ms);  // Fast DDS may know of the match a little later
+  begin(other, *said);
   for (std::uint32_t i = 0; i < GetParam().count; ++i) {
     ASSERT_TRUE(said->write(pattern_message(i, GetParam().size)));
     ASSERT_TRUE(other.says(std::to_string(i) + " " + std::to_string(GetParam().size)));
@@ -103,7 +118,7 @@ TEST_F(Vendors, WhoComesLateGetsLatchedMessages) {
       graph->advertise("/a", ros_image, {.reliable = true, .latched = true, .depth = 1});
   for (std::uint32_t i = 0; i < 3; ++i) ASSERT_TRUE(said->write(pattern_message(i, 100'000)));
   auto late = peer("count", "reliable,latched,depth=1");
-  ASSERT_TRUE(late.says("ready"));
+  begin(late, *said);
   EXPECT_TRUE(late.says("2 100000"));
 }
 
@@ -139,9 +154,7 @@ TEST_F(Vendors, WhatAStoppedSubscriberDoesNotAcknowledgeIsCounted) {
   constexpr std::uint32_t depth = 10, count = 40;
   const auto said = graph->advertise("/a", ros_image, {.reliable = true, .depth = depth});
   auto other = peer("count", "reliable,depth=50");
-  ASSERT_TRUE(other.says("ready"));
-  ASSERT_TRUE(eventually(*graph, [&] { return said->subscribers() == 1; }));
-  std::this_thread::sleep_for(200ms);  // Fast DDS may know of the match a little later
+  begin(other, *said);
   for (std::uint32_t i = 0; i < count; ++i) {
     ASSERT_TRUE(said->write(pattern_message(i, 1000)));
     ASSERT_TRUE(other.says(std::to_string(i) + " 1000"));
@@ -182,14 +195,9 @@ TEST_F(Vendors, LargeMessagesWithBestEffortArriveWholeOrAreCounted) {
   begin(other, *heard);
   ASSERT_TRUE(other.says("written 15"));
   const std::vector<std::int64_t> numbers = take_numbers(*heard);
-  std::uint64_t gaps = 0;
-  for (std::size_t i = 1; i < numbers.size(); ++i) {
-    ASSERT_GT(numbers[i], numbers[i - 1]);
-    gaps += static_cast<std::uint64_t>(numbers[i] - numbers[i - 1] - 1);
-  }
   EXPECT_EQ(std::count(numbers.begin(), numbers.end(), -1), 0);
   EXPECT_EQ(heard->status().received, numbers.size());
-  EXPECT_EQ(heard->status().lost, gaps);
+  EXPECT_EQ(heard->status().lost, gaps_in(numbers));
 }
 
 // A socket's buffer that is smaller than a message, which comes in datagrams of 64 KB.
@@ -212,9 +220,7 @@ TEST(VendorsLoss, WhatIsDroppedOnTheWayIsCounted) {
   ASSERT_TRUE(other.says("written 200"));
   const std::vector<std::int64_t> numbers = take_numbers(*heard);
   ASSERT_FALSE(numbers.empty());
-  std::uint64_t gaps = 0;
-  for (std::size_t i = 1; i < numbers.size(); ++i)
-    gaps += static_cast<std::uint64_t>(numbers[i] - numbers[i - 1] - 1);
+  const std::uint64_t gaps = gaps_in(numbers);
   std::cout << numbers.size() << " of 200 arrived, " << gaps << " lost between them\n";
   EXPECT_GT(gaps, 0U);
   EXPECT_EQ(heard->status().lost, gaps);

@@ -46,35 +46,18 @@ TEST(Upkeep, EveryFileNamesItsLicence) {
 // Every package that CMake looks for comes from a Debian package that the scripts install; those of
 // ros/ are built inside of ROS.
 TEST(Upkeep, PackagesAreListed) {
-  const std::map<std::string, std::string> debian{{"Eigen3", "libeigen3-dev"},
-                                                  {"hwy", "libhwy-dev"},
-                                                  {"HWY", "libhwy-dev"},
-                                                  {"tinyxml2", "libtinyxml2-dev"},
-                                                  {"assimp", "libassimp-dev"},
-                                                  {"yaml-cpp", "libyaml-cpp-dev"},
-                                                  {"PNG", "libpng-dev"},
-                                                  {"JPEG", "libjpeg-dev"},
-                                                  {"TIFF", "libtiff-dev"},
-                                                  {"OpenEXR", "libopenexr-dev"},
-                                                  {"fastcdr", "libfastcdr-dev"},
-                                                  {"fastrtps", "libfastrtps-dev"},
-                                                  {"CycloneDDS", "cyclonedds-dev"},
-                                                  {"CLI11", "libcli11-dev"},
-                                                  {"GTest", "libgtest-dev"},
-                                                  {"nlohmann_json", "nlohmann-json3-dev"},
-                                                  {"urdfdom", "liburdfdom-dev"},
-                                                  {"benchmark", "libbenchmark-dev"},
-                                                  {"embree", "libembree-dev"},
-                                                  {"OpenCV", "libopencv-calib3d-dev"},
-                                                  {"Threads", "g++"},
-                                                  {"ZLIB", "zlib1g-dev"},
-                                                  {"PkgConfig", "pkgconf"},
-                                                  {"meshoptimizer", "libmeshoptimizer-dev"},
-                                                  {"SQLite3", "libsqlite3-dev"},
-                                                  {"Boost", "libboost-dev"},
-                                                  {"Python", "python3-dev"},
-                                                  {"pybind11", "pybind11-dev"},
-                                                  {"OpenGL", "libegl-dev"}};
+  std::map<std::string, std::string> debian;
+  std::istringstream table(
+      "Eigen3 libeigen3-dev  hwy libhwy-dev  HWY libhwy-dev  tinyxml2 libtinyxml2-dev "
+      "assimp libassimp-dev  yaml-cpp libyaml-cpp-dev  PNG libpng-dev  JPEG libjpeg-dev "
+      "TIFF libtiff-dev  OpenEXR libopenexr-dev  fastcdr libfastcdr-dev "
+      "fastrtps libfastrtps-dev  CycloneDDS cyclonedds-dev  CLI11 libcli11-dev "
+      "GTest libgtest-dev  nlohmann_json nlohmann-json3-dev  urdfdom liburdfdom-dev "
+      "benchmark libbenchmark-dev  embree libembree-dev  OpenCV libopencv-calib3d-dev "
+      "Threads g++  ZLIB zlib1g-dev  PkgConfig pkgconf "
+      "meshoptimizer libmeshoptimizer-dev  SQLite3 libsqlite3-dev  Boost libboost-dev "
+      "Python python3-dev  pybind11 pybind11-dev  OpenGL libegl-dev ");
+  for (std::string package; table >> package;) table >> debian[package];
   std::set<std::string> listed;
   std::istringstream names(output_of(
       PENUMBRA_SOURCE_DIR "/scripts/packages.sh build ros python sim research test bench lint"));

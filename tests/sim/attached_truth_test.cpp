@@ -4,14 +4,9 @@
 #include "../support/run_length.hpp"
 #include "simulated.hpp"
 
-#include <algorithm>
 #include <iostream>
 
-#include <gtest/gtest.h>
-
 #include <penumbra/mesh/primitives.hpp>
-
-#include <sim/simulation.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -39,9 +34,6 @@ struct Counts {
   [[nodiscard]] double trusted_percent() const { return percent(trusted, seen); }
   [[nodiscard]] double too_much_percent() const { return percent(too_much, drawn); }
   [[nodiscard]] double wrong_percent() const { return percent(wrong_blame, seen); }
-  static double percent(std::size_t part, std::size_t all) {
-    return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
-  }
 };
 
 struct Both {
@@ -104,13 +96,8 @@ Both count(std::uint64_t seed, bool noisy, int frames) {
   return counts;
 }
 
-class AttachedTruth : public testing::TestWithParam<bool> {
- protected:
-  void SetUp() override { PENUMBRA_REQUIRE_SIMULATION(); }
-};
-INSTANTIATE_TEST_SUITE_P(Depth, AttachedTruth, testing::Bool(), [](const auto& test) {
-  return std::string(test.param ? "Noisy" : "Exact");
-});
+using AttachedTruth = BothDepths;
+INSTANTIATE_TEST_SUITE_P(Depth, AttachedTruth, testing::Bool(), depth_name);
 
 TEST_P(AttachedTruth, TheHeldObjectIsNeitherClearNorFront) {
   const int frames = measures_in_full() ? 1000 : samples(60);

@@ -2,21 +2,14 @@
 // Calibration of MuJoCo's cameras, whose pose is known, under a D415's noise.
 #include "simulated.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/calibration/calibration.hpp>
 
 #include <sim/random.hpp>
-#include <sim/simulation.hpp>
 
 namespace penumbra::test {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 // Three frames of 30 seeds are within 3.1 mm and 0.12 degrees in 95 % (bench/calibration_study).
 constexpr double position_limit = 0.004;         // metres
@@ -29,13 +22,11 @@ struct Seen {
     sim::SimFrame frame;
     while (frames.size() < count && simulation.next(frame)) {
       CalibrationFrame kept{.index = frames.size(),
-                            .depth = Image<float>(frame.depth.width(), frame.depth.height()),
+                            .depth = in_metres(frame.depth),
                             .mask = {},
                             .joints = frame.joints,
                             .T_root_link = std::vector<Eigen::Isometry3d>(robot().links().size()),
                             .nearby = {}};
-      std::transform(frame.depth.data(), frame.depth.data() + frame.depth.size(), kept.depth.data(),
-                     [](std::uint16_t z) { return metres_of(z); });
       robot().forward_kinematics(kept.joints, kept.T_root_link);
       masks.push_back(mask_of(frame));
       frames.push_back(std::move(kept));
@@ -48,7 +39,7 @@ struct Seen {
   static Image<std::uint8_t> mask_of(const sim::SimFrame& frame) {
     Image<std::uint8_t> mask(frame.ids.width(), frame.ids.height());
     std::transform(frame.ids.data(), frame.ids.data() + frame.ids.size(), mask.data(),
-                   [](std::int32_t id) { return id > 0 && id < sim::first_object_id ? 255 : 0; });
+                   [](std::int32_t id) { return is_robot(id) ? 255 : 0; });
     return mask;
   }
 
@@ -74,6 +65,17 @@ struct Seen {
   [[nodiscard]] Calibration calibrated(const CalibrationOptions& options) const {
     return calibrate(frames, simulation.camera().intrinsics, robot(), options);
   }
+  [[nodiscard]] Calibration from_guess() {
+    return calibrated({.camera_parent = "", .initial = off()});
+  }
+  [[nodiscard]] Calibration without_guess() const {
+    return calibrated({.camera_parent = "", .initial = {}});
+  }
+  /// Both fail.
+  void expect_refused() {
+    EXPECT_FALSE(from_guess().is_good());
+    EXPECT_FALSE(without_guess().is_good());
+  }
 
   void expect_right(const Calibration& found) const {
     ASSERT_TRUE(found.is_good()) << found.faults.front();
@@ -90,22 +92,21 @@ struct Seen {
   std::vector<Image<std::uint8_t>> masks;
 };
 
-class CalibrationTruth : public testing::Test {
- protected:
-  void SetUp() override { PENUMBRA_REQUIRE_SIMULATION(); }
-};
+using CalibrationTruth = SimulationTest;
 
 TEST_F(CalibrationTruth, ARoughGuessIsEnough) {
   for (const std::uint64_t seed : {1, 2, 3}) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Seen seen(seed);
-    seen.expect_right(seen.calibrated({.camera_parent = "", .initial = seen.off()}));
+    seen.expect_right(seen.from_guess());
   }
 }
 
 TEST_F(CalibrationTruth, TheCameraIsFoundWithoutAGuess) {
-  Seen seen(4);
-  seen.expect_right(seen.calibrated({.camera_parent = "", .initial = {}}));
+  Seen by_depth(4), by_masks(14);
+  by_depth.expect_right(by_depth.without_guess());
+  by_masks.see_masks_only();
+  by_masks.expect_right(by_masks.without_guess());
 }
 
 TEST_F(CalibrationTruth, AFrameWithWrongJointsIsLeftOut) {
@@ -113,7 +114,7 @@ TEST_F(CalibrationTruth, AFrameWithWrongJointsIsLeftOut) {
   CalibrationFrame& wrong = seen.frames[4];
   for (double& joint : wrong.joints) joint += 0.3;
   seen.robot().forward_kinematics(wrong.joints, wrong.T_root_link);
-  const Calibration found = seen.calibrated({.camera_parent = "", .initial = seen.off()});
+  const Calibration found = seen.from_guess();
   seen.expect_right(found);
   EXPECT_FALSE(found.frames[4].used);
 }
@@ -123,24 +124,18 @@ TEST_F(CalibrationTruth, MasksAloneAreEnough) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Seen seen(seed);
     seen.see_masks_only();
-    const Calibration found = seen.calibrated({.camera_parent = "", .initial = seen.off()});
+    const Calibration found = seen.from_guess();
     seen.expect_right(found);
     EXPECT_FALSE(found.depth_offset || found.shift_right);
     EXPECT_GT(found.mask_overlap, 0.85) << "things before the arm are not in the masks";
   }
 }
 
-TEST_F(CalibrationTruth, MasksAloneFindTheCameraWithoutAGuess) {
-  Seen seen(14);
-  seen.see_masks_only();
-  seen.expect_right(seen.calibrated({.camera_parent = "", .initial = {}}));
-}
-
 TEST_F(CalibrationTruth, AWrongMaskIsNamed) {
   Seen seen(15, 8);
   seen.see_masks_only();
   seen.frames[3].mask = seen.frames[6].mask;
-  const Calibration found = seen.calibrated({.camera_parent = "", .initial = seen.off()});
+  const Calibration found = seen.from_guess();
   seen.expect_right(found);
   EXPECT_FALSE(found.frames[3].used);
   ASSERT_FALSE(found.notes.empty());
@@ -167,18 +162,14 @@ TEST_F(CalibrationTruth, EmptyMasksAreRefused) {
   seen.see_masks_only();
   for (CalibrationFrame& frame : seen.frames)
     std::fill_n(frame.mask.data(), frame.mask.size(), std::uint8_t{0});
-  for (const std::optional<Eigen::Isometry3d>& initial :
-       {std::optional(seen.off()), std::optional<Eigen::Isometry3d>()})
-    EXPECT_FALSE(seen.calibrated({.camera_parent = "", .initial = initial}).is_good());
+  seen.expect_refused();
 }
 
 TEST_F(CalibrationTruth, ARobotOutOfViewIsRefused) {
   Seen seen(6, 3);
   for (CalibrationFrame& frame : seen.frames)
     std::fill_n(frame.depth.data(), frame.depth.size(), 3.0F);
-  for (const std::optional<Eigen::Isometry3d>& initial :
-       {std::optional(seen.off()), std::optional<Eigen::Isometry3d>()})
-    EXPECT_FALSE(seen.calibrated({.camera_parent = "", .initial = initial}).is_good());
+  seen.expect_refused();
 }
 
 TEST_F(CalibrationTruth, AnOffsetOfAJointIsFound) {

@@ -4,18 +4,10 @@
 #include "../support/run_length.hpp"
 #include "simulated.hpp"
 
-#include <algorithm>
-#include <array>
-#include <iomanip>
 #include <iostream>
 #include <map>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/scene/target_fusion.hpp>
-
-#include <sim/simulation.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -35,30 +27,15 @@ ImageTruth truth_of(const sim::ObjectTruth& object) {
           1.0 - static_cast<double>(object.pixels_seen) / static_cast<double>(object.pixels_alone)};
 }
 
-/// The verdict by the thresholds' defaults on the image in which most is seen.
-Verdict verdict_of(const std::array<ImageTruth, cameras>& images) {
-  const TargetThresholds t;
+/// The verdict on the image in which most is seen.
+Verdict verdict_in(const std::array<ImageTruth, cameras>& images) {
   double least = 1.0;
   bool in_view = false;
   for (const ImageTruth& image : images) {
     in_view = in_view || image.in_view;
     if (image.in_view) least = std::min(least, image.hidden);
   }
-  if (!in_view) return Verdict::out_of_view;
-  return least > t.hidden_enter    ? Verdict::hidden
-         : least > t.partial_enter ? Verdict::partial
-                                   : Verdict::visible;
-}
-
-Target target_of(const sim::ObjectTruth& object) {
-  Target target;
-  target.name = object.name;
-  if (object.solid.kind == sim::Solid::ball)
-    target.shape = PointTarget{object.T_base_object.translation(), 0.5 * object.solid.size.x(),
-                               ReferenceFrame::root()};
-  else
-    target.shape = BoxTarget{object.T_base_object, object.solid.size, ReferenceFrame::root()};
-  return target;
+  return in_view ? verdict_of(least) : Verdict::out_of_view;
 }
 
 /// Verdicts over all targets and frames, against the truth of the three images.
@@ -76,19 +53,13 @@ struct Tally {
     hidden += said == Verdict::hidden ? 1 : 0;
     visible_and_hidden += is_seen && is_hidden ? 1 : 0;
   }
-  [[nodiscard]] double percent(std::size_t part) const {
-    return 100.0 * static_cast<double>(part) / static_cast<double>(targets);
-  }
-  [[nodiscard]] double error(double quantile) {
-    std::sort(errors.begin(), errors.end());
-    return errors[static_cast<std::size_t>(quantile * static_cast<double>(errors.size() - 1))];
-  }
-  void print(const char* name) {
-    std::cout << std::setw(9) << name << std::fixed << std::setprecision(2) << " | right "
-              << percent(same) << " % | seen " << percent(seen) << " % | hidden " << percent(hidden)
-              << " % | unknown " << percent(unknown) << " % | said seen, hidden in all "
-              << visible_and_hidden << " | point from the centre: median " << 1000 * error(0.5)
-              << " mm, 95 % " << 1000 * error(0.95) << " mm\n";
+  void print(const std::string& name) const {
+    std::cout << name << ": right " << percent(same, targets) << " %, seen "
+              << percent(seen, targets) << " %, hidden " << percent(hidden, targets)
+              << " %, unknown " << percent(unknown, targets) << " %, said seen, hidden in all "
+              << visible_and_hidden << ", point from the centre: median "
+              << 1000 * quantile(errors, 0.5) << " mm, 95 % " << 1000 * quantile(errors, 0.95)
+              << " mm\n";
   }
 };
 
@@ -147,7 +118,7 @@ class Rig {
                   const std::array<TargetReport, cameras>& said, const FusedTarget& fused,
                   Tallies& tallies) {
     const Eigen::Vector3d centre = object.T_base_object.translation();
-    const Verdict is = verdict_of(truth);
+    const Verdict is = verdict_in(truth);
     const bool is_hidden = std::all_of(truth.begin(), truth.end(), [](const ImageTruth& image) {
       return image.hidden > clearly_hidden;
     });
@@ -174,13 +145,8 @@ class Rig {
   std::array<sim::SimFrame, cameras> frames_;
 };
 
-class CamerasTruth : public testing::TestWithParam<bool> {
- protected:
-  void SetUp() override { PENUMBRA_REQUIRE_SIMULATION(); }
-};
-INSTANTIATE_TEST_SUITE_P(Depth, CamerasTruth, testing::Bool(), [](const auto& test) {
-  return std::string(test.param ? "Noisy" : "Exact");
-});
+using CamerasTruth = BothDepths;
+INSTANTIATE_TEST_SUITE_P(Depth, CamerasTruth, testing::Bool(), depth_name);
 
 TEST_P(CamerasTruth, TheFusedVerdictIsTheTruthOfAllImages) {
   const int frames = measures_in_full() ? 1000 : samples(40);
@@ -190,12 +156,9 @@ TEST_P(CamerasTruth, TheFusedVerdictIsTheTruthOfAllImages) {
   for (int i = 0; i < frames && rig.next(tallies); ++i) {
   }
   std::cout << "seed " << seed << ", " << frames << " frames of " << cameras << " cameras\n";
-  for (std::size_t i = 0; i < cameras; ++i)
-    tallies.alone[i].print(("camera " + std::to_string(i)).c_str());
+  for (std::size_t i = 0; i < cameras; ++i) tallies.alone[i].print("camera " + std::to_string(i));
   tallies.fused.print("fused");
-  std::sort(tallies.squared.begin(), tallies.squared.end());
-  const auto median = tallies.squared[tallies.squared.size() / 2];
-  const auto high = tallies.squared[tallies.squared.size() * 999 / 1000];
+  const double median = quantile(tallies.squared, 0.5), high = quantile(tallies.squared, 0.999);
   std::cout << "hidden in camera 0 and visible in another: " << tallies.rescued << ", said visible "
             << tallies.rescued_right << "; contradictions " << tallies.contradictions
             << "; squared Mahalanobis distance from the centre: median " << median << ", 99.9 % "
@@ -205,10 +168,10 @@ TEST_P(CamerasTruth, TheFusedVerdictIsTheTruthOfAllImages) {
   constexpr double least_rescued = 0.95;
   constexpr double chi_square = 16.27;  // 99.9 % of three degrees of freedom
   EXPECT_EQ(tallies.fused.visible_and_hidden, 0U);
-  EXPECT_GT(tallies.fused.percent(tallies.fused.same), least_right);
-  for (Tally& alone : tallies.alone) {
+  EXPECT_GT(percent(tallies.fused.same, tallies.fused.targets), least_right);
+  for (const Tally& alone : tallies.alone) {
     EXPECT_GT(tallies.fused.same, alone.same);
-    EXPECT_LT(tallies.fused.error(0.5), alone.error(0.5));
+    EXPECT_LT(quantile(tallies.fused.errors, 0.5), quantile(alone.errors, 0.5));
   }
   EXPECT_GT(tallies.rescued, 0U);
   EXPECT_GE(static_cast<double>(tallies.rescued_right),

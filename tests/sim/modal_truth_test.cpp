@@ -5,19 +5,16 @@
 #include "../support/run_length.hpp"
 #include "simulated.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <iostream>
 #include <map>
-#include <string>
-#include <vector>
 
-#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra::test {
 namespace {
+
+using ModalTruth = SimulationTest;
 
 using sim::ObjectTruth;
 using sim::SimFrame;
@@ -121,7 +118,7 @@ class ModalBench {
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const std::int32_t id = frame.ids.data()[i];
       seen.data()[i] = id == object.id ? 1 : 0;
-      if (object.alone.data()[i] != 0 && id > 0 && id < sim::first_object_id) ++hidden;
+      if (object.alone.data()[i] != 0 && is_robot(id)) ++hidden;
     }
     if (is_empty(seen)) return;  // no detector finds it
     for (const Way way : {there, moved, moved_unsaid, at_the_border}) {
@@ -167,8 +164,7 @@ class ModalBench {
   std::map<std::string, TargetMemory> memories_;
 };
 
-TEST(ModalTruth, WithADepthCamerasNoise) {
-  PENUMBRA_REQUIRE_SIMULATION();
+TEST_F(ModalTruth, WithADepthCamerasNoise) {
   const int frames = measures_in_full() ? 1000 : 60;
   Tallies tallies;
   for (int seed = 0; seed < seeds; ++seed) {

@@ -2,10 +2,6 @@
 // Scenes: the same seed gives the same bytes, and the counts are those of the images.
 #include "simulated.hpp"
 
-#include <algorithm>
-#include <string>
-#include <vector>
-
 namespace penumbra::test {
 namespace {
 
@@ -34,10 +30,7 @@ SimulationOptions noisy(const std::string& scene, std::uint64_t seed) {
   return options;
 }
 
-class Scenes : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override { PENUMBRA_REQUIRE_SIMULATION(); }
-};
+class Scenes : public SimulationTest, public testing::WithParamInterface<std::string> {};
 
 TEST_P(Scenes, SameSeedGivesTheSameBytes) {
   Simulation one(GetParam(), noisy(GetParam(), 7)), two(GetParam(), noisy(GetParam(), 7)),

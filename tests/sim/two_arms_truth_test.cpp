@@ -4,12 +4,7 @@
 #include "../support/run_length.hpp"
 #include "simulated.hpp"
 
-#include <algorithm>
 #include <iostream>
-
-#include <gtest/gtest.h>
-
-#include <sim/simulation.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -31,10 +26,6 @@ struct Counts {
   std::size_t trusted = 0;    ///< of these, clear or front
   std::size_t elsewhere = 0;  ///< no arm on the ray
   std::size_t judged = 0;     ///< of these, clear
-
-  [[nodiscard]] static double percent(std::size_t part, std::size_t all) {
-    return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(all, 1));
-  }
 };
 
 /// `links`: of the report, for each of MuJoCo's ids.
@@ -98,13 +89,8 @@ Ways count(std::uint64_t seed, bool noisy, int frames) {
   return ways;
 }
 
-class TwoArmsTruth : public testing::TestWithParam<bool> {
- protected:
-  void SetUp() override { PENUMBRA_REQUIRE_SIMULATION(); }
-};
-INSTANTIATE_TEST_SUITE_P(Depth, TwoArmsTruth, testing::Bool(), [](const auto& test) {
-  return std::string(test.param ? "Noisy" : "Exact");
-});
+using TwoArmsTruth = BothDepths;
+INSTANTIATE_TEST_SUITE_P(Depth, TwoArmsTruth, testing::Bool(), depth_name);
 
 TEST_P(TwoArmsTruth, EachRayHasTheRightArm) {
   const int frames = measures_in_full() ? 1000 : samples(60);
@@ -112,18 +98,17 @@ TEST_P(TwoArmsTruth, EachRayHasTheRightArm) {
   constexpr double most_trusted = 0.5;  // percent
   const auto [both, left, stale] = count(5, GetParam(), frames);
   std::cout << "of " << both.robot << " pixels blamed on the right link "
-            << Counts::percent(both.blamed, both.robot) << " %; of the right arm's "
-            << both.right_arm << " pixels clear or front: both known "
-            << Counts::percent(both.trusted, both.right_arm) << " %, without it "
-            << Counts::percent(left.trusted, left.right_arm) << " %, with it stale "
-            << Counts::percent(stale.trusted, stale.right_arm) << " %; elsewhere clear: both known "
-            << Counts::percent(both.judged, both.elsewhere) << " %, with it stale "
-            << Counts::percent(stale.judged, stale.elsewhere) << " %\n";
+            << percent(both.blamed, both.robot) << " %; of the right arm's " << both.right_arm
+            << " pixels clear or front: both known " << percent(both.trusted, both.right_arm)
+            << " %, without it " << percent(left.trusted, left.right_arm) << " %, with it stale "
+            << percent(stale.trusted, stale.right_arm) << " %; elsewhere clear: both known "
+            << percent(both.judged, both.elsewhere) << " %, with it stale "
+            << percent(stale.judged, stale.elsewhere) << " %\n";
   EXPECT_GT(both.robot, static_cast<std::size_t>(1000 * frames));
-  EXPECT_GT(Counts::percent(both.blamed, both.robot), least_blame);
-  EXPECT_LT(Counts::percent(both.trusted, both.right_arm), most_trusted);
+  EXPECT_GT(percent(both.blamed, both.robot), least_blame);
+  EXPECT_LT(percent(both.trusted, both.right_arm), most_trusted);
   EXPECT_EQ(stale.trusted, 0U) << "of what may be anywhere";
-  EXPECT_GT(Counts::percent(left.trusted, left.right_arm), 50.0) << "so wrong is it without";
+  EXPECT_GT(percent(left.trusted, left.right_arm), 50.0) << "so wrong is it without";
 }
 
 }  // namespace

@@ -5,24 +5,19 @@
 #include "../support/run_length.hpp"
 #include "simulated.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
-#include <iomanip>
 #include <iostream>
 #include <memory>
-#include <numbers>
 #include <numeric>
-#include <string>
 #include <variant>
-#include <vector>
 
-#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/mesh/primitives.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra::test {
 namespace {
+
+using VerdictTruth = SimulationTest;
 
 using sim::ObjectTruth;
 using sim::SimFrame;
@@ -75,7 +70,7 @@ Truth truth_of(const SimFrame& frame, const ObjectTruth& target, std::size_t lin
     const std::int32_t id = frame.ids.data()[i], robot = frame.robot_ids.data()[i];
     const bool robot_before =
         robot > 0 && frame.robot_depth.data()[i] < target.alone_depth.data()[i];
-    const bool robot_seen = id > 0 && id < sim::first_object_id;
+    const bool robot_seen = is_robot(id);
     if (model_known ? robot_before : robot_seen) {
       truth.occluded += share;
       truth.blame[static_cast<std::size_t>(robot - 1)] += share;
@@ -84,13 +79,6 @@ Truth truth_of(const SimFrame& frame, const ObjectTruth& target, std::size_t lin
     }
   }
   return truth;
-}
-
-Verdict verdict_of(double hidden) {
-  const TargetThresholds t;
-  return hidden > t.hidden_enter    ? Verdict::hidden
-         : hidden > t.partial_enter ? Verdict::partial
-                                    : Verdict::visible;
 }
 
 constexpr std::size_t verdicts = 5;
@@ -115,11 +103,6 @@ struct Tally {
   [[nodiscard]] double mean() const {
     return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
   }
-  [[nodiscard]] double p99() const {
-    std::vector<double> sorted = errors;
-    std::sort(sorted.begin(), sorted.end());
-    return sorted[sorted.size() * 99 / 100];
-  }
   [[nodiscard]] double same_verdict() const {
     std::size_t same = 0;
     for (std::size_t v = 0; v < confusion.size(); ++v) same += confusion[v][v];
@@ -127,18 +110,11 @@ struct Tally {
   }
   void print(const char* title) const {
     std::cout << title << ": " << errors.size() << " targets, error of the occluded share mean "
-              << mean() << ", p99 " << p99() << ", right blame " << right_blame / hidden
-              << ", same verdict " << same_verdict() << ", hidden of a visible one at most "
-              << missed << '\n';
-    std::cout << std::setw(10) << "is \\ said";
-    for (std::size_t v = 0; v < verdicts; ++v)
-      std::cout << std::setw(12) << to_string(static_cast<Verdict>(v));
-    std::cout << '\n';
-    for (std::size_t t = 0; t < confusion.size(); ++t) {
-      std::cout << std::setw(10) << to_string(static_cast<Verdict>(t));
-      for (const std::size_t n : confusion[t]) std::cout << std::setw(12) << n;
-      std::cout << '\n';
-    }
+              << mean() << ", p99 " << quantile(errors, 0.99) << ", right blame "
+              << right_blame / hidden << ", same verdict " << same_verdict()
+              << ", hidden of a visible one at most " << missed
+              << "; said of visible, partial, hidden ones: " << testing::PrintToString(confusion)
+              << '\n';
   }
 };
 
@@ -156,36 +132,6 @@ struct Tallies {
   std::array<Tally, ways> all;
   std::size_t small = 0;
 };
-
-TriangleMesh cuboid(const Eigen::Vector3d& size) {
-  TriangleMesh mesh;
-  for (const float x : {-0.5F, 0.5F})
-    for (const float y : {-0.5F, 0.5F})
-      for (const float z : {-0.5F, 0.5F})
-        mesh.vertices.push_back(Eigen::Vector3f(x, y, z).cwiseProduct(size.cast<float>()));
-  mesh.triangles = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
-                    {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
-  return mesh;
-}
-
-TriangleMesh ball(double radius) {
-  constexpr std::uint32_t slices = 64, stacks = 32;
-  TriangleMesh mesh;
-  for (std::uint32_t i = 0; i <= stacks; ++i)
-    for (std::uint32_t k = 0; k < slices; ++k) {
-      const double polar = std::numbers::pi * i / stacks, turn = 2 * std::numbers::pi * k / slices;
-      const Eigen::Vector3d ray(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn),
-                                std::cos(polar));
-      mesh.vertices.emplace_back((radius * ray).cast<float>());
-    }
-  for (std::uint32_t i = 0; i < stacks; ++i)
-    for (std::uint32_t k = 0; k < slices; ++k) {
-      const std::uint32_t a = i * slices + k, b = i * slices + (k + 1) % slices;
-      if (i > 0) mesh.triangles.push_back({a, a + slices, b});
-      if (i + 1 < stacks) mesh.triangles.push_back({b, a + slices, b + slices});
-    }
-  return mesh;
-}
 
 /// A target as 3-D shapes: a box by its edges and as a mesh, a ball as a mesh and by its middle and
 /// radius.
@@ -243,23 +189,17 @@ class Bench {
     for (std::size_t k = 0; k < frame.objects.size(); ++k) {
       const ObjectTruth& object = frame.objects[k];
       const bool is_ball = object.solid.kind == sim::Solid::ball;
-      const double radius = 0.5 * object.solid.size.x();
       Solids& solid = solids_[k];
       if (!solid.mesh) {
         solid.names = {object.name + " mesh", object.name + (is_ball ? " point" : " box")};
-        solid.mesh = std::make_shared<const PreparedMesh>(is_ball ? ball(radius)
-                                                                  : cuboid(object.solid.size));
+        solid.mesh = std::make_shared<const PreparedMesh>(
+            is_ball ? make_sphere(0.5 * object.solid.size.x()) : make_box(object.solid.size));
       }
-      const Eigen::Isometry3d& pose = object.T_base_object;
       targets.push_back(
-          {.name = solid.names[0], .shape = MeshTarget{solid.mesh, pose, ReferenceFrame::root()}});
-      if (is_ball)
-        targets.push_back(
-            {.name = solid.names[1],
-             .shape = PointTarget{pose.translation(), radius, ReferenceFrame::root()}});
-      else
-        targets.push_back({.name = solid.names[1],
-                           .shape = BoxTarget{pose, object.solid.size, ReferenceFrame::root()}});
+          {.name = solid.names[0],
+           .shape = MeshTarget{solid.mesh, object.T_base_object, ReferenceFrame::root()}});
+      targets.push_back(target_of(object));
+      targets.back().name = solid.names[1];
     }
     return targets;
   }
@@ -300,7 +240,7 @@ void expect_all(const Tallies& tallies, const std::array<Bounds, ways>& bounds) 
     const Tally& tally = tallies.all[way];
     ASSERT_GT(tally.errors.size(), 100U);
     EXPECT_LT(tally.mean(), bounds[way].mean_error);
-    EXPECT_LT(tally.p99(), bounds[way].p99_error);
+    EXPECT_LT(quantile(tally.errors, 0.99), bounds[way].p99_error);
     EXPECT_GT(tally.right_blame / tally.hidden, bounds[way].right_blame);
     EXPECT_GT(tally.same_verdict(), bounds[way].same_verdict);
     EXPECT_LT(tally.missed, bounds[way].missed);
@@ -308,16 +248,14 @@ void expect_all(const Tallies& tallies, const std::array<Bounds, ways>& bounds) 
 }
 
 // Without sensor noise what is left are silhouettes, the clean-up's narrow gaps and millimetres.
-TEST(VerdictTruth, WithoutNoise) {
-  PENUMBRA_REQUIRE_SIMULATION();
+TEST_F(VerdictTruth, WithoutNoise) {
   constexpr Bounds asked{0.01, 0.05, 0.99, 0.98, 0.06};
   expect_all(judge_all(false), {asked, asked, asked, asked, asked});
 }
 
 // With a D415's noise pixels at edges are unknown or mixed, which an expected depth makes up for.
 // The fringe, which this camera lacks, makes one ball of 127 unknown.
-TEST(VerdictTruth, WithADepthCamerasNoise) {
-  PENUMBRA_REQUIRE_SIMULATION();
+TEST_F(VerdictTruth, WithADepthCamerasNoise) {
   constexpr Bounds labels{0.03, 0.15, 0.92, 0.87, 0.09}, depth{0.01, 0.05, 0.99, 0.97, 0.07},
       points{0.01, 0.05, 0.99, 0.96, 0.07};
   expect_all(judge_all(true), {labels, depth, depth, depth, points});

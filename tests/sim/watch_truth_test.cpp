@@ -3,19 +3,13 @@
 #include "simulated.hpp"
 
 #include <deque>
-#include <numbers>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/calibration/watch.hpp>
-#include <penumbra/pipeline/pipeline.hpp>
-
-#include <sim/simulation.hpp>
 
 namespace penumbra::test {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+using Watch = SimulationTest;
 
 class Watched {
  public:
@@ -48,8 +42,7 @@ class Watched {
   CalibrationWatch watch_{simulation_.camera()};
 };
 
-TEST(Watch, TellsABumpAndHowFar) {
-  PENUMBRA_REQUIRE_SIMULATION();
+TEST_F(Watch, TellsABumpAndHowFar) {
   Watched camera;
   constexpr std::size_t before = 120, after = 100;
   camera.watch(before, Eigen::Isometry3d::Identity());
@@ -102,8 +95,7 @@ class LateImages {
   bool has_moved_ = false;
 };
 
-TEST(Watch, NamesClocksThatDifferAndNotTheCamera) {
-  PENUMBRA_REQUIRE_SIMULATION();
+TEST_F(Watch, NamesClocksThatDifferAndNotTheCamera) {
   constexpr std::size_t late = 2;       // frames
   constexpr double frame = 1.0 / 30.0;  // seconds
   const LateImages images(late);
@@ -115,8 +107,7 @@ TEST(Watch, NamesClocksThatDifferAndNotTheCamera) {
   EXPECT_EQ(images.drift().message().find("calibrate"), std::string::npos);
 }
 
-TEST(Watch, TellsARobotThatIsNotThere) {
-  PENUMBRA_REQUIRE_SIMULATION();
+TEST_F(Watch, TellsARobotThatIsNotThere) {
   Watched camera;
   Eigen::Isometry3d far = Eigen::Isometry3d::Identity();
   far.translation().x() = 0.5;
@@ -125,8 +116,7 @@ TEST(Watch, TellsARobotThatIsNotThere) {
       << camera.drift().seen_through;
 }
 
-TEST(Watch, KnowsNothingOfARobotThatStands) {
-  PENUMBRA_REQUIRE_SIMULATION();
+TEST_F(Watch, KnowsNothingOfARobotThatStands) {
   Watched camera;
   camera.stare(400);
   EXPECT_FALSE(camera.drift().is_known);

@@ -6,8 +6,6 @@
 
 #include <cstring>
 
-#include <gtest/gtest.h>
-
 namespace penumbra::test {
 namespace {
 

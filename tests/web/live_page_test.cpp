@@ -37,6 +37,16 @@ io::LiveOptions with_color() {
   return options;
 }
 
+/// What a client that is ready is sent; nothing: it waits.
+std::optional<Packet> next(io::WebChannel& client) {
+  EXPECT_TRUE(client.take(R"({"type": "ready"})"));
+  const auto message = client.next();
+  if (!message) return std::nullopt;
+  std::string bytes;
+  for (const io::SharedBytes& part : *message) bytes += *part;
+  return Packet(bytes);
+}
+
 /// A camera that is judged by hand, and its page. Keeps what was judged.
 class LivePage : public testing::Test, public io::FrameWatcher {
  protected:
@@ -68,15 +78,6 @@ class LivePage : public testing::Test, public io::FrameWatcher {
     auto channel = view_.open_channel("/api/live");
     EXPECT_TRUE(channel->take(R"({"type": "want", "with": )" + with + "}"));
     return channel;
-  }
-  /// What a client that is ready is sent; nothing: it waits.
-  static std::optional<Packet> next(io::WebChannel& client) {
-    EXPECT_TRUE(client.take(R"({"type": "ready"})"));
-    const auto message = client.next();
-    if (!message) return std::nullopt;
-    std::string bytes;
-    for (const io::SharedBytes& part : *message) bytes += *part;
-    return Packet(bytes);
   }
   [[nodiscard]] json answer(const std::string& path) {
     return json::parse(*view_.answer({path, {}}).body.front());
@@ -177,17 +178,13 @@ TEST(LiveScans, ShowTheirPointsWhereTheSensorWas) {
   ASSERT_TRUE(cloud);
   io::CloudWorker worker(with_cloud().clouds[0]);
   EXPECT_TRUE(view.show(*cloud, worker.label(*cloud), start));
-  EXPECT_TRUE(browser->take(R"({"type": "ready"})"));
-  const auto message = browser->next();
-  ASSERT_TRUE(message);
-  std::string bytes;
-  for (const io::SharedBytes& part : *message) bytes += *part;
-  const Packet packet(bytes);
-  EXPECT_EQ(packet.json["frame"]["status"], "ok");
-  EXPECT_EQ(packet.json["frame"]["points"]["occluded"], 1);
-  EXPECT_EQ(packet.json["link_poses"][1][2], 1.0) << "the board";
-  EXPECT_EQ(packet.json["camera_pose"][2], 0.0) << "the sensor is in the base";
-  const std::string& shown = packet.parts.at("cloud");
+  const auto packet = next(*browser);
+  ASSERT_TRUE(packet);
+  EXPECT_EQ(packet->json["frame"]["status"], "ok");
+  EXPECT_EQ(packet->json["frame"]["points"]["occluded"], 1);
+  EXPECT_EQ(packet->json["link_poses"][1][2], 1.0) << "the board";
+  EXPECT_EQ(packet->json["camera_pose"][2], 0.0) << "the sensor is in the base";
+  const std::string& shown = packet->parts.at("cloud");
   ASSERT_EQ(shown.size(), 2 * 16U);
   EXPECT_EQ(shown[12], static_cast<char>(Label::occluded));
   EXPECT_EQ(shown[16 + 12], static_cast<char>(Label::clear));

@@ -21,7 +21,13 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 using nlohmann::json;
 
-constexpr auto patience = 30s;
+constexpr auto patience = 120s;
+
+std::int64_t system_now() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
 
 /// The scene's robot and camera on the graph, as long as this lives: joint states at 100 Hz, images
 /// at 20 Hz, by the system's clock.
@@ -56,9 +62,7 @@ class ScenePublisher {
     write(urdf, encoded(io::StringMessage{live_urdf}));
     write(mount, encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
     for (int tick = 0; !ends_; ++tick, std::this_thread::sleep_for(10ms)) {
-      const std::int64_t now = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                   std::chrono::system_clock::now().time_since_epoch())
-                                   .count();
+      const std::int64_t now = system_now();
       write(joints, live_joints(now));
       if (tick % ticks_per_image != 0) continue;
       write(info, encoded(live_info(now)));
@@ -121,6 +125,7 @@ std::size_t expect_truth(const Packet& packet, LiveTruth& truth) {
 }
 
 TEST_F(ViewLive, PacketsAreTheTruthOfTheirStamps) {
+  const std::int64_t begin = system_now();
   const ScenePublisher scene(domain_.id());
   const ViewerProcess live = start();
   WebClient browser = live.client();
@@ -131,9 +136,9 @@ TEST_F(ViewLive, PacketsAreTheTruthOfTheirStamps) {
     const Packet packet = next(browser);
     ASSERT_TRUE(packet.parts.contains("labels"));
     known += expect_truth(packet, truth);
-    const json& state = packet.json["live"];
-    EXPECT_GT(state["age_ms"], 0.0);
-    EXPECT_LT(state["age_ms"], 5000.0);
+    const double age_ms = packet.json["live"]["age_ms"];
+    EXPECT_GT(age_ms, 0.0);
+    EXPECT_LT(age_ms, 1e-6 * static_cast<double>(system_now() - begin));
     float z = 0;
     std::memcpy(&z, packet.parts.at("depth").data(), sizeof z);
     EXPECT_FLOAT_EQ(z, 3.0F);  // the wall

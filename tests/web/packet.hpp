@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <cstring>
 #include <map>
 #include <string>
 
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace penumbra::test {
@@ -14,7 +17,23 @@ struct Packet {
   std::map<std::string, std::string> parts;
 
   /// Fails the test where the bytes are not what the JSON says.
-  explicit Packet(const std::string& bytes);
+  explicit Packet(const std::string& bytes) {
+    std::uint32_t length = 0;
+    if (bytes.size() < sizeof length) {
+      ADD_FAILURE() << "no packet: " << bytes;
+      return;
+    }
+    std::memcpy(&length, bytes.data(), sizeof length);
+    json = nlohmann::json::parse(bytes.substr(sizeof length, length));
+    std::size_t at = sizeof length + length;
+    for (const auto& part : json["parts"]) {
+      const std::size_t size = part["size"];
+      EXPECT_LE(at + size, bytes.size());
+      parts[part["name"]] = bytes.substr(at, size);
+      at += size;
+    }
+    EXPECT_EQ(at, bytes.size());
+  }
 };
 
 }  // namespace penumbra::test

@@ -3,12 +3,6 @@
 #include "../apps/fixtures.hpp"
 #include "viewer_process.hpp"
 
-#include <filesystem>
-
-#include <gtest/gtest.h>
-
-#include <io/files/png.hpp>
-
 namespace penumbra::test {
 namespace {
 
@@ -18,10 +12,6 @@ constexpr std::size_t tiny_frames = 3;
 
 class ViewRunTest : public TinyTest {
  protected:
-  void run_well(const Words& options = {}) const {
-    const Outcome outcome = run(options);
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-  }
   static Packet packet(const ViewerProcess& viewer, std::size_t i) {
     return Packet(viewer.client()
                       .get("/api/frames/" + std::to_string(i) +
@@ -31,13 +21,13 @@ class ViewRunTest : public TinyTest {
 };
 
 TEST_F(ViewRunTest, ShowsTheReport) {
-  run_well({"--labels", "paper", "--frames", "1:3", "--save", "overlay,labels,links,vdi"});
+  succeed(run({"--labels", "paper", "--frames", "1:3", "--save", "overlay,labels,links,vdi"}));
   fs::remove(path("recording.yaml"));  // it is not needed
   const ViewerProcess viewer({out()});
   const json session = viewer.complete_session();
   EXPECT_EQ(session["frames"], 2);
   EXPECT_EQ(session["camera"], nullptr);
-  json report = json::parse(read_file(out() / "report.json"));
+  json report = json::parse(read_file(out("report.json")));
   EXPECT_EQ(session["links"], report["links"]);
   EXPECT_EQ(viewer.get_json("/api/report"), report);
   report["frames"].erase(0);
@@ -49,36 +39,33 @@ TEST_F(ViewRunTest, ShowsTheReport) {
 }
 
 TEST_F(ViewRunTest, SavedImagesAreShownAsTheyAre) {
-  run_well({"--save", "labels"});
+  succeed(run({"--save", "labels"}));
   Image<std::uint8_t> painted(tiny_width, tiny_height, 4);
-  io::write_png(out() / "labels" / "000001.png", std::as_const(painted).view());
-  const ViewerProcess viewer({out() / "report.json"});
+  io::write_png(out("labels/000001.png"), std::as_const(painted).view());
+  const ViewerProcess viewer({out("report.json")});
   EXPECT_EQ(viewer.complete_session()["frames"], tiny_frames);
   EXPECT_EQ(packet(viewer, 1).parts.at("labels"), std::string(painted.size(), '\x04'));
 }
 
 TEST_F(ViewRunTest, ThePageSaysHowToGetTheRest) {
-  run_well({"--save", "labels,overlay"});
+  succeed(run({"--save", "labels,overlay"}));
   const ViewerProcess viewer({out()});
   const json session = viewer.complete_session();
   EXPECT_EQ(session["parts"], json({"overlay", "labels"}));
   ASSERT_EQ(session["missing"].size(), 2U);
-  const std::string unsaved = session["missing"][0];
-  EXPECT_NE(unsaved.find("links, vdi"), std::string::npos) << unsaved;
-  EXPECT_NE(unsaved.find("--save overlay,labels,links,vdi"), std::string::npos) << unsaved;
-  const std::string input = session["missing"][1];
-  EXPECT_NE(input.find("penumbra view " + path().string()), std::string::npos) << input;
+  expect_has(session["missing"][0], {"links, vdi", "--save overlay,labels,links,vdi"});
+  expect_has(session["missing"][1], {"penumbra view " + path().string()});
   EXPECT_EQ(packet(viewer, 2).parts.size(), 2U);
 }
 
 TEST_F(ViewRunTest, ImagesBehindALinkAreNotShown) {
-  run_well({"--save", "labels,overlay"});
+  succeed(run({"--save", "labels,overlay"}));
   const TemporaryFolder elsewhere;
-  fs::copy_file(out() / "overlay/000000.png", elsewhere.path() / "secret.png");
-  fs::remove(out() / "overlay/000000.png");
-  fs::create_symlink(elsewhere.path() / "secret.png", out() / "overlay/000000.png");
-  fs::rename(out() / "labels", elsewhere.path() / "labels");
-  fs::create_directory_symlink(elsewhere.path() / "labels", out() / "labels");
+  fs::copy_file(out("overlay/000000.png"), elsewhere.path() / "secret.png");
+  fs::remove(out("overlay/000000.png"));
+  fs::create_symlink(elsewhere.path() / "secret.png", out("overlay/000000.png"));
+  fs::rename(out("labels"), elsewhere.path() / "labels");
+  fs::create_directory_symlink(elsewhere.path() / "labels", out("labels"));
   const ViewerProcess viewer({out()});
   EXPECT_EQ(viewer.complete_session()["frames"], tiny_frames);
   const auto status_of = [&](const std::string& what) {
@@ -92,7 +79,7 @@ TEST_F(ViewRunTest, ImagesBehindALinkAreNotShown) {
 }
 
 TEST_F(ViewRunTest, ChoicesOfItsOwnAndOtherReportsAreRefused) {
-  run_well();
+  succeed(run());
   for (const Words& choice : {Words{"--labels", "paper"},
                               {"--geometry", "visual"},
                               {"--frames", "0:1"},
@@ -101,7 +88,7 @@ TEST_F(ViewRunTest, ChoicesOfItsOwnAndOtherReportsAreRefused) {
                               {"--targets", "none"}})
     expect_refused(penumbra({"view", out(), choice[0], choice[1]}), {choice[0]});
   for (const char* const text : {"{}", "", "{\"penumbra\": ", "[1, 2]", "{\"input\": 3}"}) {
-    write_file(out() / "report.json", text);
+    write_file(out("report.json"), text);
     expect_refused(penumbra({"view", out()}), {"report.json"});
   }
 }

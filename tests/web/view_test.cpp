@@ -5,21 +5,17 @@
 
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include <io/files/jpeg.hpp>
 #include <io/files/npy.hpp>
-#include <io/files/png.hpp>
 
 namespace penumbra::test {
 namespace {
 
 using nlohmann::json;
 
-const std::string example = PENUMBRA_SOURCE_DIR "/examples/arm_over_table";
 constexpr std::size_t example_frames = 12;
 
 json without_times(json report) {
@@ -33,84 +29,74 @@ std::string bytes_of(const Image<T>& image) {
   return {reinterpret_cast<const char*>(image.data()), image.size() * sizeof(T)};
 }
 
-class ViewExampleTest : public testing::Test {
+/// A viewer of the example, and what `run` writes of it.
+class ViewExampleTest : public FolderTest {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = std::make_unique<TemporaryFolder>();
-    const Outcome run = penumbra({"run", example, "-o", out(), "--save", "vdi,labels,links"});
-    ASSERT_EQ(run.status, 0) << run.err;
-    viewer_ = std::make_unique<ViewerProcess>(std::vector<std::string>{example});
-    ASSERT_NE(viewer_->port(), 0);
-    session_ = viewer_->complete_session();
-  }
-  static void TearDownTestSuite() {
-    viewer_.reset();
-    folder_.reset();
-  }
-
-  static fs::path out() { return folder_->path() / "out"; }
-  static fs::path saved(const std::string& kind, std::size_t i, const std::string& ending) {
-    return out() / kind / ((i < 10 ? "00000" : "0000") + std::to_string(i) + ending);
-  }
-  static Packet packet(std::size_t i, const std::string& with) {
+  [[nodiscard]] Packet packet(std::size_t i, const std::string& with) const {
     const HttpReply reply =
-        viewer_->client().get("/api/frames/" + std::to_string(i) + "/packet?with=" + with);
+        viewer_.client().get("/api/frames/" + std::to_string(i) + "/packet?with=" + with);
     EXPECT_EQ(reply.headers.at("content-type"), "application/octet-stream");
     return Packet(reply.body);
   }
 
-  static inline std::unique_ptr<TemporaryFolder> folder_;
-  static inline std::unique_ptr<ViewerProcess> viewer_;
-  static inline json session_;
+  void expect_report_of_run() const;
+  void expect_server_everywhere() const;
+  void expect_images_of_run() const;
+  void expect_outlines_around_targets() const;
+  void expect_recorded_depth_and_color() const;
+  void expect_cloud_of_depth() const;
+  void expect_scene_on_the_robot() const;
+  void expect_one_line_for_what_is_not_there() const;
+
+  const ViewerProcess viewer_{{example}};
+  const json session_ = viewer_.complete_session();
 };
 
-TEST_F(ViewExampleTest, ReportIsThatOfRun) {
-  json written = without_times(json::parse(read_file(out() / "report.json")));
-  EXPECT_EQ(without_times(viewer_->get_json("/api/report")), written);
-  json rest = viewer_->get_json("/api/report?from=11");
+void ViewExampleTest::expect_report_of_run() const {
+  const json written = without_times(json::parse(read_file(out("report.json"))));
+  EXPECT_EQ(without_times(viewer_.get_json("/api/report")), written);
+  const json rest = viewer_.get_json("/api/report?from=11");
   ASSERT_EQ(rest["frames"].size(), 1U);
   EXPECT_EQ(rest["frames"][0]["index"], 11);
   for (const std::string from : {"-1", "x", "1.5"})
-    EXPECT_EQ(viewer_->client().get("/api/report?from=" + from).status, 400) << from;
+    EXPECT_EQ(viewer_.client().get("/api/report?from=" + from).status, 400) << from;
   EXPECT_EQ(session_["frames"], example_frames);
   EXPECT_EQ(session_["links"], written["links"]);
   EXPECT_EQ(session_["missing"], json::array());
 }
 
 // What another program on this port would count alike is not from here.
-TEST_F(ViewExampleTest, WhoServesIsToldEverywhere) {
+void ViewExampleTest::expect_server_everywhere() const {
   const std::string server = session_["server"];
   EXPECT_EQ(packet(0, "").json["server"], server);
-  EXPECT_EQ(viewer_->get_json("/api/scene")["server"], server);
-  EXPECT_EQ(viewer_->client().get("/api/scene.bin?version=1&server=" + server).status, 200);
-  EXPECT_EQ(viewer_->client().get("/api/scene.bin?version=2").status, 409);
-  EXPECT_EQ(viewer_->client().get("/api/scene?server=other").status, 409);
+  EXPECT_EQ(viewer_.get_json("/api/scene")["server"], server);
+  EXPECT_EQ(viewer_.client().get("/api/scene.bin?version=1&server=" + server).status, 200);
+  EXPECT_EQ(viewer_.client().get("/api/scene.bin?version=2").status, 409);
+  EXPECT_EQ(viewer_.client().get("/api/scene?server=other").status, 409);
   const ViewerProcess other({example});
   EXPECT_NE(other.get_json("/api/session")["server"], server);
 }
 
-TEST_F(ViewExampleTest, ImagesAreThoseOfRunByteForByte) {
-  const json report = json::parse(read_file(out() / "report.json"));
+void ViewExampleTest::expect_images_of_run() const {
+  const json report = json::parse(read_file(out("report.json")));
   for (std::size_t i = 0; i < example_frames; ++i) {
     Packet served = packet(i, "labels,links,vdi");
     served.json["frame"].erase("timing_ms");
     json frame = report["frames"][i];
     frame.erase("timing_ms");
     EXPECT_EQ(served.json["frame"], frame);
-    Image<std::uint8_t> labels;
-    Image<std::uint16_t> links;
     Image<float> depth;
-    ASSERT_TRUE(io::read_png(saved("labels", i, ".png"), labels).ok());
-    ASSERT_TRUE(io::read_png(saved("links", i, ".png"), links).ok());
-    ASSERT_TRUE(io::read_npy(saved("vdi", i, ".npy"), depth).ok());
-    EXPECT_EQ(served.parts["labels"], bytes_of(labels)) << i;
-    EXPECT_EQ(served.parts["links"], bytes_of(links)) << i;
+    io::read_npy(out("vdi") / numbered(i, ".npy"), depth).require();
+    EXPECT_EQ(served.parts["labels"], bytes_of(labels(i))) << i;
+    EXPECT_EQ(served.parts["links"],
+              bytes_of(read_image<std::uint16_t>(out("links") / numbered(i))))
+        << i;
     EXPECT_EQ(served.parts["vdi"], bytes_of(depth)) << i;
   }
 }
 
 // The cube stands at (0.52, 0.28, 0.04) of the root link.
-TEST_F(ViewExampleTest, TargetsHaveOutlinesAroundTheirPlaces) {
+void ViewExampleTest::expect_outlines_around_targets() const {
   const Packet served = packet(3, "");
   ASSERT_EQ(session_["parts"], json({"color", "labels", "links", "vdi", "depth", "cloud"}));
   const json& marks = served.json["marks"];
@@ -132,12 +118,11 @@ TEST_F(ViewExampleTest, TargetsHaveOutlinesAroundTheirPlaces) {
   EXPECT_EQ(marks[3]["place"], nullptr) << "the wrist is lost";
 }
 
-TEST_F(ViewExampleTest, DepthAndColorAreTheRecordings) {
+void ViewExampleTest::expect_recorded_depth_and_color() const {
   // JPEG at quality 90: mean difference of a channel, of 255.
   constexpr double color_tolerance = 4.0;
   const Packet served = packet(5, "color,depth");
-  Image<std::uint16_t> millimetres;
-  ASSERT_TRUE(io::read_png(example + "/depth/5.png", millimetres).ok());
+  const auto millimetres = read_image<std::uint16_t>(example / "depth/5.png");
   std::string metres;
   for (std::size_t i = 0; i < millimetres.size(); ++i) {
     const float z = 0.001F * static_cast<float>(millimetres.data()[i]);
@@ -145,8 +130,8 @@ TEST_F(ViewExampleTest, DepthAndColorAreTheRecordings) {
   }
   EXPECT_EQ(served.parts.at("depth"), metres);
 
-  Image<Rgb8> recorded, shown;
-  ASSERT_TRUE(io::read_png(example + "/color/5.png", recorded).ok());
+  const auto recorded = read_image<Rgb8>(example / "color/5.png");
+  Image<Rgb8> shown;
   const std::string& jpeg = served.parts.at("color");
   ASSERT_FALSE(io::decode_jpeg(std::as_bytes(std::span(jpeg)), shown));
   ASSERT_EQ(shown.size(), recorded.size());
@@ -156,7 +141,7 @@ TEST_F(ViewExampleTest, DepthAndColorAreTheRecordings) {
   EXPECT_LT(sum / static_cast<double>(shown.size()), color_tolerance);
 }
 
-TEST_F(ViewExampleTest, CloudIsTheDepthUnprojected) {
+void ViewExampleTest::expect_cloud_of_depth() const {
   constexpr float tolerance = 1e-5F;  // of float32 at a few metres
   struct Point {
     float x, y, z;
@@ -188,9 +173,9 @@ TEST_F(ViewExampleTest, CloudIsTheDepthUnprojected) {
 }
 
 // The scene, posed and projected by this test alone, covers the robot's pixels of the VDI.
-TEST_F(ViewExampleTest, ScenePosedAndProjectedLiesOnTheRobot) {
-  const json scene = viewer_->get_json("/api/scene");
-  const std::string bytes = viewer_->client().get("/api/scene.bin").body;
+void ViewExampleTest::expect_scene_on_the_robot() const {
+  const json scene = viewer_.get_json("/api/scene");
+  const std::string bytes = viewer_.client().get("/api/scene.bin").body;
   const Packet served = packet(5, "links,vdi");
   const json& camera = session_["camera"];
   const auto pose_of = [](const json& p) {
@@ -228,8 +213,8 @@ TEST_F(ViewExampleTest, ScenePosedAndProjectedLiesOnTheRobot) {
   EXPECT_GT(static_cast<double>(nearest), 0.99 * static_cast<double>(seen));
 }
 
-TEST_F(ViewExampleTest, WhatIsNotThereIsToldInOneLine) {
-  WebClient client = viewer_->client();
+void ViewExampleTest::expect_one_line_for_what_is_not_there() const {
+  WebClient client = viewer_.client();
   for (const std::string path :
        {"/api/frames/12/packet", "/api/frames/-1/packet", "/api/frames/99999999999999999999/packet",
         "/api/frames/0x1/packet", "/api/frames//packet", "/api/frames/../../etc/passwd",
@@ -243,31 +228,33 @@ TEST_F(ViewExampleTest, WhatIsNotThereIsToldInOneLine) {
   EXPECT_EQ(client.upgrade("/api/live").status, 404);
 }
 
-TEST_F(ViewExampleTest, PageIsServed) {
-  const HttpReply page = viewer_->client().get("/");
+TEST_F(ViewExampleTest, ServesWhatRunWritesAndWhatTheRecordingHolds) {
+  succeed(penumbra({"run", example, "-o", out(), "--save", "vdi,labels,links"}));
+  expect_report_of_run();
+  expect_server_everywhere();
+  expect_images_of_run();
+  expect_outlines_around_targets();
+  expect_recorded_depth_and_color();
+  expect_cloud_of_depth();
+  expect_scene_on_the_robot();
+  expect_one_line_for_what_is_not_there();
+
+  const HttpReply page = viewer_.client().get("/");
   EXPECT_EQ(page.status, 200);
   EXPECT_EQ(page.headers.at("content-type"), "text/html; charset=utf-8");
   EXPECT_EQ(page.body, read_file(PENUMBRA_SOURCE_DIR "/web/dist/index.html"));
-}
-
-TEST_F(ViewExampleTest, APortInUseIsOneLineAndStatus2) {
-  expect_refused(penumbra({"view", example, "--port", std::to_string(viewer_->port())}),
-                 {"--port"});
+  expect_refused(penumbra({"view", example, "--port", std::to_string(viewer_.port())}), {"--port"});
 }
 
 TEST(ViewInput, AtFaultIsOneLineAndStatus2) {
   const TemporaryFolder folder;
-  const std::vector<std::pair<Words, std::string>> faults{
-      {{folder.path()}, "recording"},
-      {{folder.path() / "gone"}, "gone"},
-      {{folder.write("some.txt", "text")}, "some.txt"},
-      {{example, "--port", "70000"}, "--port"},
-      {{example, "--address", "nowhere"}, "--address"},
-      {{example, "--frames", "50:60"}, "--frames"}};
-  for (auto [line, named] : faults) {
-    line.insert(line.begin(), "view");
-    expect_refused(penumbra(line), {named});
-  }
+  expect_all_refused([](const Words& line) { return penumbra(Words{"view"} + line); },
+                     {{{folder.path()}, "recording"},
+                      {{folder.path() / "gone"}, "gone"},
+                      {{folder.write("some.txt", "text")}, "some.txt"},
+                      {{example, "--port", "70000"}, "--port"},
+                      {{example, "--address", "nowhere"}, "--address"},
+                      {{example, "--frames", "50:60"}, "--frames"}});
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace penumbra::test {
 namespace {
 
-constexpr int patience_ms = 30'000;
+constexpr int patience_ms = 120'000;
 
 [[noreturn]] void become_viewer(std::vector<std::string>& arguments, int out) {
   ::dup2(out, STDOUT_FILENO);

@@ -16,7 +16,7 @@ namespace penumbra::test {
 /// A running `penumbra view`, or another command that serves its page. It ends with this.
 class ViewerProcess {
  public:
-  /// Waits up to 30 s until it prints its address. `--port 0` is added.
+  /// Waits up to 120 s until it prints its address. `--port 0` is added.
   explicit ViewerProcess(std::vector<std::string> arguments, const std::string& command = "view");
   ~ViewerProcess();
   ViewerProcess(const ViewerProcess&) = delete;
@@ -28,7 +28,7 @@ class ViewerProcess {
   [[nodiscard]] WebClient client() const { return WebClient(port_); }
 
   [[nodiscard]] nlohmann::json get_json(const std::string& path) const;
-  /// Waits up to 30 s until all frames are judged, then the session.
+  /// Waits up to 120 s until all frames are judged, then the session.
   [[nodiscard]] nlohmann::json complete_session() const;
 
   /// SIGINT; its exit status.

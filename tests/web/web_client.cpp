@@ -15,7 +15,7 @@
 namespace penumbra::test {
 namespace {
 
-constexpr int patience_s = 10;
+constexpr int patience_s = 60;
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),

@@ -16,7 +16,7 @@ struct HttpReply {
 };
 
 /// A connection to 127.0.0.1 that knows as little of HTTP and WebSocket as it can: what a test
-/// sends is what goes out. Reads wait 10 s at most.
+/// sends is what goes out. Reads wait 60 s at most.
 class WebClient {
  public:
   /// `receive_buffer`: bytes of the kernel's; 0: its own choice.
@@ -49,7 +49,7 @@ class WebClient {
   /// The next frame, pings answered; nothing: the connection is closed.
   std::optional<Message> message();
 
-  /// Whether the other side closes within 10 s.
+  /// Whether the other side closes within 60 s.
   bool is_closed();
   [[nodiscard]] std::uint16_t port() const { return port_; }
 

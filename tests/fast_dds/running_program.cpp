@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "live_program.hpp"
+#include "running_program.hpp"
 
-#include <csignal>
 #include <fstream>
 #include <stdexcept>
 #include <utility>
@@ -13,8 +12,9 @@
 
 namespace penumbra::test {
 
-LiveProgram::LiveProgram(std::vector<std::string> arguments, const std::filesystem::path& log) {
-  arguments.insert(arguments.begin(), {PENUMBRA_PROGRAM, "live"});
+RunningProgram::RunningProgram(std::vector<std::string> arguments,
+                               const std::filesystem::path& log) {
+  arguments.insert(arguments.begin(), PENUMBRA_PROGRAM);
   std::vector<char*> words;
   words.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) words.push_back(argument.data());
@@ -28,10 +28,10 @@ LiveProgram::LiveProgram(std::vector<std::string> arguments, const std::filesyst
   }
   const int fault = posix_spawn(&pid_, PENUMBRA_PROGRAM, &actions, nullptr, words.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (fault != 0) throw std::runtime_error("penumbra live does not start");
+  if (fault != 0) throw std::runtime_error("penumbra does not start");
 }
 
-ProcessUsage LiveProgram::usage() const {
+ProcessUsage RunningProgram::usage() const {
   const std::string process = std::to_string(pid_);
   ProcessUsage usage{.when = std::chrono::steady_clock::now(), .memory = memory_of(process)};
   std::ifstream stat("/proc/" + process + "/stat");
@@ -44,9 +44,9 @@ ProcessUsage LiveProgram::usage() const {
   return usage;
 }
 
-int LiveProgram::end() {
+int RunningProgram::end(int signal) {
   if (pid_ <= 0) return status_;
-  ::kill(pid_, SIGTERM);
+  ::kill(pid_, signal);
   int status = 0;
   ::waitpid(std::exchange(pid_, -1), &status, 0);
   return status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -4,7 +4,7 @@
 #include "../support/process_memory.hpp"
 
 #include <chrono>
-#include <cstddef>
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,19 +20,20 @@ struct ProcessUsage {
   ProcessMemory memory;
 };
 
-/// `penumbra live` as long as this lives.
-class LiveProgram {
+/// A command of `penumbra` that runs as long as this lives.
+class RunningProgram {
  public:
   /// `log`: takes stdout and stderr; empty: they are the test's.
-  explicit LiveProgram(std::vector<std::string> arguments, const std::filesystem::path& log = {});
-  LiveProgram(const LiveProgram&) = delete;
-  LiveProgram& operator=(const LiveProgram&) = delete;
-  ~LiveProgram() { static_cast<void>(end()); }
+  explicit RunningProgram(std::vector<std::string> arguments,
+                          const std::filesystem::path& log = {});
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+  ~RunningProgram() { static_cast<void>(end()); }
 
   [[nodiscard]] ProcessUsage usage() const;
 
-  /// Ends it by SIGTERM; its exit status.
-  int end();
+  /// Ends it by a signal, and returns its exit status.
+  int end(int signal = SIGTERM);
 
  private:
   pid_t pid_ = -1;

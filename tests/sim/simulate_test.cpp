@@ -1,28 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// `penumbra simulate -o NAME.mcap`: the bag is the recording folder of the same scene and seed, in
-// another form.
-#include "../apps/program.hpp"
+// `penumbra simulate`: what it writes is a recording that `penumbra run` judges as the truth says,
+// and a bag is the recording of the same scene and seed in another form.
+#include "../apps/fixtures.hpp"
 #include "../support/node_scripts.hpp"
 #include "simulated.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <sstream>
 
-#include <nlohmann/json.hpp>
-
-#include <io/files/png.hpp>
 #include <io/mcap/compression.hpp>
 #include <sim/recording_bag.hpp>
 
 namespace penumbra::test {
 namespace {
 
-namespace fs = std::filesystem;
-using nlohmann::json;
+// Labels against MuJoCo's ids: silhouettes of round parts differ by their facets.
+constexpr double least_label_union = 99.5;  // percent
+constexpr double most_objects_taken = 1.0;  // percent of an object's pixels
 
 // The camera's rotation passes a quaternion on its way through /tf_static, and is off by 1e-16
 // then; a virtual depth in float may be rounded the other way, and a pixel at a label's border fall
@@ -56,30 +51,21 @@ std::vector<std::map<std::string, std::string>> table(const fs::path& file) {
   return rows;
 }
 
-template <typename T>
-Image<T> read_image(const fs::path& file) {
-  Image<T> image;
-  io::read_png(file, image).require();
-  return image;
-}
-
-std::string digits(std::size_t number) {
-  std::string text = std::to_string(number);
-  return text.insert(0, 6 - text.size(), '0') + ".png";
-}
-
-class SimulateBag : public testing::Test {
+class SimulateTest : public FolderTest {
  protected:
   void SetUp() override { PENUMBRA_REQUIRE_SIMULATION(); }
 
-  [[nodiscard]] fs::path path(const std::string& name) const { return folder_.path() / name; }
-
-  [[nodiscard]] Outcome simulate(const Scene& scene, const std::string& to,
-                                 std::vector<std::string> more = {}) const {
+  Outcome simulate(const Words& line, const std::string& to) const {
+    return penumbra(Words{"simulate"} + line + Words{"-o", path(to)});
+  }
+  Outcome simulate(const Scene& scene, const std::string& to, const Words& more = {}) const {
     const std::string frames = std::to_string(scene.first) + ":" + std::to_string(scene.end);
-    more.insert(more.begin(),
-                {"simulate", scene.name, "--seed", "5", "--frames", frames, "-o", path(to)});
-    return penumbra(more);
+    return simulate(Words{scene.name, "--seed", "5", "--frames", frames} + more, to);
+  }
+  /// Runs an input and keeps its labels.
+  [[nodiscard]] Outcome run(const std::string& input, const std::string& to,
+                            const Words& more = {}) const {
+    return penumbra(Words{"run", path(input), "-o", path(to), "--save", "labels"} + more);
   }
 
   /// The points of /truth/OBJECT/pose, as a recording names its targets.
@@ -94,28 +80,70 @@ class SimulateBag : public testing::Test {
                                          "}}\n    radius: 0.02\n");
   }
 
-  TemporaryFolder folder_;
+  /// Compares the labels of of_folder and of_bag.
+  void expect_same_labels(const Scene& scene) const {
+    std::size_t hidden = 0;
+    for (std::size_t i = 0; i < scene.end - scene.first; ++i) {
+      const auto a = read_image<std::uint8_t>(path("of_folder/labels") / numbered(scene.first + i));
+      const auto b = read_image<std::uint8_t>(path("of_bag/labels") / numbered(i));
+      ASSERT_EQ(a.size(), b.size());
+      std::size_t apart = 0;
+      for (std::size_t p = 0; p < a.size(); ++p) {
+        apart += a.data()[p] != b.data()[p] ? 1 : 0;
+        hidden += a.data()[p] == 2 ? 1 : 0;
+      }
+      EXPECT_LE(static_cast<double>(apart), most_labels_apart * static_cast<double>(a.size())) << i;
+    }
+    EXPECT_GT(hidden, 10'000U);
+  }
 };
 
-void compare_labels(const fs::path& one, const fs::path& other, std::size_t& hidden) {
-  const auto a = read_image<std::uint8_t>(one), b = read_image<std::uint8_t>(other);
-  ASSERT_EQ(a.size(), b.size());
-  std::size_t apart = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    apart += a.data()[i] != b.data()[i] ? 1 : 0;
-    hidden += a.data()[i] == 2 ? 1 : 0;
+struct Counts {
+  std::size_t both = 0, either = 0, objects = 0, taken = 0;
+};
+
+void count(const fs::path& labels_file, const fs::path& ids_file, Counts& counts) {
+  const auto labels = read_image<std::uint8_t>(labels_file);
+  const auto ids = read_image<std::uint16_t>(ids_file);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const std::uint8_t label = labels.data()[i];
+    const std::uint16_t id = ids.data()[i];
+    const bool hidden = label == 2 || label == 4, robot = is_robot(id);
+    counts.both += hidden && robot ? 1 : 0;
+    counts.either += hidden || robot ? 1 : 0;
+    counts.objects += id >= sim::first_object_id ? 1 : 0;
+    counts.taken += id >= sim::first_object_id && hidden ? 1 : 0;
   }
-  EXPECT_LE(static_cast<double>(apart), most_labels_apart * static_cast<double>(a.size())) << one;
+}
+
+TEST_F(SimulateTest, LabelsOfARecordingAreTheTruth) {
+  for (const auto& [scene, frames] : {std::pair("conveyor", "75:79"), {"handover", "133:137"}}) {
+    const Words options = {scene, "--seed", "5", "--no-noise", "--frames", frames};
+    EXPECT_EQ(succeed(simulate(options, scene)).err, "");
+    const std::string results = std::string(scene) + "_results";
+    succeed(run(scene, results));
+    Counts counts;
+    std::size_t images = 0;
+    for (const auto& entry : fs::directory_iterator(path(scene) / "ids")) {
+      count(path(results) / "labels" / entry.path().filename(), entry.path(), counts);
+      ++images;
+    }
+    EXPECT_EQ(images, 4U);
+    ASSERT_GT(counts.either, 10'000U);
+    ASSERT_GT(counts.objects, 1000U);
+    EXPECT_GT(percent(counts.both, counts.either), least_label_union);
+    EXPECT_LT(percent(counts.taken, counts.objects), most_objects_taken);
+  }
 }
 
 /// Answers how many targets were judged.
-int compare_targets(const json& of_folder, const json& of_bag, std::size_t frames) {
+int compare_targets(const Json& of_folder, const Json& of_bag, std::size_t frames) {
   EXPECT_EQ(of_folder["frames"].size(), frames);
   EXPECT_EQ(of_bag["frames"].size(), frames);
   int judged = 0;
   for (std::size_t i = 0; i < frames; ++i) {
-    const json& a = of_folder["frames"][i]["targets"].at(0);
-    const json& b = of_bag["frames"][i]["targets"].at(0);
+    const Json& a = of_folder["frames"][i]["targets"].at(0);
+    const Json& b = of_bag["frames"][i]["targets"].at(0);
     EXPECT_EQ(a["verdict"], b["verdict"]) << a << b;
     EXPECT_EQ(a["inside"], b["inside"]);
     for (const char* fraction : {"occluded_fraction", "front_fraction", "clear_fraction",
@@ -129,94 +157,67 @@ int compare_targets(const json& of_folder, const json& of_bag, std::size_t frame
   return judged;
 }
 
-TEST_F(SimulateBag, IsJudgedAsTheFolder) {
+TEST_F(SimulateTest, ABagIsJudgedAsTheFolder) {
   for (const Scene& scene : scenes) {
     SCOPED_TRACE(scene.name);
     const std::string name = scene.name, bag = name + ".mcap";
-    std::vector<std::string> noise = {"--joint-sigma", "0.001"};
+    Words noise = {"--joint-sigma", "0.001"};
     if (name != "random") noise.insert(noise.end(), {"--joint-latency", "0.01"});
-    ASSERT_EQ(simulate(scene, name, noise).status, 0);
-    const Outcome made = simulate(scene, bag, noise);
-    ASSERT_EQ(made.status, 0) << made.err;
-    EXPECT_EQ(made.err, "");
+    succeed(simulate(scene, name, noise));
+    EXPECT_EQ(succeed(simulate(scene, bag, noise)).err, "");
     write_targets(scene, name);
-    const Outcome folder = penumbra({"run", path(name), "-o", path("of_folder"), "--save", "labels",
-                                     "--targets", path("targets.yaml")});
-    ASSERT_EQ(folder.status, 0) << folder.err;
-    const Outcome plain = penumbra({"run", path(bag), "-o", path("of_bag"), "--save", "labels"});
-    ASSERT_EQ(plain.status, 0) << plain.err;
-    std::size_t hidden = 0;
-    for (std::size_t i = 0; i < scene.end - scene.first; ++i)
-      compare_labels(path("of_folder") / "labels" / digits(scene.first + i),
-                     path("of_bag") / "labels" / digits(i), hidden);
-    EXPECT_GT(hidden, 10'000U);
-
-    const std::string topic = std::string("/truth/") + scene.object + "/pose";
-    const Outcome judged =
-        penumbra({"run", path(bag), "-o", path("of_bag"), "--target-topic", topic});
-    ASSERT_EQ(judged.status, 0) << judged.err;
-    EXPECT_GT(compare_targets(json::parse(read_file(path("of_folder") / "report.json")),
-                              json::parse(read_file(path("of_bag") / "report.json")),
-                              scene.end - scene.first),
+    succeed(run(name, "of_folder", {"--targets", path("targets.yaml")}));
+    succeed(run(bag, "of_bag"));
+    expect_same_labels(scene);
+    succeed(
+        run(bag, "of_bag", {"--target-topic", std::string("/truth/") + scene.object + "/pose"}));
+    EXPECT_GT(compare_targets(read_json(path("of_folder/report.json")),
+                              read_json(path("of_bag/report.json")), scene.end - scene.first),
               0);
   }
 }
 
-TEST_F(SimulateBag, OfTwoArmsIsJudgedAsTheFolder) {
+TEST_F(SimulateTest, ABagOfTwoArmsIsJudgedAsTheFolder) {
   const Scene scene{"two_arms", 0, 3, ""};
-  ASSERT_EQ(simulate(scene, "cell").status, 0);
-  ASSERT_EQ(simulate(scene, "cell.mcap").status, 0);
-  ASSERT_EQ(penumbra({"run", path("cell"), "-o", path("of_folder"), "--save", "labels"}).status, 0);
-  const Outcome bag = penumbra({"run", path("cell.mcap"), "-o", path("of_bag"), "--save", "labels",
-                                "--robot-namespace", "left", "--robot-namespace", "/right"});
-  ASSERT_EQ(bag.status, 0) << bag.err;
-  std::size_t hidden = 0;
-  for (std::size_t i = 0; i < 3; ++i)
-    compare_labels(path("of_folder") / "labels" / digits(i), path("of_bag") / "labels" / digits(i),
-                   hidden);
-  EXPECT_GT(hidden, 10'000U);
-  const Outcome wrong = penumbra({"run", path("cell.mcap"), "-o", path("none"), "--robot-namespace",
-                                  "left", "--robot-namespace", "middle"});
+  succeed(simulate(scene, "cell"));
+  succeed(simulate(scene, "cell.mcap"));
+  succeed(run("cell", "of_folder"));
+  succeed(run("cell.mcap", "of_bag", {"--robot-namespace", "left", "--robot-namespace", "/right"}));
+  expect_same_labels(scene);
+  const Outcome wrong =
+      run("cell.mcap", "none", {"--robot-namespace", "left", "--robot-namespace", "middle"});
   EXPECT_EQ(wrong.status, 2);
-  EXPECT_NE(wrong.err.find("/middle/joint_states"), std::string::npos) << wrong.err;
+  expect_has(wrong.err, {"/middle/joint_states"});
 }
 
-TEST_F(SimulateBag, OfTwoCamerasIsJudgedTogether) {
+TEST_F(SimulateTest, ABagOfTwoCamerasIsJudgedTogether) {
   const Scene scene{"random", 3, 6, "target_0"};
-  ASSERT_EQ(simulate(scene, "two.mcap", {"--second-camera"}).status, 0);
-  const std::vector<std::string> run = {"run", path("two.mcap"), "--target-topic",
-                                        "/truth/target_0/pose", "-o"};
-  const auto judged = [&](const std::string& out, const std::vector<std::string>& cameras) {
-    std::vector<std::string> all = run;
-    all.push_back(path(out));
-    all.insert(all.end(), cameras.begin(), cameras.end());
-    return penumbra(all);
+  const std::string first = "/camera/depth/image_rect_raw",
+                    second = "/second_camera/depth/image_rect_raw";
+  succeed(simulate(scene, "two.mcap", {"--second-camera"}));
+  const auto judged = [&](const std::string& to, const Words& cameras) {
+    return run("two.mcap", to, Words{"--target-topic", "/truth/target_0/pose"} + cameras);
   };
-  const Outcome both = judged("both", {"--camera", "a=/camera/depth/image_rect_raw", "--camera",
-                                       "b=/second_camera/depth/image_rect_raw"});
-  ASSERT_EQ(both.status, 0) << both.err;
-  const json views = json::parse(read_file(path("both") / "views.json"));
+  succeed(judged("both", {"--camera", "a=" + first, "--camera", "b=" + second}));
+  const Json views = read_json(path("both/views.json"));
   ASSERT_EQ(views["frames"].size(), 3U);
-  for (const auto& [name, topic] : {std::pair("a", "/camera/depth/image_rect_raw"),
-                                    {"b", "/second_camera/depth/image_rect_raw"}}) {
-    ASSERT_EQ(judged("one", {"--depth-topic", topic, "--force"}).status, 0);
-    const json one = json::parse(read_file(path("one") / "report.json"));
+  for (const auto& [name, topic] : {std::pair("a", first), {"b", second}}) {
+    succeed(judged("one", {"--depth-topic", topic, "--force"}));
+    const Json one = read_json(path("one/report.json"));
     for (std::size_t i = 0; i < 3; ++i) {
-      const json& view = views["frames"][i]["targets"].at(0)["views"];
-      const auto same = [camera = name](const json& each) { return each["camera"] == camera; };
+      const Json& view = views["frames"][i]["targets"].at(0)["views"];
+      const auto same = [camera = name](const Json& each) { return each["camera"] == camera; };
       const auto found = std::find_if(view.begin(), view.end(), same);
       ASSERT_NE(found, view.end());
       EXPECT_EQ((*found)["verdict"], one["frames"][i]["targets"].at(0)["verdict"]);
     }
   }
-  const Outcome wrong = judged("none", {"--camera", "a=/camera/none"});
-  EXPECT_EQ(wrong.status, 2);
-  EXPECT_NE(wrong.err.find("/camera/none"), std::string::npos) << wrong.err;
+  expect_failed(judged("none", {"--camera", "a=/camera/none"}), {"/camera/none"});
 }
 
 /// What decode.mjs says of an image's bytes.
 template <typename T>
-json array_of(const Image<T>& image) {
+Json array_of(const Image<T>& image) {
   char crc[9];
   std::snprintf(crc, sizeof crc, "%08x",
                 io::mcap::crc32(std::as_bytes(std::span(image.data(), image.size()))));
@@ -224,27 +225,27 @@ json array_of(const Image<T>& image) {
 }
 
 /// Messages of a bag as the reference library reads them, by topic.
-std::map<std::string, std::vector<json>> decoded(const fs::path& bag) {
+std::map<std::string, std::vector<Json>> decoded(const fs::path& bag) {
   const ScriptResult checked = run_script("read_back.mjs", "'" + bag.string() + "'");
   EXPECT_EQ(checked.status, 0) << checked.errors;
   const ScriptResult told = run_script("decode.mjs", "'" + bag.string() + "'");
   EXPECT_EQ(told.status, 0) << told.errors;
-  std::map<std::string, std::vector<json>> messages;
+  std::map<std::string, std::vector<Json>> messages;
   std::istringstream lines(told.output);
   for (std::string line; std::getline(lines, line);) {
-    const json one = json::parse(line);
+    const Json one = Json::parse(line);
     messages[one["topic"]].push_back(one);
   }
   return messages;
 }
 
-void expect_joints(const json& message, const std::map<std::string, std::string>& row) {
+void expect_joints(const Json& message, const std::map<std::string, std::string>& row) {
   EXPECT_EQ(message["name"].size(), row.size() - 2);
   for (std::size_t i = 0; i < message["name"].size(); ++i)
     EXPECT_EQ(message["position"][i].get<double>(), std::stod(row.at(message["name"][i])));
 }
 
-void expect_truth(const json& pose, const json& target, std::map<std::string, std::string> row) {
+void expect_truth(const Json& pose, const Json& target, std::map<std::string, std::string> row) {
   const auto number = [&](const char* column) { return std::stod(row.at(column)); };
   constexpr double rounding = 1e-12;  // of a quaternion made of a matrix, twice
   for (const char* axis : {"x", "y", "z"})
@@ -262,12 +263,12 @@ void expect_truth(const json& pose, const json& target, std::map<std::string, st
               (alone - behind - number("pixels_seen")) / alone, rounding);
 }
 
-TEST_F(SimulateBag, TheReferenceLibraryReadsWhatTheFolderHolds) {
+TEST_F(SimulateTest, TheReferenceLibraryReadsWhatTheFolderHolds) {
   PENUMBRA_REQUIRE_NODE_SCRIPTS();
   const Scene& scene = scenes[0];
-  const std::vector<std::string> options = {"--second-camera", "--joint-sigma", "0.001"};
-  ASSERT_EQ(simulate(scene, "folder", options).status, 0);
-  ASSERT_EQ(simulate(scene, "bag.mcap", options).status, 0);
+  const Words options = {"--second-camera", "--joint-sigma", "0.001"};
+  succeed(simulate(scene, "folder", options));
+  succeed(simulate(scene, "bag.mcap", options));
   const auto messages = decoded(path("bag.mcap"));
   const auto& descriptions = messages.at("/robot_description");
   ASSERT_EQ(descriptions.size(), 1U);
@@ -286,7 +287,7 @@ TEST_F(SimulateBag, TheReferenceLibraryReadsWhatTheFolderHolds) {
       if (all.size() == 1) continue;
       ASSERT_EQ(all.size(), truth.size()) << topic;
       EXPECT_EQ(all[i]["logTime"], truth[i].at("stamp")) << topic;
-      const json& stamp = all[i]["message"]["header"]["stamp"];
+      const Json& stamp = all[i]["message"]["header"]["stamp"];
       EXPECT_EQ(stamp["sec"].get<std::int64_t>() * 1'000'000'000 + stamp["nanosec"].get<int>(),
                 std::stoll(truth[i].at("stamp")));
     }
@@ -294,7 +295,7 @@ TEST_F(SimulateBag, TheReferenceLibraryReadsWhatTheFolderHolds) {
     expect_joints(of("/joint_states"), joints.at(i));
     expect_joints(of("/truth/joint_states"), true_joints.at(i));
     expect_truth(of("/truth/parcel/pose"), of("/truth/targets")["targets"][0], truth[i]);
-    const std::string file = digits(scene.first + i);
+    const std::string file = numbered(scene.first + i);
     for (const auto& [topic, kind] : {std::pair("/camera/depth/image_rect_raw", "depth"),
                                       {"/second_camera/depth/image_rect_raw", "second_depth"},
                                       {"/truth/ids", "ids"}})
@@ -306,17 +307,33 @@ TEST_F(SimulateBag, TheReferenceLibraryReadsWhatTheFolderHolds) {
   }
 }
 
-TEST_F(SimulateBag, RefusesBadOutput) {
+TEST_F(SimulateTest, RefusesBadInput) {
+  expect_all_refused([this](const Words& line) { return simulate(line, "out"); },
+                     {{{"conveyer"}, "conveyor"},
+                      {{}, "SCENE"},
+                      {{"conveyor", "--seed", "1.5"}, "--seed"},
+                      {{"conveyor", "--joint-sigma", "nan"}, "--joint-sigma"},
+                      {{"conveyor", "--joint-sigma", "-1"}, "joint_sigma"},
+                      {{"conveyor", "--belt-jitter", "2"}, "belt_jitter"},
+                      {{"conveyor", "--frames", "5:5"}, "0:150"},
+                      {{"conveyor", "--frames", "0:151"}, "0:150"},
+                      {{"conveyor", "--duration", "1e99"}, "duration"},
+                      {{"conveyor", "--duration", "0"}, "--duration"},
+                      {{"conveyor", "--rate", "0"}, "frame_rate"},
+                      {{"conveyor", "--rate", "0.1"}, "--rate"},
+                      {{"random", "--joint-latency", "0.1"}, "joint_latency"},
+                      {{"handover", "--belt-jitter", "0.3"}, "belt_jitter"}});
+  EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(SimulateTest, RefusesBadOutput) {
   const auto refused = [&](const std::string& to, const std::string& words) {
-    const Outcome outcome = simulate(scenes[0], to);
-    EXPECT_EQ(outcome.status, 2) << to;
-    EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    expect_refused(simulate(scenes[0], to), {words});
   };
   refused("bag.db3", "bags are written as .mcap");
   refused("nowhere/bag.mcap", "No such file or directory");
   refused("/proc/bag.mcap", "cannot be written");
-  EXPECT_TRUE(fs::is_empty(folder_.path()));
+  EXPECT_TRUE(fs::is_empty(path()));
 
   write_file(path("mine.mcap"), "mine");
   refused("mine.mcap", "mine.mcap is there");
@@ -325,10 +342,10 @@ TEST_F(SimulateBag, RefusesBadOutput) {
   refused("link.mcap", "link.mcap is there");
 
   fs::create_directory(path("arm_description"));
-  write_file(path("arm_description") / "arm.urdf", "<robot/>");
+  write_file(path("arm_description/arm.urdf"), "<robot/>");
   refused("bag.mcap", "does not hold the simulated arm's meshes");
-  EXPECT_EQ(read_file(path("arm_description") / "arm.urdf"), "<robot/>");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 3);
+  EXPECT_EQ(read_file(path("arm_description/arm.urdf")), "<robot/>");
+  EXPECT_EQ(std::distance(fs::directory_iterator(path()), fs::directory_iterator()), 3);
 }
 
 }  // namespace
