@@ -128,6 +128,7 @@ const framesPass = (page, count) =>
         const socket = new WebSocket(`ws://${location.host}/api/live`);
         const request = () => socket.send(JSON.stringify({ type: 'ready' }));
         let frames = 0;
+        socket.binaryType = 'arraybuffer';
         socket.onopen = () => {
           socket.send(JSON.stringify({ type: 'want', with: [], step: 1 }));
           request();
@@ -142,13 +143,39 @@ const framesPass = (page, count) =>
     count,
   );
 
-/** Returns the number of the frame that the paused page shows. */
+/** Runs in the page: `window.connection` counts what it requests and receives. */
+function countPackets() {
+  window.WebSocket = class extends WebSocket {
+    requested = 0;
+    received = 0;
+    frame = null; // of the newest packet
+    constructor(...address) {
+      super(...address);
+      window.connection = this;
+      this.addEventListener('message', ({ data }) => {
+        const json = new Uint8Array(data, 4, new DataView(data).getUint32(0, true));
+        this.frame = JSON.parse(new TextDecoder().decode(json)).frame.index;
+        ++this.received;
+      });
+    }
+    send(text) {
+      this.requested += JSON.parse(text).type === 'ready' ? 1 : 0;
+      super.send(text);
+    }
+  };
+}
+
+/** Returns the number of the frame that the paused page shows: of the last packet that it requested. */
 async function pausedFrame(page) {
-  await framesPass(page, 3); // the page may still show a frame that it had requested
-  const before = await frameOf(page);
+  await page.waitForFunction(() => window.connection.received === window.connection.requested);
+  const last = await page.evaluate(() => window.connection.frame);
+  await page.waitForFunction(
+    (expected) => document.getElementById('frame-number').textContent === expected,
+    String(last),
+  );
   await framesPass(page, 10);
-  assert.equal(await frameOf(page), before, 'frames change while the page is paused');
-  return before;
+  assert.equal(await frameOf(page), last, 'the paused page keeps its frame');
+  return last;
 }
 
 async function heapOf(page) {
@@ -179,6 +206,7 @@ test(
     });
     let scenes = 0;
     page.on('request', (request) => (scenes += request.url().includes('/api/scene.bin') ? 1 : 0));
+    await page.addInitScript(countPackets);
     await page.goto(view.url);
     await page.getByText('Waiting for the first frame').waitFor();
     const playing = () => start('play', bag, '--loop', '--restamp', '--rate', rate);
