@@ -42,29 +42,6 @@ if(PENUMBRA_SANITIZE)
   target_link_options(penumbra_flags INTERFACE -fsanitize=${PENUMBRA_SANITIZE})
 endif()
 
-# ccache makes little of precompiled headers; without it they save the parsing of Eigen and of the
-# standard library in every source.
-set(precompile ON)
-if(CCACHE_PROGRAM)
-  set(precompile OFF)
-endif()
-option(PENUMBRA_PRECOMPILE "Precompile the headers that most sources include" ${precompile})
-if(PENUMBRA_PRECOMPILE)
-  find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "\n")
-  add_library(penumbra_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
-  target_link_libraries(penumbra_precompiled PRIVATE Eigen3::Eigen penumbra_flags)
-  target_precompile_headers(penumbra_precompiled PRIVATE <algorithm> <array> <chrono> <filesystem>
-    <fstream> <functional> <iostream> <map> <memory> <mutex> <optional> <set> <span> <sstream>
-    <string> <string_view> <thread> <utility> <variant> <vector> <Eigen/Geometry>
-    <nlohmann/json.hpp>)
-endif()
-function(penumbra_precompile target)
-  if(PENUMBRA_PRECOMPILE)
-    target_precompile_headers(${target} REUSE_FROM penumbra_precompiled)
-  endif()
-endfunction()
-
 set(PENUMBRA_ROOMS "" CACHE STRING "The only folders of the core to build; a room needs those before it")
 mark_as_advanced(PENUMBRA_ROOMS)
 
@@ -81,7 +58,6 @@ function(penumbra_library library)
   target_link_libraries(${library} PRIVATE Threads::Threads $<BUILD_INTERFACE:penumbra_flags>)
   set_target_properties(${library} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION}
                                               SOVERSION ${PROJECT_VERSION_MAJOR})
-  penumbra_precompile(${library})
 endfunction()
 
 # penumbra_room(LIBRARY ROOM source...): adds a folder's sources to a library.

@@ -8,9 +8,10 @@ out=${1:-out/demo}
 scripts/packages.sh --install build
 cmake --preset release -DPENUMBRA_BUILD_TESTS=OFF -DPENUMBRA_BUILD_EXAMPLES=OFF \
   -DPENUMBRA_WARNINGS_AS_ERRORS=OFF -B build/demo >/dev/null
-cmake --build build/demo --target penumbra_app
+cmake --build build/demo --target penumbra_demo
 
-build/demo/apps/penumbra/penumbra run examples/arm_over_table -o "$out" \
+build/demo/apps/penumbra/penumbra-demo run examples/arm_over_table -o "$out" \
   --save overlay,labels,links,vdi
 echo "pictures: $out/overlay/*.png   labels: $out/labels/*.png   report: $out/report.json"
-echo 'in the browser: build/demo/apps/penumbra/penumbra view examples/arm_over_table'
+echo 'next: "cmake --build build/demo" builds the rest: bags, the browser, calibration and more;'
+echo 'then: build/demo/apps/penumbra/penumbra view examples/arm_over_table'

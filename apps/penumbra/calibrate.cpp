@@ -11,7 +11,8 @@
 #include <penumbra/calibration/calibration.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
 
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/calibration_report.hpp>
@@ -23,6 +24,15 @@
 
 namespace penumbra::app {
 namespace {
+
+struct CalibrateArguments {
+  io::CalibrationInputOptions input;
+  std::filesystem::path output;  ///< empty: nothing is written
+  std::optional<std::filesystem::path> initial;
+  bool search = false;
+  bool focal = false;
+  bool joint_offsets = false;  ///< the time offset is in `input`
+};
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 
@@ -126,7 +136,37 @@ std::string other_cause(const io::CalibrationInput& input, const CalibrationOpti
   return is_other ? found.message : std::string();
 }
 
-}  // namespace
+void add_options(CLI::App& app, CalibrateArguments& calibrate) {
+  app.footer(calibrate_examples);
+  io::InputOptions& input = calibrate.input.input;
+  add_input(app, input);
+  add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", calibrate.output);
+  add_text(app, "--initial",
+           "first guess of the camera's pose, 4x4, at most 100 mm and 10 degrees off; default: the "
+           "input's own",
+           "FILE", calibrate.initial);
+  app.add_flag("--search", calibrate.search, "find the camera without a first guess");
+  add_text(app, "--masks",
+           "images that are not 0 where the colour image shows the robot, as mask_%d.png; needed "
+           "without depth",
+           "PATTERN", calibrate.input.masks);
+  app.add_flag("--focal", calibrate.focal, "estimate the focal lengths fx and fy, too");
+  app.add_flag("--joint-offsets", calibrate.joint_offsets,
+               "estimate the zero offset of joints that the images contradict, too");
+  app.add_flag("--time-offset", calibrate.input.time_offset,
+               "estimate the time between images and poses, too, from frames of a moving arm");
+  add_drawn(app, input, "the recording's, else collision");
+  add_frames(app, input.frames);
+  add_bag(app, input.bag, {.time_offset = false});
+}
+
+void check_options(const CLI::App& app, CalibrateArguments& calibrate) {
+  note_bag_option(app, calibrate.input.input);
+  if (calibrate.search && calibrate.initial)
+    throw InputError("--search: --initial is given too; leave one of them out");
+  calibrate.input.input.needs_depth = !calibrate.input.masks;
+  calibrate.input.input.needs_camera_pose = !calibrate.search && !calibrate.initial;
+}
 
 int execute(const CalibrateArguments& arguments) {
   std::optional<io::ResultFolder> folder;
@@ -181,6 +221,12 @@ int execute(const CalibrateArguments& arguments) {
   print_pose(found, parent, input.input.camera.frame_id);
   if (folder) print_use(arguments, input.input.bag.has_value(), parent);
   return 0;
+}
+
+}  // namespace
+
+Execute add_calibrate(CLI::App& app) {
+  return make_command<CalibrateArguments>(app, add_options, check_options, execute);
 }
 
 }  // namespace penumbra::app

@@ -10,19 +10,26 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/run_cameras.hpp>
+#include <apps/penumbra/server_options.hpp>
 #include <apps/penumbra/text.hpp>
+#include <io/run/cloud_run.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/stored_view.hpp>
 #include <io/web/web_server.hpp>
 
 namespace penumbra::app {
+namespace {
 
-void add_cloud(CLI::App& app, CloudArguments& arguments) {
+struct CloudArguments {
+  io::CloudRunOptions run;
+  ServerArguments server;  ///< no page is served without a port
+};
+
+void add_options(CLI::App& app, CloudArguments& arguments) {
   app.footer(cloud_examples);
   io::CloudRunOptions& cloud = arguments.run;
   io::InputOptions& input = cloud.input;
@@ -86,7 +93,7 @@ void add_cloud(CLI::App& app, CloudArguments& arguments) {
   for (std::size_t i = first; i < options.size(); ++i) options[i]->group(BagHelp().group);
 }
 
-void check_cloud(const CLI::App& app, CloudArguments& arguments) {
+void check_options(const CLI::App& app, CloudArguments& arguments) {
   io::CloudRunOptions& cloud = arguments.run;
   note_bag_option(app, cloud.input);
   check_server(arguments.server);
@@ -222,6 +229,12 @@ int execute(const CloudArguments& arguments) {
     while (!was_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   return result.is_stopped ? interrupt_status() : labelled > 0 ? 0 : nothing_judged;
+}
+
+}  // namespace
+
+Execute add_cloud(CLI::App& app) {
+  return make_command<CloudArguments>(app, add_options, check_options, execute);
 }
 
 }  // namespace penumbra::app

@@ -13,13 +13,18 @@
 #include <penumbra/render/gl/gl_devices.hpp>
 
 #include <apps/penumbra/build_info.hpp>
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
 #include <apps/penumbra/receive_buffers.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/json-inl.hpp>
 
 namespace penumbra::app {
 namespace {
+
+struct DoctorArguments {
+  bool json = false;
+};
 
 using io::Json;
 using io::or_null;
@@ -180,7 +185,10 @@ void print_machine(const Json& machine) {
   print_table(rows);
 }
 
-}  // namespace
+void add_options(CLI::App& app, DoctorArguments& doctor) {
+  app.footer(doctor_examples);
+  app.add_flag("--json", doctor.json, "print JSON instead of text");
+}
 
 int execute(const DoctorArguments& arguments) {
   const Json machine = examine_machine();
@@ -189,6 +197,12 @@ int execute(const DoctorArguments& arguments) {
   else
     print_machine(machine);
   return 0;
+}
+
+}  // namespace
+
+Execute add_doctor(CLI::App& app) {
+  return make_command<DoctorArguments>(app, add_options, nullptr, execute);
 }
 
 }  // namespace penumbra::app

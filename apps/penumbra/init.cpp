@@ -1,11 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
 
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
 #include <io/files/names.hpp>
 #include <io/files/printable.hpp>
+#include <io/run/init_recording.hpp>
 
 namespace penumbra::app {
+namespace {
+
+void add_options(CLI::App& app, io::InitOptions& init) {
+  app.footer(init_examples);
+  add_text(app, "FOLDER", "images, joint file, URDF, camera_info", "", init.folder)->required();
+  add_text(app, "--robot", "the robot; default: the URDF in the folder", "URDF", init.robot);
+  add_packages(app, init.packages);
+  app.add_flag("--force", init.force, "replace a recording.yaml");
+}
 
 int execute(const io::InitOptions& options) {
   const io::InitResult result = io::init_recording(options);
@@ -18,6 +29,12 @@ int execute(const io::InitOptions& options) {
                                 : "calibrate " + folder + " --search -o calibrated")
             << '\n';
   return 0;
+}
+
+}  // namespace
+
+Execute add_init(CLI::App& app) {
+  return make_command<io::InitOptions>(app, add_options, nullptr, execute);
 }
 
 }  // namespace penumbra::app

@@ -7,13 +7,20 @@
 #include <penumbra/robot/drawn_links-inl.hpp>
 #include <penumbra/robot/robot.hpp>
 
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/report_json.hpp>
 
 namespace penumbra::app {
 namespace {
+
+struct InspectArguments {
+  std::filesystem::path robot;
+  RobotOptions options;
+  bool json = false;
+};
 
 using Row = std::vector<std::string>;
 
@@ -81,7 +88,12 @@ void print_robot(const Robot& robot) {
   if (!robot.notes().empty()) std::cout << '\n';
 }
 
-}  // namespace
+void add_options(CLI::App& app, InspectArguments& inspect) {
+  app.footer(inspect_examples);
+  add_text(app, "URDF", "the robot", "", inspect.robot)->required();
+  add_robot(app, inspect.options);
+  app.add_flag("--json", inspect.json, "print JSON instead of tables");
+}
 
 int execute(const InspectArguments& arguments) {
   RobotOptions options = arguments.options;
@@ -95,6 +107,12 @@ int execute(const InspectArguments& arguments) {
   // The status is that of the commands that draw it with these options.
   check_is_drawn(Robot::load(arguments.robot, arguments.options));
   return 0;
+}
+
+}  // namespace
+
+Execute add_inspect(CLI::App& app) {
+  return make_command<InspectArguments>(app, add_options, nullptr, execute);
 }
 
 }  // namespace penumbra::app

@@ -16,7 +16,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/mesh/primitives.hpp>
 
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/live_arguments.hpp>
 #include <apps/penumbra/live_cameras.hpp>
 #include <apps/penumbra/live_graph.hpp>
 #include <apps/penumbra/live_pages.hpp>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <apps/penumbra/arguments.hpp>
+#include <apps/penumbra/live_arguments.hpp>
 #include <io/assembly/bag_topics.hpp>
 #include <io/dds/participant.hpp>
 #include <io/live/live_inbox.hpp>

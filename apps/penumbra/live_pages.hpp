@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include <apps/penumbra/arguments.hpp>
+#include <apps/penumbra/live_arguments.hpp>
 #include <io/live/live_runner.hpp>
 #include <io/ros/messages.hpp>
 

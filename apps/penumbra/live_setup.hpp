@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <apps/penumbra/arguments.hpp>
+#include <apps/penumbra/live_arguments.hpp>
 #include <io/assembly/result_encoder.hpp>
 #include <io/live/live_diagnostics.hpp>
 #include <io/live/live_inbox.hpp>

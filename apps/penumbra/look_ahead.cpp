@@ -9,7 +9,8 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/run/look_ahead_input.hpp>
@@ -18,7 +19,13 @@
 namespace penumbra::app {
 namespace {
 
-std::string seconds(const std::optional<double>& time) {
+struct LookAheadArguments {
+  io::LookAheadOptions input;
+  std::filesystem::path output;  ///< empty: nothing is written
+  std::optional<int> threads;    ///< null: one per core
+};
+
+std::string seconds_text(const std::optional<double>& time) {
   return time ? fixed(*time, 2) + " s" : "-";
 }
 
@@ -31,11 +38,11 @@ std::vector<std::string> row_of(const std::string& target, const std::string& ca
   return {target,
           camera,
           std::string(to_string(forecast.intervals.front().verdict)),
-          seconds(forecast.hidden_at()),
+          seconds_text(forecast.hidden_at()),
           hidden > 0.0 ? fixed(hidden, 2) + " s" : "-",
           fixed(100.0 * worst->hidden, 0) + " %",
           worst->by.empty() ? "-" : worst->by,
-          seconds(forecast.seen_again_at())};
+          seconds_text(forecast.seen_again_at())};
 }
 
 void print_motion(const io::LookAheadResult& result, std::size_t motion) {
@@ -66,7 +73,33 @@ void add_unknown(const std::string& motion, const std::vector<TargetForecast>& t
   }
 }
 
-}  // namespace
+void add_options(CLI::App& app, LookAheadArguments& ahead) {
+  app.footer(look_ahead_examples);
+  io::InputOptions& input = ahead.input.input;
+  add_input(app, input);
+  add_list(
+      app, "--trajectory",
+      "a planned motion: *.csv with time,JOINT,..., or a message in YAML or JSON; may be given "
+      "several times: they are ranked; default: the bag's plan",
+      "FILE", [&](const std::string& file) { ahead.input.trajectories.emplace_back(file); });
+  add_text(app, "--targets", "what to keep in view; default: the recording's", "YAML",
+           ahead.input.targets);
+  add_number<std::int64_t>(
+      app, "--from",
+      "frame in which the motion begins; default: the first with joints and a motion", "N",
+      ahead.input.from, 0, std::numeric_limits<std::int64_t>::max() - 1);
+  add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", ahead.output);
+  add_number(app, "--threads", "default: one per core; results do not depend on it", "N",
+             ahead.threads, 1, RendererOptions::max_threads);
+  add_drawn(app, input, "the recording's, else collision");
+  add_bag(app, input.bag);
+}
+
+void check_options(const CLI::App& app, LookAheadArguments& ahead) {
+  note_bag_option(app, ahead.input.input);
+  if (!ahead.input.input.bag.target_topics.empty())
+    throw InputError("--target-topic: targets come from the file of --targets; leave it out");
+}
 
 int execute(const LookAheadArguments& arguments) {
   std::optional<io::ResultFolder> folder;
@@ -117,6 +150,12 @@ int execute(const LookAheadArguments& arguments) {
   folder->add_text("look_ahead.json", json);
   folder->finish();
   return 0;
+}
+
+}  // namespace
+
+Execute add_look_ahead(CLI::App& app) {
+  return make_command<LookAheadArguments>(app, add_options, check_options, execute);
 }
 
 }  // namespace penumbra::app

@@ -8,12 +8,18 @@ namespace penumbra::app {
 namespace {
 
 constexpr int most_gl_devices = 1000;
-constexpr std::uint16_t most_port = 65535, default_port = 8470;
 
 }  // namespace
 
 void refuse_option(const std::string& option, const std::string& value, const std::string& wanted) {
   throw InputError(option + ": '" + value + "' is not " + wanted);
+}
+
+Execute refuse_command(CLI::App& app, const char* why) {
+  app.allow_extras();
+  app.description(app.get_description() + " (not in this build: penumbra " + app.get_name() +
+                  " says why)");
+  return [why]() -> int { throw InputError(why); };
 }
 
 std::pair<std::string, std::string> to_pair(const std::string& option, const std::string& text,
@@ -22,25 +28,6 @@ std::pair<std::string, std::string> to_pair(const std::string& option, const std
   if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
     refuse_option(option, text, wanted);
   return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
-io::WebOptions web_options(const ServerArguments& server) {
-  io::WebOptions options{.port = server.port.value_or(default_port)};
-  if (server.address) options.address = *server.address;
-  return options;
-}
-
-void add_server(CLI::App& app, ServerArguments& server, const std::string& port_help) {
-  add_number<std::uint16_t>(app, "--port", port_help, "N", server.port, 0, most_port);
-  add_text(app, "--address",
-           "IP address to serve on; default 127.0.0.1, this machine alone; another needs the token "
-           "that is printed",
-           "IP", server.address);
-}
-
-void check_server(const ServerArguments& server) {
-  if (server.address && !server.port)
-    throw InputError("--address: belongs to the page that --port serves; give --port, too");
 }
 
 void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& packages) {
@@ -54,6 +41,11 @@ void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& p
   };
   add_list(app, "--package", "where package://NAME is; may be given several times", "NAME=DIR",
            take);
+}
+
+void add_robot(CLI::App& app, RobotOptions& options) {
+  add_packages(app, options.packages);
+  add_drawn(app, options, "collision");
 }
 
 void add_renderer(CLI::App& app, Backend& backend, RendererOptions& renderer) {

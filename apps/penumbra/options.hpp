@@ -15,13 +15,18 @@
 
 #include <CLI/CLI.hpp>
 
-#include <apps/penumbra/arguments.hpp>
+#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/run_cameras.hpp>
 #include <io/files/numbers.hpp>
 
 namespace penumbra::app {
 
 [[noreturn]] void refuse_option(const std::string& option, const std::string& value,
                                 const std::string& wanted);
+
+/// Makes a command that this build lacks: whatever its arguments are, it throws InputError with
+/// `why`.
+[[nodiscard]] Execute refuse_command(CLI::App& app, const char* why);
 
 /// Splits NAME=VALUE at the first '='.
 [[nodiscard]] std::pair<std::string, std::string> to_pair(const std::string& option,
@@ -121,10 +126,7 @@ void add_drawn(CLI::App& app, Drawn& drawn, const std::string& default_geometry)
   add_leniency(app, drawn.allow_missing_meshes, drawn.geometry_fallback);
 }
 
-/// --port and --address. `port_help`: the meaning of --port.
-void add_server(CLI::App& app, ServerArguments& server, const std::string& port_help);
-/// Throws InputError for an address without a port.
-void check_server(const ServerArguments& server);
+void add_robot(CLI::App& app, RobotOptions& options);
 
 /// Texts in the help of a bag's options.
 struct BagHelp {
@@ -160,6 +162,14 @@ void add_bag_robot(CLI::App& app, io::BagOptions& bag, const BagHelp& help = {})
 /// Which topics run, tune, view and live use, and values that they lack.
 void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help = {});
 
+/// An input of camera images, and which camera of a recording.
+void add_path(CLI::App& app, io::InputOptions& input);
+void add_input(CLI::App& app, io::InputOptions& input);
+/// Which frames and targets are judged, in which images.
+void add_sequence(CLI::App& app, io::SessionOptions& session);
+/// Checks what run, tune and view have in common.
+void check_session(const CLI::App& app, io::SessionOptions& session);
+
 /// Adds a camera. Refuses a name below which results cannot come, and one that is given already.
 void add_camera(std::vector<NamedCamera>& cameras, const std::string& name,
                 const std::string& depth_topic);
@@ -169,28 +179,5 @@ void note_bag_option(const CLI::App& app, io::InputOptions& input);
 
 /// Refuses options that the chosen renderer does not use.
 void check_renderer(Backend backend, const RendererOptions& options);
-
-// The options of the commands.
-void add_run(CLI::App& app, RunArguments& run);
-void add_tune(CLI::App& app, TuneArguments& tune);
-void add_calibrate(CLI::App& app, CalibrateArguments& calibrate);
-void add_view(CLI::App& app, ViewArguments& view);
-void add_view_planning(CLI::App& app, ViewPlanningArguments& planning);
-void add_look_ahead(CLI::App& app, LookAheadArguments& ahead);
-void add_cloud(CLI::App& app, CloudArguments& arguments);
-void add_simulate(CLI::App& app, SimulateArguments& simulate);
-void add_topics(CLI::App& app, TopicsArguments& topics);
-void add_play(CLI::App& app, PlayArguments& play);
-void add_live(CLI::App& app, LiveArguments& live);
-
-// Each refuses options of its command that exclude each other, and derives the rest from them.
-void check_run(const CLI::App& app, RunArguments& run);
-void check_cloud(const CLI::App& app, CloudArguments& arguments);
-void check_tune(const CLI::App& app, TuneArguments& tune);
-void check_calibrate(const CLI::App& app, CalibrateArguments& calibrate);
-void check_view(const CLI::App& app, ViewArguments& view);
-void check_view_planning(const CLI::App& app, ViewPlanningArguments& planning);
-void check_look_ahead(const CLI::App& app, LookAheadArguments& ahead);
-void check_live(const CLI::App& app, const LiveArguments& live);
 
 }  // namespace penumbra::app

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -12,16 +13,31 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/graph_options.hpp>
+#include <apps/penumbra/help.hpp>
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/bag/bag_reader.hpp>
+#include <io/dds/graph_names.hpp>
 #include <io/dds/participant.hpp>
 #include <io/files/printable.hpp>
 #include <io/ros/restamp.hpp>
 
 namespace penumbra::app {
 namespace {
+
+struct PlayArguments {
+  std::filesystem::path bag;
+  io::ParticipantOptions graph;
+  double rate = 1.0;
+  double start = 0.0;  ///< seconds after the first message
+  double delay = 1.0;  ///< seconds before it is published
+  bool loop = false;
+  std::vector<std::string> topics;   ///< empty: all
+  std::vector<std::string> latched;  ///< empty: by their names
+  std::map<std::string, std::string> remaps;
+  bool restamp = false;
+};
 
 using namespace std::chrono;
 
@@ -256,7 +272,44 @@ void print_topics(const BagPlayer& player, int domain) {
   std::cout << std::flush;
 }
 
-}  // namespace
+constexpr double longest_bag = 1e8;  // s: three years
+
+void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps) {
+  add_list(app, "--remap", "another name for a topic; may be given several times", "FROM:=TO",
+           [&](const std::string& text) {
+             const std::size_t middle = text.find(":=");
+             if (middle == std::string::npos)
+               refuse_option("--remap", text, "FROM:=TO, two full names of topics");
+             const std::string from = text.substr(0, middle), to = text.substr(middle + 2);
+             static_cast<void>(io::dds_topic(from));
+             static_cast<void>(io::dds_topic(to));
+             if (!remaps.emplace(from, to).second)
+               throw InputError("--remap: " + from + " is given twice");
+           });
+}
+
+void add_options(CLI::App& app, PlayArguments& play) {
+  app.footer(play_examples);
+  add_text(app, "BAG", "*.mcap, *.db3, or a folder with metadata.yaml", "", play.bag)->required();
+  add_domain(app, play.graph);
+  add_number(app, "--rate", "times as fast as recorded; default 1", "R", play.rate, 0.001, 1000.0);
+  add_number(app, "--start", "begin so many seconds after the first message; default 0", "S",
+             play.start, 0.0, longest_bag);
+  add_number(app, "--delay", "wait before the first message, for others to find us; default 1", "S",
+             play.delay, 0.0, longest_wait);
+  app.add_flag("--loop", play.loop, "begin again at the end, until Ctrl-C");
+  add_option(app, "--topics", "play only these, with commas between; default: all", "LIST",
+             [&](const std::string& text) { play.topics = split(text, ','); });
+  add_option(
+      app, "--latched",
+      "topics whose last messages late subscribers get, too; default: those that were recorded "
+      "so, or tf_static and robot_description where the bag does not say it",
+      "LIST", [&](const std::string& text) { play.latched = split(text, ','); });
+  add_remaps(app, play.remaps);
+  app.add_flag(
+      "--restamp", play.restamp,
+      "shift stamps to now: of headers at the beginning of messages, in TFMessage and detections");
+}
 
 int execute(const PlayArguments& arguments) {
   StopSignal stop;
@@ -276,6 +329,12 @@ int execute(const PlayArguments& arguments) {
                             " s behind the recording's pace; lower --rate, or choose --topics"});
   print_notes(graph->take_warnings());
   return 0;
+}
+
+}  // namespace
+
+Execute add_play(CLI::App& app) {
+  return make_command<PlayArguments>(app, add_options, nullptr, execute);
 }
 
 }  // namespace penumbra::app

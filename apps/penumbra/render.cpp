@@ -13,7 +13,8 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/camera_info.hpp>
 #include <io/files/json-inl.hpp>
@@ -27,6 +28,24 @@
 
 namespace penumbra::app {
 namespace {
+
+struct RenderArguments {
+  std::filesystem::path robot;
+  RobotOptions options;
+  std::filesystem::path camera_info;
+  bool rectified = false;  ///< the images are free of distortion: p of camera_info is the camera
+  std::filesystem::path pose;
+  std::string parent;
+  std::vector<std::pair<std::string, double>> joints;  ///< name and value, in the given order
+  std::filesystem::path output;
+  std::optional<std::filesystem::path> links;
+  Backend backend = Backend::cpu;
+  RendererOptions renderer;
+  int repeat = 1;
+  bool json = false;
+};
+
+constexpr int most_repeats = 1'000'000;
 
 std::vector<double> positions_of(const Robot& robot, const RenderArguments& arguments) {
   std::vector<double> positions = robot.rest_positions();
@@ -160,7 +179,35 @@ void print_json(const Pipeline& pipeline, const PixelCounts& pixels,
   std::cout << json.dump(2, ' ', false, io::Json::error_handler_t::replace) << '\n';
 }
 
-}  // namespace
+void add_options(CLI::App& app, RenderArguments& render) {
+  app.footer(render_examples);
+  add_text(app, "--robot", "the robot", "URDF", render.robot)->required();
+  add_robot(app, render.options);
+  add_text(app, "--camera", "ROS camera_info YAML", "FILE", render.camera_info)->required();
+  app.add_flag("--rectified", render.rectified,
+               "the images are free of distortion already: take the camera's p, not its k and d");
+  add_text(app, "--pose", "4x4 pose of the optical frame in the parent link, metres", "FILE",
+           render.pose)
+      ->required();
+  app.add_option("--parent", render.parent, "link that the pose is given in; default: the root")
+      ->type_name("LINK");
+  add_list(app, "--joint", "a joint's position, rad or m; may be given several times", "NAME=VALUE",
+           [&](const std::string& text) {
+             const char* const wanted = "NAME=VALUE with a number (radians or metres)";
+             const auto [name, value] = to_pair("--joint", text, wanted);
+             const auto number = io::parse_number<double>(value);
+             if (!number) refuse_option("--joint", text, wanted);
+             render.joints.emplace_back(name, *number);
+           });
+  add_text(app, "-o,--output", "virtual depth image, float32 metres, 0 = no robot", "NPY",
+           render.output)
+      ->required();
+  add_text(app, "--links", "link image, 16-bit: link number + 1, 0 = none", "PNG", render.links);
+  add_renderer(app, render.backend, render.renderer);
+  add_number(app, "--repeat", "render N times and print the times", "N", render.repeat, 1,
+             most_repeats);
+  app.add_flag("--json", render.json, "print counts, times and joint positions as JSON");
+}
 
 int execute(const RenderArguments& arguments) {
   check_outputs(arguments);
@@ -198,6 +245,12 @@ int execute(const RenderArguments& arguments) {
   else
     print_text(arguments.output, pipeline, pixels, repeats);
   return 0;
+}
+
+}  // namespace
+
+Execute add_render(CLI::App& app) {
+  return make_command<RenderArguments>(app, add_options, nullptr, execute);
 }
 
 }  // namespace penumbra::app

@@ -14,7 +14,6 @@
 #include <apps/penumbra/run_cameras.hpp>
 #include <apps/penumbra/run_summary.hpp>
 #include <io/files/camera_views.hpp>
-#include <io/run/output_bag.hpp>
 #include <io/run/output_folder.hpp>
 #include <io/web/report_page.hpp>
 

@@ -5,11 +5,22 @@
 #include <string>
 #include <vector>
 
-#include <apps/penumbra/arguments.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/run/input_session.hpp>
+#include <io/run/output_folder.hpp>
 
 namespace penumbra::app {
+
+/// A camera that is named on the command line.
+struct NamedCamera {
+  std::string name, depth_topic;
+};
+
+struct RunArguments {
+  io::SessionOptions session;
+  io::OutputOptions output;
+  std::vector<NamedCamera> cameras = {};  ///< several of a bag
+};
 
 /// Judges cameras of a recording, or of a bag if they have a topic, each into OUT/NAME, and writes
 /// OUT/views.json. The place of OUT is checked. Returns the exit status.

@@ -5,16 +5,23 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <apps/penumbra/commands.hpp>
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/progress.hpp>
-#include <io/run/output_bag.hpp>
+#include <io/run/output_folder.hpp>
 #include <sim/recording_bag.hpp>
 #include <sim/recording_folder.hpp>
+#include <sim/simulation.hpp>
 
 namespace penumbra::app {
 namespace {
+
+struct SimulateArguments {
+  std::string scene;
+  std::filesystem::path output;
+  io::FrameRange frames;
+  sim::SimulationOptions options;
+};
 
 void check_output(const std::filesystem::path& output) {
   if (output.extension() == ".db3")
@@ -30,9 +37,7 @@ std::unique_ptr<sim::RecordingSink> open_recording(const SimulateArguments& argu
                                                 arguments.options);
 }
 
-}  // namespace
-
-void add_simulate(CLI::App& app, SimulateArguments& simulate) {
+void add_options(CLI::App& app, SimulateArguments& simulate) {
   app.footer(simulate_examples);
   sim::SimulationOptions& options = simulate.options;
   app.add_option("SCENE", simulate.scene, "conveyor, handover, random, carry or two_arms")
@@ -83,6 +88,12 @@ int execute(const SimulateArguments& arguments) {
   recording->finish();
   std::cout << end - first << " frames: " << recording->where() << '\n';
   return 0;
+}
+
+}  // namespace
+
+Execute add_simulate(CLI::App& app) {
+  return make_command<SimulateArguments>(app, add_options, nullptr, execute);
 }
 
 }  // namespace penumbra::app

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/graph_options.hpp>
+#include <apps/penumbra/help.hpp>
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/dds/graph_json.hpp>
@@ -12,6 +13,12 @@
 
 namespace penumbra::app {
 namespace {
+
+struct TopicsArguments {
+  io::ParticipantOptions graph;
+  double wait = 2.0;  ///< seconds
+  bool json = false;
+};
 
 std::string joined(const std::set<std::string>& words) {
   std::string all;
@@ -50,7 +57,13 @@ void print_topics(int domain, const std::vector<io::GraphTopic>& topics) {
   print_table(rows);
 }
 
-}  // namespace
+void add_options(CLI::App& app, TopicsArguments& topics) {
+  app.footer(topics_examples);
+  add_domain(app, topics.graph);
+  add_number(app, "--wait", "how long to listen for others; default 2", "S", topics.wait, 0.0,
+             longest_wait);
+  app.add_flag("--json", topics.json, "print JSON instead of a table");
+}
 
 int execute(const TopicsArguments& arguments) {
   StopSignal stop;
@@ -63,6 +76,12 @@ int execute(const TopicsArguments& arguments) {
   else
     print_topics(graph->domain(), topics);
   return 0;
+}
+
+}  // namespace
+
+Execute add_topics(CLI::App& app) {
+  return make_command<TopicsArguments>(app, add_options, nullptr, execute);
 }
 
 }  // namespace penumbra::app

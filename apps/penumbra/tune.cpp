@@ -12,7 +12,8 @@
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/tuning/tuning.hpp>
 
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/image_size.hpp>
@@ -24,6 +25,12 @@
 
 namespace penumbra::app {
 namespace {
+
+struct TuneArguments {
+  io::SessionOptions session;  ///< with the current rule
+  std::filesystem::path output;
+  bool force = false;  ///< advise although the setup looks wrong
+};
 
 namespace fs = std::filesystem;
 
@@ -106,7 +113,24 @@ void print_settings(const Tuning& tuning, const std::vector<io::WrittenExtra>& e
             << options << '\n';
 }
 
-}  // namespace
+void add_options(CLI::App& app, TuneArguments& tune) {
+  app.footer(tune_examples);
+  add_input(app, tune.session.input);
+  add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", tune.output)
+      ->required();
+  app.add_flag("--force", tune.force, "advise although the setup looks wrong");
+  add_session(app, tune.session);
+  add_frames(app, tune.session.input.frames);
+  add_bag(app, tune.session.input.bag);
+}
+
+void check_options(const CLI::App& app, TuneArguments& tune) {
+  check_session(app, tune.session);
+  tune.session.input.needs_depth = true;
+  tune.session.input.with_color = true;  // for the picture
+  tune.session.no_targets = true;
+  tune.session.image = ImageSpace::rectified;  // tuning takes a pinhole camera's images
+}
 
 int execute(const TuneArguments& arguments) {
   io::ResultFolder folder({.path = arguments.output,
@@ -154,6 +178,12 @@ int execute(const TuneArguments& arguments) {
   print_measured(tuning, frames.size(), pipeline.robot());
   print_settings(tuning, extras, arguments);
   return 0;
+}
+
+}  // namespace
+
+Execute add_tune(CLI::App& app) {
+  return make_command<TuneArguments>(app, add_options, check_options, execute);
 }
 
 }  // namespace penumbra::app

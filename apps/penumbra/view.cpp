@@ -17,8 +17,10 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
 #include <apps/penumbra/run_summary.hpp>
+#include <apps/penumbra/server_options.hpp>
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/camera_views.hpp>
@@ -31,6 +33,12 @@
 
 namespace penumbra::app {
 namespace {
+
+struct ViewArguments {
+  io::SessionOptions session;
+  std::string judging_option;  ///< name of an option that was given; empty: none
+  ServerArguments server;
+};
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
@@ -216,7 +224,28 @@ io::SharedBytes views_of(const io::InputOptions& input, const ViewSources& sourc
   return io::shared_bytes(io::views_json(io::fuse_views(input.path.string(), runs)));
 }
 
-}  // namespace
+void add_options(CLI::App& app, ViewArguments& view) {
+  app.footer(view_examples);
+  add_text(app, "INPUT",
+           "a recording folder or its recording.yaml, a bag of ROS 2, or a folder that run wrote",
+           "", view.session.input.path)
+      ->required();
+  add_server(app, view.server,
+             "where the page is served; 0: any that is free; default 8470, or the next free one");
+  add_session(app, view.session);
+  add_sequence(app, view.session);
+  add_bag(app, view.session.input.bag);
+}
+
+void check_options(const CLI::App& app, ViewArguments& view) {
+  check_session(app, view.session);
+  view.session.input.with_color = true;
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name != "INPUT" && name != "--port" && name != "--address")
+      view.judging_option = name;
+  }
+}
 
 int execute(const ViewArguments& arguments) {
   StopSignal stop;
@@ -237,6 +266,12 @@ int execute(const ViewArguments& arguments) {
   for (const auto& source : sources) source->start();
   wait_for_end(stop, sources);
   return 0;
+}
+
+}  // namespace
+
+Execute add_view(CLI::App& app) {
+  return make_command<ViewArguments>(app, add_options, check_options, execute);
 }
 
 }  // namespace penumbra::app

@@ -11,7 +11,8 @@
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/scene/view_planning.hpp>
 
-#include <apps/penumbra/commands.hpp>
+#include <apps/penumbra/help.hpp>
+#include <apps/penumbra/options.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/result_folder.hpp>
@@ -21,6 +22,15 @@
 
 namespace penumbra::app {
 namespace {
+
+struct ViewPlanningArguments {
+  io::PlanningOptions input;
+  std::filesystem::path output;  ///< empty: nothing is written
+  std::size_t cameras = 1;       ///< of the largest set
+  std::optional<int> threads;    ///< null: one per core
+};
+
+constexpr std::size_t most_planned_cameras = 1000;
 
 std::string share_text(double share) { return fixed(100.0 * share, 1) + " %"; }
 
@@ -58,7 +68,31 @@ void print_unknown(const io::ViewPlan& plan) {
                             plan.candidates[first].name + ", " + plan.views.unknown(first)});
 }
 
-}  // namespace
+void add_options(CLI::App& app, ViewPlanningArguments& planning) {
+  app.footer(view_planning_examples);
+  io::InputOptions& input = planning.input.input;
+  add_input(app, input);
+  add_text(app, "--candidates",
+           "poses of the camera: name,x,y,z,qx,qy,qz,qw and, if not in the root link, link", "CSV",
+           planning.input.candidates)
+      ->required();
+  add_text(app, "--targets", "3-D targets to see; default: the recording's", "YAML",
+           planning.input.targets);
+  add_number<std::size_t>(app, "--cameras", "find the best sets of up to K cameras; default 1", "K",
+                          planning.cameras, 1, most_planned_cameras);
+  add_text(app, "-o,--output", "folder for the results, made if need be", "OUT", planning.output);
+  add_number(app, "--threads", "default: one per core; results do not depend on it", "N",
+             planning.threads, 1, RendererOptions::max_threads);
+  add_frames(app, input.frames);
+  add_drawn(app, input, "the recording's, else collision");
+  add_bag(app, input.bag);
+}
+
+void check_options(const CLI::App& app, ViewPlanningArguments& planning) {
+  note_bag_option(app, planning.input.input);
+  if (!planning.input.input.bag.target_topics.empty())
+    throw InputError("--target-topic: targets come from the file of --targets; leave it out");
+}
 
 int execute(const ViewPlanningArguments& arguments) {
   std::optional<io::ResultFolder> folder;
@@ -112,6 +146,12 @@ int execute(const ViewPlanningArguments& arguments) {
   folder->add_text("view_planning.json", json);
   folder->finish();
   return 0;
+}
+
+}  // namespace
+
+Execute add_view_planning(CLI::App& app) {
+  return make_command<ViewPlanningArguments>(app, add_options, check_options, execute);
 }
 
 }  // namespace penumbra::app

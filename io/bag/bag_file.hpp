@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <io/bag/bag_reader.hpp>
@@ -22,6 +23,10 @@ namespace penumbra::io {
 
 /// Opens a recording of several files.
 [[nodiscard]] std::unique_ptr<BagReader> open_bag_folder(const std::filesystem::path& folder);
+
+/// Returns the bags in a folder, in no order.
+[[nodiscard]] std::vector<std::filesystem::path> bags_in(const std::filesystem::path& folder,
+                                                         std::error_code& fault);
 
 /// Returns `text` if its encoding is ros2msg, else the built-in definition of the type, or an empty
 /// text.

@@ -80,16 +80,6 @@ struct BagPart {
   std::size_t copied_faults = 0;
 };
 
-/// Returns the bags in a folder, in no order.
-std::vector<std::filesystem::path> bags_in(const std::filesystem::path& folder,
-                                           std::error_code& fault) {
-  std::vector<std::filesystem::path> files;
-  for (std::filesystem::directory_iterator entry(folder, fault), end; !fault && entry != end;
-       entry.increment(fault))
-    if (is_bag_file(entry->path())) files.push_back(entry->path());
-  return files;
-}
-
 class BagFolder final : public BagReader {
  public:
   explicit BagFolder(const std::filesystem::path& folder) {
@@ -227,13 +217,6 @@ class BagFolder final : public BagReader {
 
 std::unique_ptr<BagReader> open_bag_folder(const std::filesystem::path& folder) {
   return std::make_unique<BagFolder>(folder);
-}
-
-bool is_bag_folder(const std::filesystem::path& folder) {
-  std::error_code fault;
-  if (std::filesystem::exists(folder / "recording.yaml", fault)) return false;
-  if (std::filesystem::exists(folder / "metadata.yaml", fault)) return true;
-  return !bags_in(folder, fault).empty();
 }
 
 }  // namespace penumbra::io

@@ -32,10 +32,6 @@ OfferedQos read_or_unreadable(const F& read) {
 
 }  // namespace
 
-bool is_bag_file(const std::filesystem::path& file) {
-  return file.extension() == ".mcap" || file.extension() == ".db3";
-}
-
 std::unique_ptr<BagReader> open_bag_file(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_empty(file, error))

@@ -26,6 +26,7 @@
 #include <io/ros/target_messages.hpp>
 #include <io/run/cloud_run.hpp>
 #include <io/run/output_bag.hpp>
+#include <io/run/output_folder.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <penumbra/base/error.hpp>
 
+#include <io/assembly/result_encoder.hpp>
+#include <io/files/pending_file.hpp>
 #include <io/mcap/reader.hpp>
+#include <io/mcap/writer.hpp>
 #include <io/ros/message_definition.hpp>
 #include <io/run/output_bag.hpp>
 
@@ -30,7 +39,30 @@ std::string why_kept(const std::filesystem::path& file) {
   }
 }
 
-}  // namespace
+class OutputBag final : public RunOutput, private ResultSink {
+ public:
+  OutputBag(const std::filesystem::path& file, const Camera& camera, std::string root);
+
+  void begin(const ReportHead&) override {}
+  void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
+  void finish(const Statistics& statistics, std::span<const std::string> notes) override;
+  [[nodiscard]] std::vector<std::string> notes() const override;
+
+ private:
+  struct Channel {
+    std::uint16_t id = 0;
+    std::uint32_t messages = 0;
+  };
+  [[nodiscard]] bool wants(Result) const override { return true; }
+  void write(Result result, std::int64_t stamp, std::span<const std::byte> payload) override;
+
+  std::filesystem::path file_;
+  PendingFile pending_;
+  mcap::Writer writer_;
+  ResultEncoder encoder_;
+  std::array<Channel, result_topics.size()> channels_;  // by Result
+  std::string missing_link_;
+};
 
 OutputBag::OutputBag(const std::filesystem::path& file, const Camera& camera, std::string root)
     : file_(file),
@@ -72,6 +104,13 @@ std::vector<std::string> OutputBag::notes() const {
   return lines;
 }
 
+}  // namespace
+
+std::unique_ptr<RunOutput> open_output_bag(const std::filesystem::path& file, const Camera& camera,
+                                           std::string root) {
+  return std::make_unique<OutputBag>(file, camera, std::move(root));
+}
+
 void check_former_bag(const std::filesystem::path& file) {
   check_is_no_folder("--output", file);
   std::error_code error;
@@ -83,26 +122,5 @@ void check_former_bag(const std::filesystem::path& file) {
                      ", and only a bag of results is replaced; move it away, or choose another "
                      "name with -o");
 }
-
-void check_output_place(const std::filesystem::path& of, const std::filesystem::path& output) {
-  std::error_code error;
-  const std::filesystem::path input = std::filesystem::absolute(of);
-  if (is_output_bag(output)) {
-    if (std::filesystem::equivalent(output, input, error))
-      throw InputError("--output: " + output.string() + " is the input; choose another name");
-    return check_former_bag(output);
-  }
-  const bool is_own = std::filesystem::equivalent(output, input, error) ||
-                      (std::filesystem::is_regular_file(input, error) &&
-                       std::filesystem::equivalent(output, input.parent_path(), error));
-  if (is_own)
-    throw InputError("--output: " + output.string() +
-                     " is the recording's own folder; choose another, or one inside of it");
-  if (std::filesystem::exists(output / "recording.yaml", error))
-    throw InputError("--output: " + output.string() +
-                     " is a recording (it has a recording.yaml); choose another folder");
-}
-
-bool is_output_bag(const std::filesystem::path& output) { return output.extension() == ".mcap"; }
 
 }  // namespace penumbra::io

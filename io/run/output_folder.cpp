@@ -14,6 +14,7 @@
 #include <io/files/npy.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/files/png.hpp>
+#include <io/run/output_bag.hpp>
 #include <io/run/output_folder.hpp>
 #include <io/web/report_page.hpp>
 
@@ -199,5 +200,26 @@ void OutputFolder::write_later(fs::path file, ImageView<const T> image, Write wr
   writers_.add(
       [file = std::move(file), copy = copy_of(image), write] { write(file, copy.view()); });
 }
+
+void check_output_place(const std::filesystem::path& of, const std::filesystem::path& output) {
+  std::error_code error;
+  const std::filesystem::path input = std::filesystem::absolute(of);
+  if (is_output_bag(output)) {
+    if (std::filesystem::equivalent(output, input, error))
+      throw InputError("--output: " + output.string() + " is the input; choose another name");
+    return check_former_bag(output);
+  }
+  const bool is_own = std::filesystem::equivalent(output, input, error) ||
+                      (std::filesystem::is_regular_file(input, error) &&
+                       std::filesystem::equivalent(output, input.parent_path(), error));
+  if (is_own)
+    throw InputError("--output: " + output.string() +
+                     " is the recording's own folder; choose another, or one inside of it");
+  if (std::filesystem::exists(output / "recording.yaml", error))
+    throw InputError("--output: " + output.string() +
+                     " is a recording (it has a recording.yaml); choose another folder");
+}
+
+bool is_output_bag(const std::filesystem::path& output) { return output.extension() == ".mcap"; }
 
 }  // namespace penumbra::io

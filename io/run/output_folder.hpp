@@ -73,4 +73,10 @@ class OutputFolder final : public RunOutput {
   BackgroundJobs writers_;  // the first to end
 };
 
+/// Throws InputError if results would replace the input, or what is no result.
+void check_output_place(const std::filesystem::path& input, const std::filesystem::path& output);
+
+/// Returns whether this is the name of a bag.
+[[nodiscard]] bool is_output_bag(const std::filesystem::path& output);
+
 }  // namespace penumbra::io

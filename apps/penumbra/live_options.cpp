@@ -1,32 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options of the commands that take part in ROS 2's graph.
 #include <algorithm>
 #include <string>
 #include <string_view>
 
 #include <penumbra/base/error.hpp>
 
+#include <apps/penumbra/graph_options.hpp>
 #include <apps/penumbra/help.hpp>
-#include <apps/penumbra/options.hpp>
+#include <apps/penumbra/live_arguments.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/assembly/result_encoder.hpp>
-#include <io/dds/graph_names.hpp>
 #include <io/live/cloud_text.hpp>
 #include <io/live/live_fusion.hpp>
 
 namespace penumbra::app {
 namespace {
 
-constexpr int last_domain = 232;
-constexpr double longest_wait = 3600.0;   // s
-constexpr double longest_bag = 1e8;       // s: three years
 constexpr double longest_duration = 1e9;  // s
 constexpr int most_waiting = 1000;        // images
-
-void add_domain(CLI::App& app, io::ParticipantOptions& graph) {
-  add_number(app, "--domain", "DDS's domain; default: ROS_DOMAIN_ID, else 0", "N", graph.domain, 0,
-             last_domain);
-}
 
 /// "overlay" of "overlay/compressed".
 std::string_view short_name(std::string_view topic) { return topic.substr(0, topic.find('/')); }
@@ -82,54 +73,7 @@ void add_clouds(CLI::App& app, std::vector<io::CloudInputOptions>& clouds) {
       });
 }
 
-void add_remaps(CLI::App& app, std::map<std::string, std::string>& remaps) {
-  add_list(app, "--remap", "another name for a topic; may be given several times", "FROM:=TO",
-           [&](const std::string& text) {
-             const std::size_t middle = text.find(":=");
-             if (middle == std::string::npos)
-               refuse_option("--remap", text, "FROM:=TO, two full names of topics");
-             const std::string from = text.substr(0, middle), to = text.substr(middle + 2);
-             static_cast<void>(io::dds_topic(from));
-             static_cast<void>(io::dds_topic(to));
-             if (!remaps.emplace(from, to).second)
-               throw InputError("--remap: " + from + " is given twice");
-           });
-}
-
-}  // namespace
-
-void add_topics(CLI::App& app, TopicsArguments& topics) {
-  app.footer(topics_examples);
-  add_domain(app, topics.graph);
-  add_number(app, "--wait", "how long to listen for others; default 2", "S", topics.wait, 0.0,
-             longest_wait);
-  app.add_flag("--json", topics.json, "print JSON instead of a table");
-}
-
-void add_play(CLI::App& app, PlayArguments& play) {
-  app.footer(play_examples);
-  add_text(app, "BAG", "*.mcap, *.db3, or a folder with metadata.yaml", "", play.bag)->required();
-  add_domain(app, play.graph);
-  add_number(app, "--rate", "times as fast as recorded; default 1", "R", play.rate, 0.001, 1000.0);
-  add_number(app, "--start", "begin so many seconds after the first message; default 0", "S",
-             play.start, 0.0, longest_bag);
-  add_number(app, "--delay", "wait before the first message, for others to find us; default 1", "S",
-             play.delay, 0.0, longest_wait);
-  app.add_flag("--loop", play.loop, "begin again at the end, until Ctrl-C");
-  add_option(app, "--topics", "play only these, with commas between; default: all", "LIST",
-             [&](const std::string& text) { play.topics = split(text, ','); });
-  add_option(
-      app, "--latched",
-      "topics whose last messages late subscribers get, too; default: those that were recorded "
-      "so, or tf_static and robot_description where the bag does not say it",
-      "LIST", [&](const std::string& text) { play.latched = split(text, ','); });
-  add_remaps(app, play.remaps);
-  app.add_flag(
-      "--restamp", play.restamp,
-      "shift stamps to now: of headers at the beginning of messages, in TFMessage and detections");
-}
-
-void add_live(CLI::App& app, LiveArguments& live) {
+void add_options(CLI::App& app, LiveArguments& live) {
   app.footer(live_examples);
   add_cameras(app, live);
   add_clouds(app, live.clouds);
@@ -161,7 +105,7 @@ void add_live(CLI::App& app, LiveArguments& live) {
           {.group = "Of topics", .joints = "joint_states", .poses = "joints, never tf by itself"});
 }
 
-void check_live(const CLI::App& /*app*/, const LiveArguments& live) {
+void check_options(const CLI::App& /*app*/, LiveArguments& live) {
   check_renderer(live.session.backend, live.session.renderer);
   check_server(live.server);
   live.points.check();
@@ -184,6 +128,12 @@ void check_live(const CLI::App& /*app*/, const LiveArguments& live) {
   if (topics.camera_frame) refuse("--camera-frame");
   if (topics.parent) refuse("--parent");
   if (topics.pose) refuse("--pose");
+}
+
+}  // namespace
+
+Execute add_live(CLI::App& app) {
+  return make_command<LiveArguments>(app, add_options, check_options, execute);
 }
 
 }  // namespace penumbra::app

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command `run`, of recordings alone.
+#include <penumbra/base/error.hpp>
+
+#include <apps/penumbra/commands.hpp>
+#include <io/run/output_bag.hpp>
+#include <io/run/run_input.hpp>
+
+namespace penumbra::io {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& bag) {
+  throw InputError(bag.string() +
+                   ": the demo's program handles no bags; 'cmake --build build/demo' builds "
+                   "penumbra with all that it can do");
+}
+
+}  // namespace
+
+RunInput open_bag_input(const InputOptions& options, const LineSink& /*print*/) {
+  refuse(options.path);
+}
+
+std::unique_ptr<RunOutput> open_output_bag(const std::filesystem::path& file,
+                                           const Camera& /*camera*/, std::string /*root*/) {
+  refuse(file);
+}
+
+void check_former_bag(const std::filesystem::path& file) { refuse(file); }
+
+}  // namespace penumbra::io
+
+int main(int argc, char** argv) {
+  using namespace penumbra::app;
+  constexpr Command commands[] = {{"run", "label every frame of a recording", add_run}};
+  return run_program(argc, argv, commands, "");
+}
