@@ -27,7 +27,7 @@ set(public_headers
   camera/camera.hpp camera/distortion.hpp camera/intrinsics.hpp camera/rectification.hpp
   camera/registration.hpp
   render/depth_renderer.hpp render/pixel_rectangle.hpp
-  labels/labels.hpp poses/pose_lookup.hpp poses/robot_pose.hpp tracking/trackers.hpp
+  labels/cloud_rule.hpp labels/labels.hpp poses/pose_lookup.hpp poses/robot_pose.hpp tracking/trackers.hpp
   targets/region.hpp targets/target.hpp targets/target_judge.hpp
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
   calibration/calibration.hpp calibration/watch.hpp diagnosis/diagnosis.hpp

