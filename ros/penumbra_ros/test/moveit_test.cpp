@@ -25,7 +25,9 @@ TEST_F(NodeTest, WhatWasAttachedBeforeIsAskedForWheneverMoveItComes) {
   EXPECT_EQ(moveit->asked, 1);
   executor_->remove_node(moveit->node);
   moveit.reset();
-  spin_until([] { return false; }, 3s);  // the node sees that it is gone
+  EXPECT_TRUE(spin_until([&] {  // the node sees that it is gone
+    return !node_->get_service_names_and_types().contains("/get_planning_scene");
+  }));
   EXPECT_GT(robot_pixels(), 2 * arm) << "the box stays while nobody says otherwise";
   MoveIt next(false);
   executor_->add_node(next.node);
