@@ -79,8 +79,9 @@ TEST_F(BagWithoutDepth, IsJudgedByItsColourImages) {
       EXPECT_TRUE(fs::exists(out("overlay") / numbered(i)));
     }
   }
-  expect_failed(penumbra({"calibrate", tiny_mcap(), "-o", path("calibrated"), "--no-depth", "--search"}),
-                {"--no-depth", "compares depth images"});
+  expect_failed(
+      penumbra({"calibrate", tiny_mcap(), "-o", path("calibrated"), "--no-depth", "--search"}),
+      {"--no-depth", "compares depth images"});
 }
 
 }  // namespace
