@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -32,6 +32,7 @@ std::vector<Corners> cone_over(const TriangleMesh& mesh, const std::vector<RimEd
   for (const RimEdge& e : rim)
     middle += mesh.vertices[e.from].cast<double>() / static_cast<double>(rim.size());
   std::vector<Corners> triangles;
+  triangles.reserve(rim.size());
   for (const RimEdge& e : rim)
     triangles.push_back(
         {mesh.vertices[e.to].cast<double>(), mesh.vertices[e.from].cast<double>(), middle});
