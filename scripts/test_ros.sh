@@ -17,7 +17,7 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE=${ROS_AUTOMATIC_DISCOVERY_RANGE-LOCALHOST}
 export ROS_DOMAIN_ID=${ROS_DOMAIN_ID-$((RANDOM % 100 + 1))}  # apart from other nodes
 places=(--base-paths "$root" "$root/ros")
 nice -n 19 colcon build "${places[@]}" --merge-install --executor sequential \
-  --cmake-args -DCMAKE_BUILD_TYPE=Release "$@" || { echo "0 passed, 1 failed"; exit 1; }
+  --cmake-args -DCMAKE_BUILD_TYPE=Release -DPENUMBRA_ONLY_NODE=ON "$@" || { echo "0 passed, 1 failed"; exit 1; }
 set +u
 # shellcheck disable=SC1091
 . install/setup.bash

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <penumbra/base/error.hpp>
-
 #include <penumbra/labels/cloud_rule.hpp>
 
 namespace penumbra {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include <diagnostic_msgs/msg/diagnostic_array.hpp>
+
 namespace penumbra_ros::test {
 namespace {
 
@@ -25,9 +27,15 @@ TEST_F(NodeTest, WhatWasAttachedBeforeIsAskedForWheneverMoveItComes) {
   EXPECT_EQ(moveit->asked, 1);
   executor_->remove_node(moveit->node);
   moveit.reset();
-  EXPECT_TRUE(spin_until([&] {  // the node sees that it is gone
-    return !node_->get_service_names_and_types().contains("/get_planning_scene");
-  }));
+  const auto client =
+      player_->node->create_client<moveit_msgs::srv::GetPlanningScene>("/get_planning_scene");
+  EXPECT_TRUE(spin_until([&] { return !client->service_is_ready(); }));
+  int checks = 0;  // in each, the node looks for MoveIt
+  const auto diagnostics =
+      player_->node->create_subscription<diagnostic_msgs::msg::DiagnosticArray>(
+          "/diagnostics", 10,
+          [&](diagnostic_msgs::msg::DiagnosticArray::ConstSharedPtr) { ++checks; });
+  EXPECT_TRUE(spin_until([&] { return checks > 1; }));
   EXPECT_GT(robot_pixels(), 2 * arm) << "the box stays while nobody says otherwise";
   MoveIt next(false);
   executor_->add_node(next.node);
