@@ -71,39 +71,38 @@ std::vector<SurfacePatch> split(const TriangleMesh& mesh, const Connections& con
     const std::uint32_t first = sets.find(i);
     if (first == i) {
       number[i] = patches.size();
-      patches.emplace_back();
+      patches.emplace_back().closed = true;
     }
     SurfacePatch& patch = patches[number[first]];
     patch.triangles.push_back(i);
     for (const Eigen::Vector3d& corner : corners_of(mesh, i)) patch.bounds.extend(corner);
   }
   for (const RimEdge& edge : connections.rim)
-    patches[number[sets.find(edge.triangle)]].rim +=
-        (mesh.vertices[edge.to] - mesh.vertices[edge.from]).cast<double>().norm();
+    patches[number[sets.find(edge.triangle)]].closed = false;
   return patches;
 }
 
 }  // namespace
 
-struct PreparedMesh::Facings {
+struct PreparedMesh::Orientations {
   Connections connections;  // until `found`
   std::once_flag found;
-  std::vector<Facing> of_patches;
+  std::vector<PatchOrientation> of_patches;
 };
 
 PreparedMesh::PreparedMesh(const TriangleMesh& mesh)
-    : TriangleMesh(weld(mesh)), facings_(std::make_shared<Facings>()) {
-  Connections& connections = facings_->connections;
+    : TriangleMesh(weld(mesh)), orientations_(std::make_shared<Orientations>()) {
+  Connections& connections = orientations_->connections;
   connections = connect(*this);
   patches = split(*this, connections);
   for (const SurfacePatch& patch : patches) bounds.extend(patch.bounds);
   watertight = !patches.empty() && connections.rim.empty();
 }
 
-const std::vector<Facing>& PreparedMesh::facings() const {
-  Facings& shared = *facings_;
+const std::vector<PatchOrientation>& PreparedMesh::orientations() const {
+  Orientations& shared = *orientations_;
   std::call_once(shared.found, [&] {
-    shared.of_patches = find_facings(*this, shared.connections);
+    shared.of_patches = orient(*this, shared.connections);
     shared.connections = {};
   });
   return shared.of_patches;

@@ -22,18 +22,24 @@ struct Ball {
 struct SurfacePatch {
   std::vector<std::uint32_t> triangles;  ///< indices into TriangleMesh::triangles, rising
   Eigen::AlignedBox3d bounds;            ///< metres
-  double rim = 0.0;                      ///< length of the other edges, metres
-
-  [[nodiscard]] bool closed() const { return rim == 0.0; }
-  /// Returns a radius that no hole exceeds: a closed line fits into a ball of a quarter its length.
-  [[nodiscard]] double hole_radius() const { return rim / 4.0; }
+  bool closed = false;                   ///< all of its edges are regular
 };
 
-/// Where the front faces of a surface patch point. Known if the patch bounds a body, except for
-/// holes whose radii add up to an eighth of its size at most. A ray from outside then meets the
-/// outer side of a closed patch first. (Tested at five or more points of the patch. A patch that
-/// crosses itself may pass if it shows its back on less than about a hundredth of its area.)
+/// Where the front faces of a surface patch point.
 enum class Facing { unknown, outwards, inwards };
+
+/// The outer side of a surface patch.
+struct PatchOrientation {
+  /// Known if the patch bounds a body except for small holes. A ray from outside then meets the
+  /// outer side of the patch first, unless it passed through the ball of a hole or meets a triangle
+  /// that touches such a ball. (Tested at four or more points of the patch. A patch that crosses
+  /// itself may pass if it shows its back on less than about a hundredth of its area.)
+  Facing facing = Facing::unknown;
+
+  /// Balls around the holes; empty if the patch is closed or `facing` is unknown. The sum of their
+  /// radii is at most an eighth of the patch's size.
+  std::vector<Ball> holes;
+};
 
 /// A mesh that is ready for every renderer and check. Its vertices are welded. Immutable.
 class PreparedMesh : public TriangleMesh {
@@ -45,17 +51,17 @@ class PreparedMesh : public TriangleMesh {
   Eigen::AlignedBox3d bounds;         ///< metres; empty if there are no triangles
   bool watertight = false;            ///< there are triangles, and every patch is closed
 
-  /// Returns the facing of every patch. The first call finds them for all copies of the mesh, which
-  /// may take a second for large meshes.
-  [[nodiscard]] const std::vector<Facing>& facings() const;
+  /// Returns the orientation of every patch. The first call computes them for all copies of the
+  /// mesh, which may take a second for large meshes.
+  [[nodiscard]] const std::vector<PatchOrientation>& orientations() const;
 
   /// The same for all copies of a mesh, and for no other mesh while any holder of it lives. What is
   /// made of a mesh is kept by it.
-  [[nodiscard]] std::shared_ptr<const void> identity() const { return facings_; }
+  [[nodiscard]] std::shared_ptr<const void> identity() const { return orientations_; }
 
  private:
-  struct Facings;
-  std::shared_ptr<Facings> facings_;
+  struct Orientations;
+  std::shared_ptr<Orientations> orientations_;
 };
 
 }  // namespace penumbra

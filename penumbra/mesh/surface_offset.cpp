@@ -251,9 +251,11 @@ Grid grid_for(double margin, const Eigen::AlignedBox3d& bounds) {
 
 TriangleMesh offset_patch(const PreparedMesh& mesh, std::size_t number, double margin) {
   const SurfacePatch& patch = mesh.patches[number];
-  const Facing facing = mesh.facings()[number];
+  const auto& [facing, holes] = mesh.orientations()[number];
   // The margin closes smaller holes.
-  const bool solid = facing != Facing::unknown && patch.hole_radius() < std::abs(margin);
+  const bool solid = facing != Facing::unknown &&
+                     std::all_of(holes.begin(), holes.end(),
+                                 [&](const Ball& hole) { return hole.radius < std::abs(margin); });
   if (margin < 0.0 && !solid)
     refuse(margin, "needs a closed mesh, and this one is open; use 0 or a positive margin");
   std::vector<Face> faces;

@@ -91,8 +91,8 @@ inline double solid_angle(const std::array<Eigen::Vector3d, 3>& corners,
                           la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
 }
 
-/// Returns the facing of every patch of a mesh.
-[[nodiscard]] std::vector<Facing> find_facings(const PreparedMesh& mesh,
-                                               const Connections& connections);
+/// Returns the orientation of every patch of a mesh.
+[[nodiscard]] std::vector<PatchOrientation> orient(const PreparedMesh& mesh,
+                                                   const Connections& connections);
 
 }  // namespace penumbra

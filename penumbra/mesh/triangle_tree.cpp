@@ -78,7 +78,7 @@ TriangleTree::TriangleTree(const PreparedMesh& mesh) {
   if (!order.empty()) add_node(corners, order, 0, static_cast<std::uint32_t>(order.size()));
   std::vector<std::int8_t> facing(corners.size(), 0);
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
-    const Facing side = mesh.facings()[i];
+    const Facing side = mesh.orientations()[i].facing;
     if (side == Facing::unknown) continue;
     for (const std::uint32_t triangle : mesh.patches[i].triangles)
       facing[triangle] = side == Facing::outwards ? 1 : -1;

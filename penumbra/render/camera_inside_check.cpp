@@ -29,10 +29,10 @@ bool enclose(std::span<const PreparedMesh> meshes, const Eigen::AlignedBox3d& op
   double open_angle = 0.0;
   for (const PreparedMesh& mesh : meshes) {
     for (const SurfacePatch& patch : mesh.patches) {
-      if (patch.closed() ? !patch.bounds.contains(point) : !asks_open) continue;
+      if (patch.closed ? !patch.bounds.contains(point) : !asks_open) continue;
       const double angle = angle_of(patch, mesh, point);
       if (is_inside(angle) && patch.bounds.contains(point)) return true;
-      if (!patch.closed()) open_angle += angle;
+      if (!patch.closed) open_angle += angle;
     }
   }
   return is_inside(open_angle);
@@ -46,7 +46,7 @@ CameraInsideCheck::CameraInsideCheck(std::span<const Body> bodies) {
     solid.meshes = body.meshes;
     for (const PreparedMesh& mesh : body.meshes)
       for (const SurfacePatch& patch : mesh.patches)
-        if (!patch.closed()) solid.open_bounds.extend(patch.bounds);
+        if (!patch.closed) solid.open_bounds.extend(patch.bounds);
   }
 }
 

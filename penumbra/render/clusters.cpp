@@ -37,9 +37,15 @@ bool has_neighbourhoods(const TriangleMesh& mesh, const std::vector<std::uint32_
 ClusteredScene::ClusteredScene(std::span<const Body> bodies) {
   for (std::uint32_t body = 0; body < bodies.size(); ++body) {
     for (const PreparedMesh& mesh : bodies[body].meshes) {
-      for (const TriangleGroup& group : groups_of(mesh))
+      for (const TriangleGroup& group : groups_of(mesh)) {
         add_group(mesh, group.indices,
-                  {.body = body, .solid = group.solid, .bounds = group.bounds});
+                  {.body = body,
+                   .solid = group.solid,
+                   .first_hole = static_cast<std::uint32_t>(holes.size()),
+                   .hole_count = static_cast<std::uint32_t>(group.holes.size()),
+                   .bounds = group.bounds});
+        holes.insert(holes.end(), group.holes.begin(), group.holes.end());
+      }
     }
   }
   const std::size_t padded = clusters.size() + padding;

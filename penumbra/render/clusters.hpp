@@ -25,7 +25,10 @@ struct Cluster {
 /// Clusters that share one answer to "may back faces be skipped?".
 struct ClusterGroup {
   std::uint32_t body = 0;
-  bool solid = false;  ///< bounds bodies and is wound outwards: from outside no back face is seen
+  /// Bounds bodies and is wound outwards: from outside, back faces are only seen through the holes.
+  bool solid = false;
+  std::uint32_t first_hole = 0;  ///< into ClusteredScene::holes
+  std::uint32_t hole_count = 0;
   std::uint32_t first_cluster = 0;
   std::uint32_t cluster_count = 0;
   Eigen::AlignedBox3d bounds{};  ///< in the body's frame
@@ -43,6 +46,7 @@ struct ClusteredScene {
 
   std::vector<ClusterGroup> groups;  ///< by body
   std::vector<Cluster> clusters;
+  std::vector<Ball> holes;  ///< in the bodies' frames
 
   /// Bounding spheres of the clusters, in the body's frame; padded with spheres of radius 0.
   std::vector<float> sphere_x, sphere_y, sphere_z, sphere_radius;

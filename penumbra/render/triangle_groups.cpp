@@ -10,13 +10,13 @@
 namespace penumbra {
 
 std::vector<TriangleGroup> groups_of(const PreparedMesh& mesh) {
-  std::array<TriangleGroup, 2> kinds;
-  auto& [solid, other] = kinds;
-  solid.solid = true;
+  std::array<TriangleGroup, 3> kinds;
+  auto& [closed, perforated, open] = kinds;
+  closed.solid = perforated.solid = true;
   for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
     const SurfacePatch& patch = mesh.patches[i];
-    const Facing facing = mesh.facings()[i];
-    TriangleGroup& group = patch.closed() && facing != Facing::unknown ? solid : other;
+    const auto& [facing, holes] = mesh.orientations()[i];
+    TriangleGroup& group = facing == Facing::unknown ? open : holes.empty() ? closed : perforated;
     // A patch that faces inwards is turned: what is first seen of it from outside is then a front
     // face, even if it is a cavity inside another body.
     const bool turn = facing == Facing::inwards;
@@ -26,6 +26,7 @@ std::vector<TriangleGroup> groups_of(const PreparedMesh& mesh) {
       group.indices.insert(group.indices.end(), {a, b, c});
     }
     group.bounds.extend(patch.bounds);
+    group.holes.insert(group.holes.end(), holes.begin(), holes.end());
   }
   std::vector<TriangleGroup> groups;
   for (TriangleGroup& group : kinds) {
@@ -41,9 +42,10 @@ SideRule::SideRule(const Intrinsics& k) {
   reach_ = DepthRenderer::near_plane * std::sqrt(1.0 + u * u + v * v) + rounding;
 }
 
-Sides SideRule::sides(bool solid, const Eigen::AlignedBox3d& bounds,
+Sides SideRule::sides(bool solid, bool has_holes, const Eigen::AlignedBox3d& bounds,
                       const Eigen::Vector3d& camera_centre) const {
-  return solid && bounds.exteriorDistance(camera_centre) > reach_ ? Sides::front : Sides::both;
+  if (!solid || bounds.exteriorDistance(camera_centre) <= reach_) return Sides::both;
+  return has_holes ? Sides::front_and_through_holes : Sides::front;
 }
 
 }  // namespace penumbra

@@ -59,6 +59,7 @@ class CpuRenderer final : public DepthRenderer {
         numbers_(bodies),
         packing_(numbers_.largest),
         touched_(intrinsics.width(), intrinsics.height()),
+        holes_(scene_->holes.size()),
         order_(scene_->groups.size()),
         items_(scene_->clusters.size()),
         workers_(threads) {
@@ -94,7 +95,7 @@ class CpuRenderer final : public DepthRenderer {
   }
 
   [[nodiscard]] cpu::FrameContext context() const {
-    return {scene_.get(), frames_.data(), &view_, packing_};
+    return {scene_.get(), frames_.data(), holes_.data(), &view_, packing_};
   }
 
   /// Lists the clusters to draw, those of the nearest groups first.
@@ -102,6 +103,8 @@ class CpuRenderer final : public DepthRenderer {
     for (std::uint32_t i = 0; i < scene_->groups.size(); ++i) {
       const ClusterGroup& group = scene_->groups[i];
       const BodyFrame& body = frames_[group.body];
+      for (std::size_t hole = group.first_hole; hole < group.first_hole + group.hole_count; ++hole)
+        holes_[hole] = cpu::bounds_of(scene_->holes[hole], body, intrinsics());
       const Eigen::Vector3d middle = body.T_camera_body * group.bounds.center();
       order_[i] = {middle.z() - group.bounds.diagonal().norm() / 2.0, i};
     }
@@ -117,7 +120,7 @@ class CpuRenderer final : public DepthRenderer {
 
   [[nodiscard]] Sides sides_of(const ClusterGroup& group) const {
     const auto& c = frames_[group.body].centre;
-    return side_rule_.sides(group.solid, group.bounds, {c[0], c[1], c[2]});
+    return side_rule_.sides(group.solid, group.hole_count > 0, group.bounds, {c[0], c[1], c[2]});
   }
 
   /// Lets the team take `count` parts of a stage, a few at a time.
@@ -176,6 +179,7 @@ class CpuRenderer final : public DepthRenderer {
   cpu::Packing packing_;
   TileMask touched_;
   std::vector<BodyFrame> frames_;
+  std::vector<cpu::Bounds> holes_;                       // of the scene's
   std::vector<std::pair<double, std::uint32_t>> order_;  // of the scene's groups, the nearest first
   std::vector<DrawItem> items_;
   std::size_t item_count_ = 0;

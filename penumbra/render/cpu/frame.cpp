@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <limits>
 
 #include <penumbra/render/cpu/frame.hpp>
 #include <penumbra/render/depth_renderer.hpp>
@@ -40,6 +41,25 @@ BodyFrame::BodyFrame(const Eigen::Isometry3d& T, const Intrinsics& k, std::int32
   // bound their share of the depth stays below 5e-5.
   constexpr double grazing_angle = 4e-3;
   grazing = static_cast<float>(grazing_angle * c.norm());
+}
+
+Bounds bounds_of(const Ball& ball, const BodyFrame& body, const Intrinsics& k) {
+  const Vector3d p = body.T_camera_body * ball.centre;
+  const double front = p.z() - ball.radius;
+  const double back = p.z() + ball.radius;
+  constexpr float everywhere = std::numeric_limits<float>::infinity();
+  if (front < DepthRenderer::near_plane) return {-everywhere, -everywhere, everywhere, everywhere};
+  const auto least = [&](double x) {
+    return std::min((x - ball.radius) / front, (x - ball.radius) / back);
+  };
+  const auto most = [&](double x) {
+    return std::max((x + ball.radius) / front, (x + ball.radius) / back);
+  };
+  constexpr double spare = 1.0;  // pixels: roundings of float image points
+  return {static_cast<float>(k.fx() * least(p.x()) + k.cx() - spare),
+          static_cast<float>(k.fy() * least(p.y()) + k.cy() - spare),
+          static_cast<float>(k.fx() * most(p.x()) + k.cx() + spare),
+          static_cast<float>(k.fy() * most(p.y()) + k.cy() + spare)};
 }
 
 InverseDepth grazing_inverse_depth(const ClusteredScene& scene, const Cluster& cluster,

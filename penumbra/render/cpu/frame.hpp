@@ -90,7 +90,13 @@ struct BodyFrame {
 /// A box in the image, pixels.
 struct Bounds {
   float u0, v0, u1, v1;
+  [[nodiscard]] bool meets(const Bounds& other) const {
+    return u0 <= other.u1 && other.u0 <= u1 && v0 <= other.v1 && other.v0 <= v1;
+  }
 };
+
+/// Around the image of a ball; everywhere if the ball may reach past the near plane.
+Bounds bounds_of(const Ball& ball, const BodyFrame& body, const Intrinsics& k);
 
 /// A cluster to draw.
 struct DrawItem {

@@ -31,11 +31,15 @@ void Collect(const FrameContext& frame, const DrawItem& item, Scratch& s, Canvas
   const Cluster& cluster = scene.clusters[item.cluster];
   const BodyFrame& body = frame.bodies[item.body];
   const std::uint32_t* corners = &scene.corners[cluster.first_triangle];
-  std::size_t count = item.sides == Sides::both
-                          ? FrontFaces<true>(scene, cluster, body, s.front.data())
-                          : FrontFaces<false>(scene, cluster, body, s.front.data());
+  const std::span<const Bounds> holes = Holes(frame, item);
+  Bounds bounds{};
+  if (!holes.empty()) bounds = Project(scene, cluster, body, s.pixels.data());
+  const bool both_sides =
+      item.sides == Sides::both || (!holes.empty() && (item.clip || MeetsAny(holes, bounds)));
+  std::size_t count = both_sides ? FrontFaces<true>(scene, cluster, body, s.front.data())
+                                 : FrontFaces<false>(scene, cluster, body, s.front.data());
   if (count == 0) return;
-  const Bounds bounds = Project(scene, cluster, body, s.pixels.data());
+  if (holes.empty()) bounds = Project(scene, cluster, body, s.pixels.data());
   if (IsHidden(bounds, item.nearest, frame.view->intrinsics, canvas)) return;
   if (item.clip) {
     count = ClipCorners(frame, item, count, s, canvas);

@@ -22,6 +22,7 @@ using ScratchPtr = std::unique_ptr<Scratch, ScratchDeleter>;
 struct FrameContext {
   const ClusteredScene* scene;
   const BodyFrame* bodies;
+  const Bounds* holes;  // of ClusteredScene::holes
   const View* view;
   Packing packing;
 };

@@ -140,6 +140,18 @@ Bounds Project(const ClusteredScene& scene, const Cluster& cluster, const BodyFr
           hn::GetLane(hn::MaxOfLanes(df, u_max)), hn::GetLane(hn::MaxOfLanes(df, v_max))};
 }
 
+/// Where the backs of a group's triangles may be seen, if only somewhere: around its holes.
+std::span<const Bounds> Holes(const FrameContext& frame, const DrawItem& item) {
+  if (item.sides != Sides::front_and_through_holes) return {};
+  const ClusterGroup& group = frame.scene->groups[item.group];
+  return {frame.holes + group.first_hole, group.hole_count};
+}
+
+bool MeetsAny(std::span<const Bounds> holes, const Bounds& bounds) {
+  return std::any_of(holes.begin(), holes.end(),
+                     [&](const Bounds& hole) { return hole.meets(bounds); });
+}
+
 /// Whether all pixels inside the bounds hold something nearer than 1/z = `nearest`.
 bool IsHidden(const Bounds& b, float nearest, const Intrinsics& k, const Canvas& canvas) {
   // Pixels of triangles seen edge-on exceed their depth (sliver_excess), and words lose low bits.

@@ -51,7 +51,7 @@ void Scene::upload(std::span<const Body> bodies) {
     for (const PreparedMesh& mesh : bodies[body].meshes) {
       body_bounds_[body].extend(mesh.bounds);
       for (const TriangleGroup& group : groups_of(mesh)) {
-        Part part{body, group.solid, group.bounds, 0, 0, 0};
+        Part part{body, group.solid, !group.holes.empty(), group.bounds, 0, 0, 0};
         part.index_count = static_cast<std::uint32_t>(group.indices.size());
         part.first_index = static_cast<std::uint32_t>(indices.size());
         part.first_vertex = static_cast<std::uint32_t>(vertices.size());
@@ -139,7 +139,8 @@ PixelRectangle Scene::place(std::span<const Eigen::Isometry3d> T_camera_body, st
     if (pixels.empty()) continue;
     all = all.united(pixels);
     const Eigen::Vector3d centre = -(T.linear().transpose() * T.translation());
-    const Sides sides = side_rule_.sides(part.solid, part.bounds, centre);
+    const Sides sides = side_rule_.sides(part.solid, part.has_holes, part.bounds, centre);
+    // Through holes backs are seen too: the whole part is drawn from both sides.
     const std::size_t at = sides == Sides::front ? front_count_++ : parts_.size() - ++both_count_;
     const Command command{part.index_count, 1, part.first_index, part.first_vertex, part.body};
     std::memcpy(frame + commands_at_ + at * sizeof(Command), &command, sizeof(Command));

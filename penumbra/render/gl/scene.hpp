@@ -33,7 +33,7 @@ class Scene {
  private:
   struct Part {
     std::uint32_t body;
-    bool solid;
+    bool solid, has_holes;
     Eigen::AlignedBox3d bounds;  // in the body's frame
     std::uint32_t index_count, first_index, first_vertex;
   };
