@@ -129,8 +129,8 @@ class SqliteDatabase {
     for (const int setting : {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER,
                               SQLITE_DBCONFIG_ENABLE_VIEW})
       sqlite3_db_config(opened, setting, 0, nullptr);
-    const std::uint64_t longest = std::clamp<std::uint64_t>(file_size_, 1 << 20, 1 << 30);
-    sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, static_cast<int>(longest));
+    const std::uint64_t most_bytes = std::clamp<std::uint64_t>(file_size_, 1 << 20, 1 << 30);
+    sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, static_cast<int>(most_bytes));
     steps_left_ = (steps_at_least + steps_per_byte * file_size_) / steps_at_once;
     sqlite3_progress_handler(opened, steps_at_once, count_down, &steps_left_);
     return answers("SELECT count(*) FROM sqlite_master");
