@@ -24,6 +24,19 @@ TEST_F(Process, ARunOnTheRecordingStaysSmall) {
   }
 }
 
+TEST_F(Process, TheDemosProgramIsRunAndHandlesNoBags) {
+  const auto demo = [](const Words& arguments) {
+    return penumbra(arguments, {}, PENUMBRA_DEMO_PROGRAM);
+  };
+  succeed(penumbra({"run", path(), "-o", out(), "--save", "labels,overlay"}));
+  succeed(demo({"run", path(), "-o", path("demo"), "--save", "labels,overlay"}));
+  for (const char* const name : {"labels/000000.png", "overlay/000000.png"})
+    EXPECT_EQ(read_file(path("demo") / name), read_file(out(name)));
+  expect_failed(demo({"run", path(), "-o", path("out.mcap")}), {"out.mcap", "no bags"});
+  expect_failed(demo({"run", path("in.mcap"), "-o", path("other")}), {"in.mcap", "no bags"});
+  expect_failed(demo({"view", path()}), {"view", "run"});
+}
+
 TEST_F(Process, AnInterruptLeavesTheReportOfTheFramesThatAreDone) {
   constexpr std::size_t many_frames = 20'000;  // the tiny recording's first one: seconds of work
   std::string joints = "frame,slide\n";

@@ -58,11 +58,11 @@ Words operator+(Words first, const Words& second) {
   return first;
 }
 
-Outcome penumbra(const Words& arguments, const Words& environment) {
+Outcome penumbra(const Words& arguments, const Words& environment, const fs::path& program) {
   const TemporaryFolder folder;
   std::string command = "env";
   for (const std::string& variable : environment) command += " " + quoted(variable);
-  command += " timeout 600 " + quoted(PENUMBRA_PROGRAM);
+  command += " timeout 3600 " + quoted(program);
   for (const std::string& argument : arguments) command += " " + quoted(argument);
   command +=
       " </dev/null >" + quoted(folder.path() / "out") + " 2>" + quoted(folder.path() / "err");

@@ -33,9 +33,10 @@ struct Outcome {
   std::string err;
 };
 
-/// Runs the command line `penumbra` with these arguments, at most 600 s, with NAME=VALUE added to
-/// its environment.
-[[nodiscard]] Outcome penumbra(const Words& arguments, const Words& environment = {});
+/// Runs the command line `penumbra`, or another program, with these arguments, at most an hour, with
+/// NAME=VALUE added to its environment.
+[[nodiscard]] Outcome penumbra(const Words& arguments, const Words& environment = {},
+                               const fs::path& program = PENUMBRA_PROGRAM);
 
 /// Runs the program silently and returns the peak of its resident memory, MB. Fails the test unless
 /// it ends with status 0.
