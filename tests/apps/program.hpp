@@ -33,8 +33,8 @@ struct Outcome {
   std::string err;
 };
 
-/// Runs the command line `penumbra`, or another program, with these arguments, at most an hour, with
-/// NAME=VALUE added to its environment.
+/// Runs the command line `penumbra`, or another program, with these arguments, at most an hour,
+/// with NAME=VALUE added to its environment.
 [[nodiscard]] Outcome penumbra(const Words& arguments, const Words& environment = {},
                                const fs::path& program = PENUMBRA_PROGRAM);
 
