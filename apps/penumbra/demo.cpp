@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command `run`, of recordings alone.
+// The demo's program: `run`, of recordings alone. What handles bags is replaced here, so that it
+// need not be built.
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/commands.hpp>

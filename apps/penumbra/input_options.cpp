@@ -73,6 +73,12 @@ void check_session(const CLI::App& app, io::SessionOptions& session) {
   note_bag_option(app, session.input);
 }
 
+void check_planned(const CLI::App& app, io::InputOptions& input) {
+  note_bag_option(app, input);
+  if (!input.bag.target_topics.empty())
+    throw InputError("--target-topic: targets come from the file of --targets; leave it out");
+}
+
 void add_camera(std::vector<NamedCamera>& cameras, const std::string& name,
                 const std::string& depth_topic) {
   try {

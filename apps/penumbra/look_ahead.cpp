@@ -96,9 +96,7 @@ void add_options(CLI::App& app, LookAheadArguments& ahead) {
 }
 
 void check_options(const CLI::App& app, LookAheadArguments& ahead) {
-  note_bag_option(app, ahead.input.input);
-  if (!ahead.input.input.bag.target_topics.empty())
-    throw InputError("--target-topic: targets come from the file of --targets; leave it out");
+  check_planned(app, ahead.input.input);
 }
 
 int execute(const LookAheadArguments& arguments) {

@@ -169,6 +169,8 @@ void add_input(CLI::App& app, io::InputOptions& input);
 void add_sequence(CLI::App& app, io::SessionOptions& session);
 /// Checks what run, tune and view have in common.
 void check_session(const CLI::App& app, io::SessionOptions& session);
+/// The same of view-planning and look-ahead.
+void check_planned(const CLI::App& app, io::InputOptions& input);
 
 /// Adds a camera. Refuses a name below which results cannot come, and one that is given already.
 void add_camera(std::vector<NamedCamera>& cameras, const std::string& name,

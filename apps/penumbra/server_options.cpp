@@ -5,8 +5,11 @@
 #include <apps/penumbra/server_options.hpp>
 
 namespace penumbra::app {
+namespace {
 
 constexpr std::uint16_t most_port = 65535, default_port = 8470;
+
+}  // namespace
 
 io::WebOptions web_options(const ServerArguments& server) {
   io::WebOptions options{.port = server.port.value_or(default_port)};

@@ -89,9 +89,7 @@ void add_options(CLI::App& app, ViewPlanningArguments& planning) {
 }
 
 void check_options(const CLI::App& app, ViewPlanningArguments& planning) {
-  note_bag_option(app, planning.input.input);
-  if (!planning.input.input.bag.target_topics.empty())
-    throw InputError("--target-topic: targets come from the file of --targets; leave it out");
+  check_planned(app, planning.input.input);
 }
 
 int execute(const ViewPlanningArguments& arguments) {

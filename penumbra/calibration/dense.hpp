@@ -21,8 +21,7 @@ namespace penumbra::dense {
 /// Returns the lower triangular L of L L^T, Cholesky's factor.
 [[nodiscard]] Eigen::MatrixXd lower_factor(const Eigen::MatrixXd& symmetric);
 
-/// The eigenvalues of a positive semi-definite matrix, the least first, and their eigenvectors as
-/// columns.
+/// The eigenvalues, the least first, and their eigenvectors as columns.
 struct PrincipalAxes {
   Eigen::VectorXd values;
   Eigen::MatrixXd vectors;

@@ -6,6 +6,7 @@
 #include "../support/run_length.hpp"
 #include "../support/temporary_folder.hpp"
 #include "label_watch.hpp"
+#include "listening.hpp"
 #include "lone_domain.hpp"
 #include "running_program.hpp"
 #include "soak_publishers.hpp"
@@ -71,7 +72,7 @@ TEST_F(LiveCameras, TwoOfOneRobotByTf) {
       folder_.path() / "live.log");
   constexpr std::size_t enough = 20;  // known labels; until all topics are found they are unknown
   auto next = std::chrono::steady_clock::now();
-  const auto end = next + 60s;
+  const auto end = next + dds_patience;
   for (int tick = 0; next < end && (left.known_count() < enough || right.known_count() < enough);
        ++tick, next += 10ms) {
     std::this_thread::sleep_until(next);
