@@ -20,7 +20,13 @@ const patience = 600_000; // milliseconds until a wait gives up: no test depends
 export async function launch() {
   for (const file of [browserPath, program])
     if (!existsSync(file)) throw new Error(`${file} does not exist`);
-  const args = ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+  // What is no WebGL is drawn without OpenGL, in two thirds of the time.
+  const args = [
+    '--use-gl=angle',
+    '--use-angle=swiftshader',
+    '--enable-unsafe-swiftshader',
+    '--disable-gpu-rasterization',
+  ];
   if (process.getuid?.() === 0) args.push('--no-sandbox'); // Chromium's sandbox refuses root
   const browser = await chromium.launch({ executablePath: browserPath, args, timeout: patience });
   const newContext = browser.newContext.bind(browser);
