@@ -60,7 +60,7 @@ export class Viewer {
     this.numbers = new Throttle(this.isLive ? liveNumbersMilliseconds : 0, () =>
       this.showNumbers(),
     );
-    this.scene = makeScene(this.isSlow);
+    this.scene = makeScene(this.isSlow && this.isLive);
     this.image = new ImageView((inside) => {
       this.inspecting = inside;
       source.partsChanged();

@@ -20,7 +20,7 @@ const patience = 600_000; // milliseconds until a wait gives up: no test depends
 export async function launch() {
   for (const file of [browserPath, program])
     if (!existsSync(file)) throw new Error(`${file} does not exist`);
-  // What is no WebGL is drawn without OpenGL, in two thirds of the time.
+  // Only WebGL uses software OpenGL: with it the page itself takes half as long again to draw.
   const args = [
     '--use-gl=angle',
     '--use-angle=swiftshader',
