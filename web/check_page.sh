@@ -7,5 +7,4 @@ PENUMBRA=$(realpath "${1:?which program? build/release/apps/penumbra/penumbra}")
 export PENUMBRA
 cd "$(dirname "$0")"
 [[ -d node_modules/playwright-core ]] || npm ci --ignore-scripts --loglevel=error >&2
-# One file at a time: each test drives a browser that renders on the CPU.
-node --test --test-concurrency=1 tests/page/*_test.mjs
+node --test tests/page/all.mjs

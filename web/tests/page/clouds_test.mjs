@@ -55,7 +55,6 @@ before(async () => {
   ]);
 });
 after(async () => {
-  await shared.browser?.close();
   await shared.server?.stop();
   await rm(shared.folder, { recursive: true });
 });

@@ -38,7 +38,6 @@ before(async () => {
   browser = await launch();
 });
 after(async () => {
-  await browser?.close();
   await rm(folder, { recursive: true });
 });
 

@@ -34,7 +34,6 @@ before(async () => {
   [browser, server] = await Promise.all([launch(), serve(folder)]);
 });
 after(async () => {
-  await browser?.close();
   await server?.stop();
   await rm(folder, { recursive: true });
 });

@@ -56,7 +56,6 @@ before(async () => {
   if (!skip) browser = await launch();
 });
 after(async () => {
-  await browser?.close();
   await Promise.all(running.map(stop));
 });
 
