@@ -9,11 +9,8 @@ namespace {
 
 using Spoil = std::function<void(const fs::path&)>;
 
-/// A recording that is made faulty, and what the one line on stderr must name.
-struct BadInput {
-  Spoil spoil;
-  Words named;
-};
+/// What makes a recording faulty, and what the one line on stderr must name.
+using BadInput = std::pair<Spoil, Words>;
 
 Spoil edit(const char* file, const char* from, const char* to) {
   return [=](const fs::path& folder) { edit_file(folder / file, from, to); };
@@ -25,15 +22,6 @@ Spoil take_away(const char* file) {
   return [=](const fs::path& folder) { fs::remove(folder / file); };
 }
 
-template <typename T>
-Spoil every_depth(int width, int height, T value) {
-  return [=](const fs::path& folder) {
-    const Image<T> image(width, height, value);
-    for (const char* file : {"depth_0.png", "depth_1.png", "depth_2.png"})
-      io::write_png(folder / file, image.view());
-  };
-}
-
 /// ASCII as a Windows editor saves it, with a byte order mark or without.
 std::string utf16(const std::string& text, bool with_mark) {
   std::string bytes = with_mark ? "\xFF\xFE" : "";
@@ -42,12 +30,12 @@ std::string utf16(const std::string& text, bool with_mark) {
 }
 
 void expect_inputs_refused(const std::vector<BadInput>& inputs) {
-  for (const BadInput& input : inputs) {
+  for (const auto& [spoil, named] : inputs) {
     const TemporaryFolder folder;
     const fs::path recording = folder.path() / "recording";
     write_tiny_recording(recording);
-    input.spoil(recording);
-    expect_refused(penumbra({"run", recording, "-o", folder.path() / "out"}), input.named);
+    spoil(recording);
+    expect_refused(penumbra({"run", recording, "-o", folder.path() / "out"}), named);
   }
 }
 
@@ -67,15 +55,12 @@ TEST(BadInput, Robots) {
             "<collision><geometry><mesh filename=\"board.stl\"/></geometry></collision>", ""),
        {"no link is rendered"}},
       {take_away("board.stl"), {"board"}},
-      {edit("board.stl", "vertex -0.2", "vertex 1e30"), {"board.stl"}},
   });
 }
 
 TEST(BadInput, Recordings) {
   const std::string pose = "1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n";
   expect_inputs_refused({
-      {[](const fs::path& folder) { fs::remove_all(folder); }, {"recording"}},
-      {take_away("recording.yaml"), {"recording.yaml"}},
       {edit("recording.yaml", "  parent:", "  perent:"), {"recording.yaml:", "perent"}},
       {edit("recording.yaml", "parent: base", "parent: bass"), {"recording.yaml", "bass"}},
       {edit("recording.yaml", "  urdf: tiny.urdf", "  urdf: tiny.urdf\n  ignore_links: ['*']"),
@@ -92,6 +77,11 @@ TEST(BadInput, Frames) {
     edit_file(folder / "recording.yaml", "frames:", "targets: targets.yaml\nframes:");
     write_file(folder / "targets.yaml", "targets:\n  - {name: a, box: [9, 9, 9, 9]}\n");
   };
+  const auto of_8_bits = [](const fs::path& folder) {
+    const Image<std::uint8_t> image(64, 48, 90);
+    for (const char* file : {"depth_0.png", "depth_1.png", "depth_2.png"})
+      io::write_png(folder / file, image.view());
+  };
   const auto without_depth = [](const fs::path& folder) {
     for (const char* file : {"depth_0.png", "depth_1.png", "depth_2.png"})
       fs::remove(folder / file);
@@ -106,8 +96,7 @@ TEST(BadInput, Frames) {
        {"joint_states.csv: is UTF-16", "UTF-8"}},
       {without_depth, {"missing_depth", "depth_0.png"}},
       {swapped, {"bad_depth in 3 of 3 frames", "48 x 64\n"}},
-      {every_depth<std::uint8_t>(64, 48, 90), {"bad_depth", "depth_0.png"}},
-      {every_depth<Rgb8>(64, 48, {1, 2, 3}), {"bad_depth", "depth_0.png"}},
+      {of_8_bits, {"bad_depth", "depth_0.png"}},
   });
 }
 
@@ -153,13 +142,9 @@ TEST(BadInput, CommandLines) {
        {{"walk"}, "no such command"},
        {{"calibrat"}, "did you mean calibrate"},
        {{"init"}, "FOLDER"},
-       {{"init", "nowhere"}, "nowhere"},
        {{"run"}, "INPUT"},
-       {{"run", "x.mcap", "-o", "out"}, "x.mcap"},
-       {{"run", "/etc/passwd", "-o", "out"}, "is neither a recording"},
        {{"render"}, "--robot"},
        {{"inspect"}, "URDF"},
-       {{"inspect", "nowhere.urdf"}, "nowhere.urdf"},
        {{"doctor", "--fast"}, "--fast"},
        {{"run", "x.mcap", "-o", "out", "--package", "name=nowhere"}, "a folder that exists"},
        {{"run", "x.mcap", "-o", "out", "--package", "n=/", "--package", "n=/tmp"}, "n=/tmp"},
@@ -241,8 +226,7 @@ TEST_F(BadBagTest, NamesTheFile) {
   expect_spoilt([](TinyBag& bag) { bag.encoding = bag.profile = "ros1"; }, {"ros1", "cdr"});
   expect_spoilt([](TinyBag& bag) { bag.messages.clear(); }, {"holds no messages"});
   const std::string whole = read_file(tiny_mcap());
-  for (const auto& [file, content] : {std::pair<std::string, std::string>("empty.mcap", ""),
-                                      {"empty.db3", ""},
+  for (const auto& [file, content] : {std::pair<std::string, std::string>("empty.db3", ""),
                                       {"head.mcap", whole.substr(0, 100)},
                                       {"cut.mcap", whole.substr(0, 300)},  // in the first chunk
                                       {"text.mcap", "a text of some length, but no bag"},
@@ -250,10 +234,6 @@ TEST_F(BadBagTest, NamesTheFile) {
     write_file(path(file), content);
     expect_refused(run({}, file), {file});
   }
-  fs::create_directory(path("folder"));
-  write_file(path("folder/notes.txt"), "x");
-  expect_refused(run({}, "folder"), {"recording.yaml"});
-  expect_refused(run({"--depth-topic", "/depth"}, "folder"), {"recording.yaml"});
 }
 
 }  // namespace

@@ -81,22 +81,6 @@ TEST_F(BadOutputTest, IsWrittenByAnotherRun) {
   succeed(run({"--save", "labels"}));
 }
 
-TEST_F(BadOutputTest, ImagesBehindALinkStayAndAreRefused) {
-  const fs::path photo = path("photos/000000.png");
-  fs::create_directory(path("photos"));
-  write_file(photo, "the user's own");
-  succeed(run());
-  fs::create_directory_symlink(path("photos"), out("labels"));
-  expect_failed(run(), {"out/labels: "});
-  EXPECT_EQ(read_file(photo), "the user's own");
-
-  fs::remove(out("labels"));
-  fs::create_directory(out("labels"));
-  fs::create_symlink(photo, out("labels/000000.png"));
-  succeed(run({"--save", "labels"}));
-  EXPECT_EQ(read_file(photo), "the user's own") << "the link alone is replaced";
-}
-
 TEST_F(BadOutputTest, AFailedRunRemovesWhatItWroteAndNothingElse) {
   fs::create_directories(out("labels"));
   write_file(out("labels/000100.png"), "the user's own");

@@ -166,14 +166,6 @@ TEST_F(BagTest, TheFirstPublisherMayBeBelieved) {
   expect_recorded_labels();
 }
 
-TEST_F(BagTest, ACopyOfJointStatesIsUsedAsTheyAre) {
-  bag_.copy("/joint_states", "/relayed/joint_states");
-  bag_.edit<io::JointStateMessage>("/relayed/joint_states",
-                                   [](auto& state) { state.header.stamp += 30'000'000; });
-  succeed(run({"--joint-topic", "/relayed/joint_states", "--joint-topic", "/joint_states"}));
-  expect_recorded_labels();
-}
-
 /// Share of the robot's pixels whose labels may differ: the contract of `run`. Positions are
 /// interpolated between states of a smooth path.
 constexpr double differing_share = 1e-3;

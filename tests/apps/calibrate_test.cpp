@@ -139,13 +139,9 @@ TEST_F(CalibrateOfAnUnknownCamera, IsSearchedFor) {
 /// What run, tune and calibrate say of a real recording whose setup is wrong.
 class DiagnosisTest : public RealRecording {
  protected:
-  /// Replaces the camera's pose.
   void spoil(const std::function<Eigen::Isometry3d(Eigen::Isometry3d)>& change) {
     const fs::path pose = path("recording/camera_pose.csv");
     io::write_pose_csv(pose, change(io::read_pose_csv(pose)));
-  }
-  void set_depth_scale(const std::string& value) {
-    edit_file(path("recording/recording.yaml"), "  pose:", "  depth_scale: " + value + "\n  pose:");
   }
   /// Runs and expects this status and cause; null: none.
   Outcome expect_cause(int status, const Json& cause) {
@@ -176,7 +172,7 @@ TEST_F(DiagnosisTest, DepthScaleMendsDepthOfAnotherUnit) {
     expect_has(outcome.err, {"depth_scale"});
   };
   expect_cause(0, nullptr);
-  set_depth_scale("0.01");
+  edit_file(path("recording/recording.yaml"), "  pose:", "  depth_scale: 0.01\n  pose:");
   expect_cause(2, "depth_unit");
   refused(penumbra({"calibrate", path("recording")}));
   edit_file(path("recording/recording.yaml"), "0.01\n", "0.001\n");

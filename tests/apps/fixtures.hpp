@@ -8,12 +8,14 @@
 
 #include <filesystem>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include <penumbra/base/image.hpp>
 
+#include <io/files/npy.hpp>
 #include <io/files/png.hpp>
 
 namespace penumbra::test {
@@ -29,10 +31,14 @@ inline std::string numbered(std::size_t frame, const std::string& ending = ".png
   return std::string(6 - number.size(), '0') + number + ending;
 }
 
+/// Reads a PNG file, or an NPY file of floats.
 template <typename T>
 Image<T> read_image(const fs::path& file) {
   Image<T> image;
-  io::read_png(file, image).require();
+  if constexpr (std::is_same_v<T, float>)
+    io::read_npy(file, image).require();
+  else
+    io::read_png(file, image).require();
   return image;
 }
 
@@ -48,14 +54,12 @@ class FolderTest : public testing::Test {
   [[nodiscard]] Image<std::uint8_t> labels(std::size_t frame) const {
     return read_image<std::uint8_t>(out("labels") / numbered(frame));
   }
-  /// Returns the status of each frame of the report.
   [[nodiscard]] Words statuses() const {
     Words all;
     const Json json = report();
     for (const Json& frame : json["frames"]) all.push_back(frame["status"]);
     return all;
   }
-  /// Returns the message of a frame of the report.
   [[nodiscard]] std::string message(std::size_t frame) const {
     const Json said = report()["frames"].at(frame)["message"];
     return said.is_null() ? "" : std::string(said);
@@ -94,7 +98,6 @@ class TinyTest : public FolderTest {
   Outcome inspect(const Words& options = {}) const {
     return penumbra(Words{"inspect", path("tiny.urdf")} + options);
   }
-  /// Adds elements to the robot.
   void add_to_robot(const std::string& urdf) const {
     edit_file(path("tiny.urdf"), "</robot>", urdf + "</robot>");
   }
@@ -114,7 +117,6 @@ class BagTest : public TinyTest {
                           "--save", saves_} +
                     options);
   }
-  /// Writes the bag.
   [[nodiscard]] fs::path tiny_mcap() const {
     bag_.write_mcap(path("tiny.mcap"));
     return path("tiny.mcap");

@@ -116,13 +116,11 @@ class InputsTest : public FolderTest, public testing::WithParamInterface<std::st
   }
 
   [[nodiscard]] bool is_bag(const std::string& kind) const { return kind.ends_with(".mcap"); }
-  /// Returns a new place for the results.
   [[nodiscard]] fs::path out(const std::string& kind) const {
     const bool is_file = GetParam() == "cloud" && is_bag(kind);
     return path("out_" + fs::path(kind).stem().string() + (is_file ? ".mcap" : ""));
   }
 
-  /// Returns the command line for an input.
   [[nodiscard]] Words line(const std::string& kind, const Words& needed) const {
     const std::string& command = GetParam();
     const fs::path inputs = example / "..", targets = inputs / "view_planning/targets.yaml";

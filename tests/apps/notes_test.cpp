@@ -14,12 +14,10 @@ class NotesTest : public TinyTest {
     expect_note(outcome, report()["summary"]["notes"], words, status);
     EXPECT_EQ(report()["summary"]["bad_frames"], 0);
   }
-  /// The same of render.
   void expect_note_of_render(const Words& options, const std::string& words) {
     const Outcome outcome = render(options + Words{"--json"});
     expect_note(outcome, Json::parse(outcome.out)["notes"], words);
   }
-  /// The same of both.
   void expect_note_of_both(const std::string& words) {
     expect_note_of_run(words);
     expect_note_of_render({}, words);
@@ -42,24 +40,6 @@ class NotesTest : public TinyTest {
     EXPECT_EQ(outcome.err, "penumbra: note: " + notes[0].get<std::string>() + "\n");
   }
 };
-
-TEST_F(NotesTest, TextsOfFilesControlNoTerminal) {
-  const std::string type = "\033[31m\r\302\233K\177";  // C0, C1 and DEL
-  const std::string header =
-      "{'descr': '" + type + "', 'fortran_order': False, 'shape': (48, 64)}\n";
-  std::string npy = std::string("\x93NUMPY\1\0", 8);
-  npy += {static_cast<char>(header.size()), '\0'};
-  for (int i = 0; i < 3; ++i) write_file(path("depth_" + std::to_string(i) + ".npy"), npy + header);
-  edit_file(path("recording.yaml"), "depth_%d.png", "depth_%d.npy");
-  const auto expect_plain = [](const Outcome& outcome) {
-    expect_has(outcome.err, {"depth_0.npy", "[31m"});
-    expect_lacks(outcome.err, {"\033", "\r", "\233", "\177"});
-  };
-  expect_plain(run());
-  expect_plain(penumbra_interrupted({"view", path(), "--port", "0"}, [](const Outcome& printed) {
-    return printed.err.find(".npy") != std::string::npos;
-  }));
-}
 
 TEST_F(NotesTest, ARobotThatIsNeverInView) {
   put_camera_at("0");

@@ -10,7 +10,6 @@
 #include <sstream>
 #include <type_traits>
 
-#include <io/files/npy.hpp>
 #include <io/mcap/compression.hpp>
 
 namespace penumbra::test {
@@ -22,7 +21,6 @@ class OutputBagTest : public BagTest {
     return penumbra(Words{"run", tiny_mcap(), "-o", path(output)} + options);
   }
 
-  /// Calls `call` with each message of a topic and its number.
   template <typename M, typename F>
   void for_each(const std::string& topic, const F& call) {
     const auto count = for_each_message<M>(
@@ -34,7 +32,6 @@ class OutputBagTest : public BagTest {
         });
     EXPECT_EQ(count, 3U) << topic;
   }
-  /// The mask hides every pixel.
   void expect_nothing_trusted() {
     for_each<io::ImageMessage>("/penumbra/mask", [&](const auto& image, std::size_t) {
       for (const std::byte pixel : image.data) ASSERT_EQ(pixel, std::byte{255});
@@ -43,13 +40,8 @@ class OutputBagTest : public BagTest {
 
   template <typename T>
   [[nodiscard]] Image<T> written(const std::string& kind, std::size_t number) const {
-    if constexpr (std::is_same_v<T, float>) {
-      Image<float> image;
-      io::read_npy(out(kind) / numbered(number, ".npy"), image).require();
-      return image;
-    } else {
-      return read_image<T>(out(kind) / numbered(number));
-    }
+    const char* const ending = std::is_same_v<T, float> ? ".npy" : ".png";
+    return read_image<T>(out(kind) / numbered(number, ending));
   }
 
   template <typename T>

@@ -19,10 +19,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
 
-/// Returns the words of a text, which blanks separate.
 [[nodiscard]] Words split(const std::string& text);
 
-/// Returns both lists in one.
 [[nodiscard]] Words operator+(Words first, const Words& second);
 
 /// What a program did. A program that is killed or does not end in time has another status than
@@ -74,7 +72,6 @@ void expect_lacks(const std::string& text, const Words& words);
 
 [[nodiscard]] Json read_json(const fs::path& file);
 
-/// Returns the keys of an object in their order.
 [[nodiscard]] Words keys(const Json& json);
 
 /// Fails the test unless the JSON has these values at these places ("/frames/0/status").

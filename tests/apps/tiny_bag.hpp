@@ -43,7 +43,6 @@ std::size_t for_each_message(const std::filesystem::path& file, const std::strin
   return number;
 }
 
-/// Returns how many messages a bag has of each topic.
 [[nodiscard]] std::map<std::string, std::size_t> topic_counts(const std::filesystem::path& file);
 
 /// Messages of a bag as they are before they are written.
@@ -80,9 +79,7 @@ struct TinyBag {
 
   void remove(const std::string& topic);
   void rename(const std::string& from, const std::string& to);
-  /// The same messages on another topic, too.
   void copy(const std::string& from, const std::string& to);
-  /// Brings the messages into the order of their times.
   void sort();
   /// Adds what robot_state_publisher sends of the tiny board, on /tf at 10 Hz.
   void add_board_frames();

@@ -4,12 +4,13 @@
 #include "program.hpp"
 
 #include <cstdint>
-#include <sstream>
 #include <utility>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/mesh/primitives.hpp>
 
 #include <io/files/png.hpp>
+#include <io/files/stl_file.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -66,27 +67,10 @@ Image<std::uint16_t> depth_image(double board) {
 
 }  // namespace
 
-std::string board_stl() {
-  // Corner i of the box: bit 0 is the side in x, bit 1 in y, bit 2 in z.
-  constexpr int faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                                {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  std::ostringstream stl;
-  stl << "solid board\n";
-  for (const auto& face : faces) {
-    stl << "facet normal 0 0 0\nouter loop\n";
-    for (const int corner : face)
-      stl << "vertex " << ((corner & 1) != 0 ? 0.2 : -0.2) << ' '
-          << ((corner & 2) != 0 ? 0.1 : -0.1) << ' ' << ((corner & 4) != 0 ? 0.05 : -0.05) << '\n';
-    stl << "endloop\nendfacet\n";
-  }
-  stl << "endsolid board\n";
-  return stl.str();
-}
-
 void write_tiny_recording(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   write_file(folder / "tiny.urdf", tiny_urdf);
-  write_file(folder / "board.stl", board_stl());
+  io::write_stl(folder / "board.stl", make_box({0.4, 0.2, 0.1}));
   write_file(folder / "recording.yaml", yaml);
   write_file(folder / "camera_info.yaml", camera_info);
   write_file(folder / "camera_pose.csv", "1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n");

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 namespace penumbra::test {
 
@@ -15,8 +14,5 @@ inline constexpr int tiny_height = 48;
 /// frame an object of 8 x 8 pixels at 0.5 m before the board and 8 x 4 pixels without measurement.
 /// The board's mesh is board.stl.
 void write_tiny_recording(const std::filesystem::path& folder);
-
-/// Returns the board as an ASCII STL file.
-[[nodiscard]] std::string board_stl();
 
 }  // namespace penumbra::test

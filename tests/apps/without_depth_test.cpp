@@ -48,13 +48,6 @@ TEST_F(WithoutDepthTest, VerdictsAndMasksComeFromTheModel) {
   EXPECT_EQ(report()["frames"].size(), 3U);
 }
 
-TEST_F(WithoutDepthTest, CalibrateAndTuneNeedDepth) {
-  for (const char* command : {"calibrate", "tune"})
-    expect_refused(penumbra({command, path(), "-o", out()}),
-                   {"recording.yaml", "'depth' is missing", "compares depth images"});
-}
-
-/// The tiny bag without depth images.
 class BagWithoutDepth : public BagTest {
  protected:
   BagWithoutDepth() {
@@ -65,7 +58,6 @@ class BagWithoutDepth : public BagTest {
 };
 
 TEST_F(BagWithoutDepth, IsJudgedByItsColourImages) {
-  expect_failed(run(), {"--no-depth"});
   succeed(penumbra({"run", path(), "-o", path("wanted"), "--save", "robot_mask"}));
   for (const Words& options : {Words{"--no-depth"}, Words{"--no-depth", "--color-topic",
                                                           "/camera/color/image_raw/compressed"}}) {

@@ -78,8 +78,6 @@ TEST(Rectification, MapsOfTypicalLenses) {
     const Intrinsics k(200, 150, 100, 101, 101.3, 73.2);
     const Camera camera = camera_with(k, sample.distortion());
     const Rectification maps(camera, most_half_angle);
-    std::cout << sample.name << ": " << maps.pinhole().width() << " x " << maps.pinhole().height()
-              << ", focal length " << maps.pinhole().fx() << '\n';
     EXPECT_EQ(maps.half_angle(), most_half_angle);  // not cut: sane lenses, a small image
     check_raw_to_pinhole(camera, maps);
     check_pinhole_to_raw(camera, maps);

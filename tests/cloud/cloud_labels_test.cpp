@@ -117,21 +117,16 @@ CloudRule rule_of(double beam) {
   return {.tolerance = {tolerance, 0, 0}, .beyond_factor = 2, .beam = beam, .mixing = 0.5};
 }
 
-/// Labels that a point may have: where it lies by rounding on a limit, several.
-std::vector<Label> expected_labels(double range, const std::optional<Surface>& surface) {
-  if (!surface) return {Label::clear};
-  std::vector<Label> labels;
-  for (const double r : {range - rounding, range + rounding})
-    labels.push_back(r < surface->range - tolerance       ? Label::front
-                     : r > surface->range + 2 * tolerance ? Label::beyond
-                                                          : Label::occluded);
-  return labels;
-}
-
+/// Whether a point may have a label: where it lies by rounding on a limit, one of several.
 bool fits(Label label, std::uint16_t link, double range, const std::optional<Surface>& surface) {
-  const std::vector<Label> labels = expected_labels(range, surface);
-  return std::find(labels.begin(), labels.end(), label) != labels.end() &&
-         link == (surface ? surface->body + 1 : 0);
+  if (!surface) return label == Label::clear && link == 0;
+  const auto label_at = [&](double r) {
+    return r < surface->range - tolerance       ? Label::front
+           : r > surface->range + 2 * tolerance ? Label::beyond
+                                                : Label::occluded;
+  };
+  return link == surface->body + 1 &&
+         (label == label_at(range - rounding) || label == label_at(range + rounding));
 }
 
 TEST(CloudLabels, AreThoseOfEmbreesRays) {

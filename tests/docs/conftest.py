@@ -18,13 +18,6 @@ PROGRAM = pathlib.Path(penumbra.__file__).parent / "bin" / "penumbra"
 ROBOT = "ur_description"  # what the documents call the package of a robot's meshes
 PLACES = ("/opt/ros/humble/share/ur_description", "/opt/ur_description")  # where they say it is
 
-# What the documents call the user's own, or a machine's.
-UR5E_NAMES = {"forearm": "forearm_link"}
-
-
-def is_full():
-    return bool(os.environ.get("PENUMBRA_FULL"))
-
 
 def in_folder(text, folder):
     """The documents' absolute places, below the folder."""
@@ -33,18 +26,13 @@ def in_folder(text, folder):
     return text
 
 
-def as_ur5e(text):
-    """The shipped arm's URDF with the names that the documents use."""
-    text = text.replace("package://arm_description", f"package://{ROBOT}")
-    for ours, theirs in UR5E_NAMES.items():
-        text = text.replace(f'"{ours}"', f'"{theirs}"')
-    return text
-
-
-def prepare(folder):
+@pytest.fixture(scope="session")
+def template(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("named")
     (folder / "examples").symlink_to(ROOT / "examples")
     (folder / "docs").symlink_to(ROOT / "docs")
-    urdf = as_ur5e((SHIPPED / "arm_description" / "arm.urdf").read_text())
+    urdf = (SHIPPED / "arm_description" / "arm.urdf").read_text()
+    urdf = urdf.replace("package://arm_description", f"package://{ROBOT}").replace('"forearm"', '"forearm_link"')
     shutil.copytree(SHIPPED / "arm_description", folder / ROBOT)
     (folder / "ur5e.urdf").write_text(urdf)
     shutil.copytree(SHIPPED, folder / "my_recording", ignore=shutil.ignore_patterns("truth"))
@@ -61,11 +49,6 @@ def prepare(folder):
         penumbra.write_png(folder / "my_recording" / f"mask_{i}.png", mask.astype(np.uint8))
     write_bag(folder / "recording.mcap", given, list(given), urdf, "base_link")
     return folder
-
-
-@pytest.fixture(scope="session")
-def template(tmp_path_factory):
-    return prepare(tmp_path_factory.mktemp("named"))
 
 
 @pytest.fixture

@@ -5,6 +5,7 @@ import csv
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 
@@ -111,20 +112,9 @@ def written(whole, work):
     return file
 
 
-def write_stl(file):
-    """A box, 50 mm wide."""
-    corners = [(x, y, z) for x in (0, 50) for y in (0, 50) for z in (0, 50)]
-    faces = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1),
-             (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)]
-    lines = "".join("facet normal 0 0 0\nouter loop\n" +
-                    "".join("vertex %g %g %g\n" % corners[i] for i in face) +
-                    "endloop\nendfacet\n" for face in faces)
-    file.write_text(f"solid box\n{lines}endsolid box\n")
-
-
 def read_targets(text, work):
     (work / "shown.yaml").write_text(text)
-    write_stl(work / "mug.stl")
+    shutil.copy(SHIPPED / "arm_description" / "meshes" / "finger.stl", work / "mug.stl")
     (work / "mug.csv").write_text("frame,stamp,x,y,z,qx,qy,qz,qw\n0,1,0,0,1,0,0,0,1\n")
     # Of the size that run lengths in the documents have.
     width, height = 1280, 720

@@ -48,6 +48,7 @@ namespace {
 
 namespace dds = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;
+using namespace penumbra::test;
 using Bytes = std::vector<std::byte>;
 
 class BytesType final : public dds::TopicDataType {
@@ -155,21 +156,10 @@ bool stdin_ended() {
   return read(STDIN_FILENO, &byte, 1) <= 0;
 }
 
-struct Pattern {
-  std::size_t size;
-  std::uint32_t count;
-  double rate;
-};
-
 void say(const std::string& line) { std::cout << line << std::endl; }
 
-/// Waits for a line on stdin; false: it ended.
-bool may_continue() {
-  std::string line;
-  return static_cast<bool>(std::getline(std::cin, line));
-}
-
-void publish_pattern(dds::DataWriter& writer, const Pattern& pattern, const Qos& qos) {
+void publish_pattern(dds::DataWriter& writer, std::size_t size, std::uint32_t count, double rate,
+                     const Qos& qos) {
   using namespace std::chrono_literals;
   dds::PublicationMatchedStatus matched;
   while (!qos.latched &&
@@ -179,24 +169,19 @@ void publish_pattern(dds::DataWriter& writer, const Pattern& pattern, const Qos&
     std::this_thread::sleep_for(5ms);
   }
   if (!qos.latched) say("matched");
-  if (!may_continue()) return;
+  std::string line;
+  if (!std::getline(std::cin, line)) return;
   std::uint32_t refused = 0;
   auto next = std::chrono::steady_clock::now();
-  for (std::uint32_t number = 0; number < pattern.count; ++number) {
-    auto message = penumbra::test::pattern_message(number, pattern.size);
+  for (std::uint32_t number = 0; number < count; ++number) {
+    auto message = pattern_message(number, size);
     if (!writer.write(&message)) ++refused;
-    next += std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / pattern.rate));
+    next += std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / rate));
     std::this_thread::sleep_until(next);
   }
   if (qos.reliable) writer.wait_for_acknowledgments({10, 0});
-  say("written " + std::to_string(pattern.count - refused));
+  say("written " + std::to_string(count - refused));
   while (!stdin_ended()) std::this_thread::sleep_for(20ms);
-}
-
-std::int64_t now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
 }
 
 /// Writes, and says when a message was heard for the first time: by a reader that was known before
@@ -213,7 +198,7 @@ class HeardWriter {
       return;
     }
     if (!has_reader || (heard_ == 0 && !is_acknowledged())) return;
-    if (heard_++ == 0) say("heard " + std::to_string(now()));
+    if (heard_++ == 0) say("heard " + std::to_string(system_now()));
   }
   [[nodiscard]] std::size_t heard() const { return heard_; }
 
@@ -249,66 +234,59 @@ void repeat(dds::DataWriter& writer, std::int64_t hertz, const Qos& qos) {
   if (!read_message(message)) return;
   HeardWriter heard(writer);
   for (std::int64_t tick = 0; !stdin_ended();) {
-    tick = penumbra::test::next_tick(std::max(tick, now()), hertz);
-    std::this_thread::sleep_for(std::chrono::nanoseconds(tick - now()));
-    penumbra::test::set_stamp(message, tick);
+    tick = next_tick(std::max(tick, system_now()), hertz);
+    std::this_thread::sleep_for(std::chrono::nanoseconds(tick - system_now()));
+    set_stamp(message, tick);
     heard.write(message);
   }
   if (qos.reliable) writer.wait_for_acknowledgments({10, 0});
   say("written " + std::to_string(heard.heard()));
 }
 
-template <typename Take>
-void read_until_stdin_ends(dds::DataReader& reader, Take take) {
-  Bytes message;
-  dds::SampleInfo info;
-  while (!stdin_ended()) {
-    reader.wait_for_unread_message({0, 20'000'000});
-    while (reader.take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK)
-      if (info.valid_data) take(message, info);
-  }
-}
-
 void publish(dds::DataWriter& writer, const std::vector<std::string>& words) {
   const Qos qos = to_qos(words[4]);
   say("ready");
   if (words[1] == "repeat")
-    repeat(writer, std::stol(words[5]), qos);
+    repeat(writer, std::stol(words.at(5)), qos);
   else if (words.size() == 8)
-    publish_pattern(writer,
-                    {std::stoul(words[5]), static_cast<std::uint32_t>(std::stoul(words[6])),
-                     std::stod(words[7])},
-                    qos);
+    publish_pattern(writer, std::stoul(words[5]), static_cast<std::uint32_t>(std::stoul(words[6])),
+                    std::stod(words[7]), qos);
   else
     publish_stdin(writer);
 }
 
-void subscribe(dds::DataReader& reader, const std::string& mode) {
-  if (mode == "count") {
-    say("ready");
-    dds::SubscriptionMatchedStatus matched;
-    while (matched.current_count == 0 && !stdin_ended()) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-      static_cast<void>(reader.get_subscription_matched_status(matched));
-    }
-    say("matched");
-    read_until_stdin_ends(reader, [](const Bytes& message, const dds::SampleInfo&) {
-      say(std::to_string(penumbra::test::pattern_number(message)) + " " +
-          std::to_string(message.size()));
-    });
-    return;
+void wait_for_a_publisher(dds::DataReader& reader) {
+  say("ready");
+  dds::SubscriptionMatchedStatus matched;
+  while (matched.current_count == 0 && !stdin_ended()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    static_cast<void>(reader.get_subscription_matched_status(matched));
   }
-  read_until_stdin_ends(reader, [](const Bytes& message, const dds::SampleInfo& info) {
-    const std::int64_t arrival = now();
-    say(std::to_string(info.sample_identity.sequence_number().to64long()) + " " +
-        std::to_string(penumbra::test::stamp_of(message)) + " " + std::to_string(arrival) + " " +
-        std::to_string(penumbra::test::digest_of(message)));
-  });
+  say("matched");
+}
+
+void subscribe(dds::DataReader& reader, const std::string& mode) {
+  if (mode == "count") wait_for_a_publisher(reader);
+  Bytes message;
+  dds::SampleInfo info;
+  while (!stdin_ended()) {
+    reader.wait_for_unread_message({0, 20'000'000});
+    while (reader.take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK) {
+      const std::string arrival = std::to_string(system_now());
+      if (!info.valid_data) continue;
+      if (mode == "count")
+        say(std::to_string(pattern_number(message)) + " " + std::to_string(message.size()));
+      else
+        say(std::to_string(info.sample_identity.sequence_number().to64long()) + " " +
+            std::to_string(stamp_of(message)) + " " + arrival + " " +
+            std::to_string(digest_of(message)));
+    }
+  }
 }
 
 int run(const std::vector<std::string>& words) {
-  const std::string& mode = words[1];
-  const Qos qos = to_qos(words[4]);
+  const std::string& mode = words.at(1);
+  const Qos qos = to_qos(words.at(4));
   Peer peer(words[0], words[2], words[3]);
   if (mode == "publish" || mode == "repeat") {
     auto* const publisher = peer.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
@@ -329,16 +307,8 @@ int run(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
-  const bool known = words.size() == (words.size() > 1 && words[1] == "repeat" ? 6 : 5) ||
-                     (words.size() == 8 && words[1] == "publish");
-  if (!known) {
-    std::cerr << "fast_dds_peer DOMAIN publish|repeat|watch|count TOPIC TYPE QOS [HZ | "
-                 "SIZE COUNT HZ]\n";
-    return 2;
-  }
   try {
-    return run(words);
+    return run({argv + 1, argv + argc});
   } catch (const std::exception& error) {
     std::cerr << "fast_dds_peer: " << error.what() << '\n';
     return 1;

@@ -52,8 +52,6 @@ TEST(GraphDomain, IsThatOfOptionsEnvironmentOrZero) {
     EXPECT_THROW(static_cast<void>(io::graph_domain({})), InputError) << bad;
   }
   unsetenv("ROS_DOMAIN_ID");
-  EXPECT_THROW(static_cast<void>(io::graph_domain({.domain = 233})), InputError);
-  EXPECT_THROW(static_cast<void>(io::graph_domain({.domain = -1})), InputError);
 }
 
 TEST(DiscoveryRange, IsThatOfTheEnvironment) {
@@ -77,16 +75,12 @@ TEST(DiscoveryRange, IsThatOfTheEnvironment) {
 TEST(Graph, RefusesBadSettingsInOneLineThatNamesThem) {
   const LoneDomain domain;
   for (const char* const bad :
-       {"nonsense", "<CycloneDDS><Domain><Foo>1</Foo></Domain></CycloneDDS>", "<CycloneDDS",
-        "file:///nonexistent.xml",
-        "<CycloneDDS><Domain><General><AllowMulticast>maybe</AllowMulticast></General></Domain>"
-        "</CycloneDDS>",
+       {"<CycloneDDS><Domain><Foo>1</Foo></Domain></CycloneDDS>", "file:///nonexistent.xml",
         "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"wlan99\"/></Interfaces>"
         "</General></Domain></CycloneDDS>"}) {
+    SCOPED_TRACE(bad);
     setenv("CYCLONEDDS_URI", bad, 1);
-    const std::string said = message_of([&] { return io::join_graph({.domain = domain.id()}); });
-    EXPECT_NE(said.find("CYCLONEDDS_URI"), std::string::npos) << bad << ": " << said;
-    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    expect_refused([&] { return io::join_graph({.domain = domain.id()}); }, {"CYCLONEDDS_URI"});
   }
   unsetenv("CYCLONEDDS_URI");
   EXPECT_EQ(refusal([&] { return io::join_graph({.domain = domain.id()}); }), "");

@@ -50,10 +50,8 @@ std::optional<std::int64_t> LabelWatch::known_after(std::int64_t arrival, std::i
   do {
     {
       const std::lock_guard lock(mutex_);
-      auto first = heard_.end();
-      while (first != heard_.begin() && (first - 1)->arrival > arrival) --first;
-      const auto found = std::find_if(first, heard_.end(), [&](const HeardLabels& one) {
-        return one.is_known && one.stamp > stamp;
+      const auto found = std::ranges::find_if(heard_, [&](const HeardLabels& one) {
+        return one.is_known && one.arrival > arrival && one.stamp > stamp;
       });
       if (found != heard_.end()) return found->arrival;
     }

@@ -119,11 +119,6 @@ TEST_F(LiveTest, ADeviceThatFailsLeavesTheSummary) {
   const Json& camera = json["cameras"][0];
   EXPECT_GT(camera["judged"], 0);
   EXPECT_EQ(camera["in_work"], 1) << "the one that failed";
-  std::size_t all = 0;
-  for (const char* fate : {"judged", "failed", "waiting", "in_work"})
-    all += camera[fate].get<std::size_t>();
-  for (const auto& [reason, images] : camera["dropped"].items()) all += images.get<std::size_t>();
-  EXPECT_EQ(all, camera["received"]);
   EXPECT_EQ(camera["renderer"]["backend"], "gl");
   EXPECT_TRUE(camera["renderer"]["device"].is_string());
 }

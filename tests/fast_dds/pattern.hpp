@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -25,17 +26,19 @@ inline std::vector<std::byte> pattern_message(std::uint32_t number, std::size_t 
   return message;
 }
 
-/// The number of a message of pattern_message(), in which every `stride`th byte is looked at; -1 if
-/// it is none.
-inline std::int64_t pattern_number(std::span<const std::byte> message, std::size_t stride = 1) {
+/// The number of a message of pattern_message(); -1 if it is none.
+inline std::int64_t pattern_number(std::span<const std::byte> message) {
   if (message.size() < pattern_header || message[1] != std::byte{1}) return -1;
-  std::uint32_t number = 0, stated = 0;
+  std::uint32_t number = 0;
   std::memcpy(&number, message.data() + 4, sizeof(number));
-  std::memcpy(&stated, message.data() + 8, sizeof(stated));
-  if (stated != message.size()) return -1;
-  for (std::size_t i = pattern_header; i < message.size(); i += stride)
-    if (message[i] != static_cast<std::byte>((i * 2654435761U + number * 40503U) >> 13U)) return -1;
-  return number;
+  const auto wanted = pattern_message(number, message.size());
+  return std::equal(message.begin() + 4, message.end(), wanted.begin() + 4) ? number : -1;
+}
+
+/// Nanoseconds since 1970.
+inline std::int64_t system_now() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
 }
 
 // Messages in CDR that begin with a header: the stamp stands behind the 4 bytes of encapsulation.

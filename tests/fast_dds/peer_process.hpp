@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,7 +27,7 @@ class PeerProcess {
 
   /// Lets one that publishes messages of pattern.hpp begin. Who wants the first of them waits until
   /// both sides know of each other.
-  void go();
+  void go() { send("\n", 1); }
 
   /// For one that publishes what it is given.
   void give(std::span<const std::byte> message);
@@ -43,7 +42,7 @@ class PeerProcess {
   int end();
 
  private:
-  bool read_exactly(void* to, std::size_t size);
+  void send(const void* bytes, std::size_t size);
 
   pid_t pid_ = -1;
   int in_ = -1, out_ = -1;  // pipes to its stdin and from its stdout

@@ -1,43 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "../support/process_memory.hpp"
+#include "../support/child_process.hpp"
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include <sys/types.h>
+#include <fcntl.h>
 
 namespace penumbra::test {
-
-/// What the kernel says of a process.
-struct ProcessUsage {
-  std::chrono::steady_clock::time_point when;
-  double cpu_seconds = 0.0;  ///< of all threads
-  ProcessMemory memory;
-};
 
 /// A command of `penumbra` that runs as long as this lives.
 class RunningProgram {
  public:
-  /// `log`: takes stdout and stderr; empty: they are the test's.
-  explicit RunningProgram(std::vector<std::string> arguments,
-                          const std::filesystem::path& log = {});
+  /// `log`: takes stdout and stderr.
+  RunningProgram(std::vector<std::string> arguments, const std::filesystem::path& log) {
+    arguments.insert(arguments.begin(), PENUMBRA_PROGRAM);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT, 0644);
+    posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+    pid_ = start_process(arguments, files);
+  }
   RunningProgram(const RunningProgram&) = delete;
   RunningProgram& operator=(const RunningProgram&) = delete;
-  ~RunningProgram() { static_cast<void>(end()); }
+  ~RunningProgram() {
+    if (pid_ > 0) end();
+  }
 
-  [[nodiscard]] ProcessUsage usage() const;
+  [[nodiscard]] pid_t pid() const { return pid_; }
 
   /// Ends it by a signal, and returns its exit status.
-  int end(int signal = SIGTERM);
+  int end(int signal = SIGTERM) {
+    ::kill(pid_, signal);
+    return wait_for(pid_);
+  }
 
  private:
   pid_t pid_ = -1;
-  int status_ = -1;
 };
 
 }  // namespace penumbra::test

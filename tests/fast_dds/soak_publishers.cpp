@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "soak_publishers.hpp"
 
-#include "pattern.hpp"
+#include "../support/pixels.hpp"
 
 #include <algorithm>
-#include <chrono>
+#include <map>
+#include <random>
 #include <stdexcept>
 #include <utility>
 
@@ -16,15 +17,15 @@ constexpr const char* info_type = "sensor_msgs::msg::dds_::CameraInfo_";
 constexpr const char* latched = "reliable,latched,depth=1";
 
 /// Shades with a sensor's noise: an even image would be compressed in no time.
-std::vector<std::byte> color_image(const LiveLens& lens) {
-  Image<Rgb8> picture(lens.width, lens.height);
+std::vector<std::byte> color_image() {
+  Image<Rgb8> picture(large_lens.width, large_lens.height);
   std::minstd_rand noise(1);
   const auto shade = [&](int at, int end) {
     return static_cast<std::uint8_t>(200 * at / end + static_cast<int>(noise() % 8));
   };
-  for (int v = 0; v < lens.height; ++v)
-    for (int u = 0; u < lens.width; ++u)
-      picture(u, v) = {shade(u, lens.width), shade(v, lens.height), shade(u + v, 4 * lens.width)};
+  for (const auto [u, v] : each_pixel(picture))
+    picture(u, v) = {shade(u, large_lens.width), shade(v, large_lens.height),
+                     shade(u + v, 4 * large_lens.width)};
   return encoded(
       io::image_message(io::MessageHeader{1, "optical"}, "rgb8", std::as_const(picture).view()));
 }
@@ -47,14 +48,7 @@ std::unique_ptr<PeerProcess> make_peer(int domain, const std::vector<std::string
   return process;
 }
 
-std::int64_t system_now() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
-JointFeed::JointFeed(int hertz, const JointFaults& faults, std::uint64_t seed)
-    : hertz_(hertz), faults_(faults), random_(seed), thread_([this] { feed(); }) {}
+JointFeed::JointFeed(const JointFaults& faults) : faults_(faults), thread_([this] { feed(); }) {}
 
 JointFeed::~JointFeed() {
   ends_ = true;
@@ -72,24 +66,21 @@ void JointFeed::kill() {
 }
 
 void JointFeed::feed() {
+  constexpr int hertz = 100;
+  std::mt19937_64 random(faults_.seed);
+  std::multimap<std::int64_t, std::int64_t> waiting;  // stamps, by when they are told
   std::uniform_int_distribution<std::int64_t> delay(0, faults_.longest_delay);
   std::bernoulli_distribution is_lost(faults_.lost);
   for (std::int64_t tick = system_now(); !ends_;) {
-    tick = next_tick(std::max(tick, system_now()), hertz_);
+    tick = next_tick(std::max(tick, system_now()), hertz);
     std::this_thread::sleep_for(std::chrono::nanoseconds(tick - system_now()));
-    if (!is_lost(random_)) waiting_.push_back({tick + delay(random_) * milliseconds, tick});
-    tell_until(tick);
+    if (!is_lost(random)) waiting.emplace(tick + delay(random) * milliseconds, tick);
+    const auto end = waiting.upper_bound(tick);
+    const std::lock_guard lock(mutex_);
+    for (auto due = waiting.begin(); process_ && due != end; ++due)
+      process_->give(live_joints(due->second));
+    waiting.erase(waiting.begin(), end);
   }
-}
-
-void JointFeed::tell_until(std::int64_t time) {
-  std::stable_sort(waiting_.begin(), waiting_.end());
-  const auto end = std::find_if(waiting_.begin(), waiting_.end(),
-                                [&](const Due& due) { return due.time > time; });
-  const std::lock_guard lock(mutex_);
-  for (auto due = waiting_.begin(); process_ && due != end; ++due)
-    process_->give(live_joints(due->stamp));
-  waiting_.erase(waiting_.begin(), end);
 }
 
 std::string topic_of(Part part) {
@@ -99,8 +90,8 @@ std::string topic_of(Part part) {
   return topics.at(static_cast<std::size_t>(part));
 }
 
-SoakPublishers::SoakPublishers(int domain, const SoakScene& scene)
-    : domain_(domain), scene_(scene), joints_(scene.joint_hertz, scene.joint_faults, scene.seed) {
+SoakPublishers::SoakPublishers(int domain, const JointFaults& faults)
+    : domain_(domain), joints_(faults) {
   description_ = make_peer(
       domain, {"publish", "rt/robot_description", "std_msgs::msg::dds_::String_", latched});
   description_->give(encoded(io::StringMessage{live_urdf}));
@@ -109,22 +100,17 @@ SoakPublishers::SoakPublishers(int domain, const SoakScene& scene)
   mount_->give(encoded(io::TfMessage{{{{0, "base"}, "optical"}}}));
 }
 
-std::vector<std::byte> SoakPublishers::message_of(Part part) const {
-  if (part == Part::depth) return live_depth(1, "optical", scene_.lens);
-  if (part == Part::color) return color_image(scene_.lens);
-  return encoded(live_info(1, scene_.lens));
-}
-
 void SoakPublishers::start(Part part) {
   if (part == Part::joints)
     return joints_.begin(
         make_peer(domain_, {"publish", "rt" + topic_of(part), "sensor_msgs::msg::dds_::JointState_",
                             "reliable,depth=10"}));
   const bool is_image = part == Part::depth || part == Part::color;
-  auto made =
-      make_peer(domain_, {"repeat", "rt" + topic_of(part), is_image ? image_type : info_type,
-                          "reliable,depth=5", std::to_string(scene_.hertz)});
-  made->give(message_of(part));
+  auto made = make_peer(domain_, {"repeat", "rt" + topic_of(part),
+                                  is_image ? image_type : info_type, "reliable,depth=5", "30"});
+  made->give(part == Part::depth   ? live_depth(1, "optical", large_lens)
+             : part == Part::color ? color_image()
+                                   : encoded(live_info(1, large_lens)));
   camera_[static_cast<std::size_t>(part)] = std::move(made);
 }
 

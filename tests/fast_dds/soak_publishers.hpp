@@ -3,6 +3,7 @@
 #pragma once
 
 #include "../io/live_scene.hpp"
+#include "pattern.hpp"
 #include "peer_process.hpp"
 
 #include <array>
@@ -10,31 +11,27 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <random>
 #include <string>
 #include <thread>
 #include <vector>
 
 namespace penumbra::test {
 
-/// A process on a domain. `mode`: as fast_dds_peer has it; publishers have said that they are
-/// ready.
+/// A process on a domain. `words`: of fast_dds_peer, from the mode on; publishers are ready.
 [[nodiscard]] std::unique_ptr<PeerProcess> make_peer(int domain,
                                                      const std::vector<std::string>& words);
-
-/// Nanoseconds since 1970.
-[[nodiscard]] std::int64_t system_now();
 
 /// What happens to joint states on the way.
 struct JointFaults {
   double lost = 0.0;      ///< share
   int longest_delay = 0;  ///< ms, each one's own: they overtake one another
+  std::uint64_t seed = 0;
 };
 
-/// Tells joint states evenly, by a process that may be killed and replaced.
+/// Tells joint states at 100 Hz, by a process that may be killed and replaced.
 class JointFeed {
  public:
-  JointFeed(int hertz, const JointFaults& faults, std::uint64_t seed);
+  explicit JointFeed(const JointFaults& faults);
   ~JointFeed();
   JointFeed(const JointFeed&) = delete;
   JointFeed& operator=(const JointFeed&) = delete;
@@ -44,19 +41,11 @@ class JointFeed {
   [[nodiscard]] PeerProcess* process() { return process_.get(); }
 
  private:
-  struct Due {
-    std::int64_t time, stamp;
-    bool operator<(const Due& other) const { return time < other.time; }
-  };
   void feed();
-  void tell_until(std::int64_t time);
 
-  int hertz_;
   JointFaults faults_;
-  std::mt19937_64 random_;
   std::mutex mutex_;
   std::unique_ptr<PeerProcess> process_;  // guarded by mutex_; changed by its owner's thread alone
-  std::vector<Due> waiting_;              // the feeding thread's
   std::atomic<bool> ends_ = false;
   std::thread thread_;
 };
@@ -67,18 +56,11 @@ inline constexpr std::array all_parts = {Part::depth, Part::depth_info, Part::co
                                          Part::color_info, Part::joints};
 [[nodiscard]] std::string topic_of(Part part);
 
-struct SoakScene {
-  LiveLens lens = large_lens;
-  int hertz = 30;
-  int joint_hertz = 100;
-  JointFaults joint_faults = {};
-  std::uint64_t seed = 0;
-};
-
+/// Its camera is that of large_lens, at 30 Hz.
 class SoakPublishers {
  public:
   /// A robot_description and where the camera is are published; start() is for the rest.
-  SoakPublishers(int domain, const SoakScene& scene);
+  SoakPublishers(int domain, const JointFaults& faults);
 
   void start(Part part);
   void kill(Part part);
@@ -91,11 +73,9 @@ class SoakPublishers {
   [[nodiscard]] std::size_t end(Part part);
 
  private:
-  [[nodiscard]] std::vector<std::byte> message_of(Part part) const;
   PeerProcess* process(Part part);
 
   int domain_;
-  SoakScene scene_;
   std::unique_ptr<PeerProcess> description_, mount_;
   std::array<std::unique_ptr<PeerProcess>, 4> camera_;
   JointFeed joints_;

@@ -65,14 +65,12 @@ void count(const FrameReport& report, const Image<std::uint8_t>& truth,
   }
 }
 
-Counts judge_recording(const LabelRule& rule) {
+Counts judge_recording() {
   const std::filesystem::path folder = PENUMBRA_SOURCE_DIR "/examples/arm_over_table";
   const auto recording = io::Recording::open(folder);
   Robot robot = recording.load_robot();
   const io::FrameReader frames(recording, robot);
-  PipelineConfig config = recording.pipeline_config();
-  config.rule = rule;
-  Pipeline pipeline(std::move(robot), recording.camera.camera, config);
+  Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
 
   Counts counts;
   Image<std::uint8_t> truth;
@@ -86,20 +84,12 @@ Counts judge_recording(const LabelRule& rule) {
   return counts;
 }
 
-void print(const char* rule, const Counts& counts) {
-  std::cout << rule << ": robot " << counts.robot << ", covered differently "
-            << counts.covered_differently << " (" << counts.inner_covered_differently
-            << " inside); false front " << counts.false_front << " of " << counts.seen << ", found "
-            << counts.found << " of " << counts.before << '\n';
-}
-
 double part(std::size_t some, std::size_t all) {
   return static_cast<double>(some) / static_cast<double>(all);
 }
 
 TEST(ShippedExample, LabelsAgreeWithTheTruth) {
-  const Counts counts = judge_recording({});
-  print("default", counts);
+  const Counts counts = judge_recording();
   EXPECT_GT(counts.robot, 100'000U);
   EXPECT_EQ(counts.inner_covered_differently, 0U);
   EXPECT_LE(part(counts.covered_differently, counts.robot), most_covered_differently);

@@ -13,12 +13,9 @@
 namespace penumbra::test {
 namespace {
 
-const std::vector<std::string>& code_folders() {
-  static const std::vector<std::string> folders{
-      "penumbra", "io",      "sim",   "apps", "research", "examples", "tests",
-      "bench",    "scripts", "cmake", ".ci",  "ros",      "python",   "docs"};
-  return folders;
-}
+const std::vector<std::string> code_folders{"penumbra", "io",    "sim",    "apps",    "research",
+                                            "examples", "tests", "bench",  "scripts", "cmake",
+                                            ".ci",      "ros",   "python", "docs"};
 
 std::string output_of(const std::string& command) {
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
@@ -30,8 +27,8 @@ std::string output_of(const std::string& command) {
 }
 
 TEST(Upkeep, EveryFileNamesItsLicence) {
-  const auto files = source_files(code_folders(), {".cpp", ".hpp", ".sh", ".py", ".cmake",
-                                                   ".cmake.in", ".hpp.in", "CMakeLists.txt"});
+  const auto files = source_files(code_folders, {".cpp", ".hpp", ".sh", ".py", ".cmake",
+                                                 ".cmake.in", ".hpp.in", "CMakeLists.txt"});
   ASSERT_GT(files.size(), 20U);
   for (const auto& file : files) {
     ASSERT_FALSE(file.lines.empty()) << file.path << " is empty";
@@ -64,7 +61,7 @@ TEST(Upkeep, PackagesAreListed) {
   for (std::string name; names >> name;) listed.insert(name);
 
   const std::regex pattern(R"(^\s*find_package\(\s*([A-Za-z0-9_-]+))");
-  for (const auto& file : source_files(code_folders(), {"CMakeLists.txt", ".cmake"})) {
+  for (const auto& file : source_files(code_folders, {"CMakeLists.txt", ".cmake"})) {
     if (file.path.starts_with("ros/")) continue;
     for (const auto& line : file.lines) {
       std::smatch match;

@@ -15,62 +15,46 @@ namespace penumbra::io {
 namespace {
 
 using test::raw;
+using test::replaced;
 
 // More than a header of 64 KiB takes, and less than any lie in a header asks for.
 constexpr std::size_t cloud_memory = std::size_t{16} << 20;
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  EXPECT_HAS(text, from);
-  return text.replace(text.find(from), from.size(), to);
-}
-
 /// Expects each file to be refused, by its name and the second text.
 void expect_bad(const std::string& name, const test::BadInputs& files) {
   const test::TemporaryFolder folder;
-  test::expect_refused(files, [&](const std::string& bytes) {
+  for (const auto& [bytes, named] : files) {
     const auto file = folder.write(name, bytes);
     const test::MemoryShortage shortage(cloud_memory, 0);
-    test::expect_refused([&] { (void)read_cloud(file); }, {file.string() + ": "});
-    (void)read_cloud(file);
-  });
+    test::expect_refused([&] { (void)read_cloud(file); }, {file.string() + ": ", named});
+  }
 }
 
 TEST(CloudBadFile, PcdHeadersAreChecked) {
-  const std::string body = raw(1.0F, 2.0F, 3.0F);
-  const std::string good = test::pcd(test::xyz_fields, 1, 1, "binary\n") + body;
+  const std::string good = test::pcd(test::xyz_fields, 1, 1, "binary\n") + raw(1.0F, 2.0F, 3.0F);
   const auto with = [&](const std::string& from, const std::string& to) {
     return replaced(good, from, to);
   };
-  const std::string points = "\nPOINTS 1";
   const auto sized = [&](const std::string& width, const std::string& height) {
-    return replaced(replaced(with(points, ""), "WIDTH 1", "WIDTH " + width), "HEIGHT 1",
+    return replaced(replaced(with("\nPOINTS 1", ""), "WIDTH 1", "WIDTH " + width), "HEIGHT 1",
                     "HEIGHT " + height);
   };
   expect_bad("a.pcd", {{"", "DATA"},
                        {"VERSION 0.7\n" + std::string(std::size_t{1} << 20, 'x'), "65536"},
-                       {with("FIELDS x y z", "FIELDS"), "FIELDS"},
                        {with("FIELDS x y z", "FIELDS x y"), "FIELDS"},
-                       {with("SIZE 4 4 4", "SIZE 4 4 -4"), "-4"},
                        {with("SIZE 4 4 4", "SIZE 4 4 3"), "3 bytes"},
                        {with("SIZE 4 4 4", "SIZE 4 4 18446744073709551615"), "\"z\""},
                        {replaced(with("SIZE 4 4 4", "SIZE 4 4 8"), "F F F", "F F U"), "64-bit"},
                        {with("TYPE F F F", "TYPE F F X"), "\"z\""},
                        {with("COUNT 1 1 1", "COUNT 1 1 0"), "\"z\""},
-                       {with("COUNT 1 1 1", "COUNT 1 1 4294967296"), "\"z\""},
-                       {with("COUNT 1 1 1", "COUNT 1 1 18446744073709551616"), "COUNT"},
                        {with("COUNT 1 1 1", "COUNT 1 1 2"), "16 bytes"},
                        {with("WIDTH 1\n", ""), "WIDTH"},
-                       {with("HEIGHT 1\n", ""), "HEIGHT"},
                        {with("POINTS 1", "POINTS 2"), "POINTS"},
                        {sized("100000000", "1"), "1200000000 bytes"},
                        {sized("-1", "1"), "WIDTH"},
-                       {sized("1", "-1"), "HEIGHT"},
-                       {sized("1e3", "1"), "WIDTH"},
                        {sized("4294967295", "4294967295"), "4294967295 x"},
-                       {sized("1", "4294967296"), "x 4294967296"},
                        {sized("300000000", "4294967295"), "follow the header"},
                        {sized("0", "4294967295"), "12 bytes follow the last point"},
-                       {with("DATA binary", "DATA"), "DATA"},
                        {with("DATA binary", "DATA zip"), "zip"},
                        {good.substr(0, good.size() - 1), "truncated"},
                        {good + "x", "follow the last point"}});
@@ -122,7 +106,6 @@ TEST(CloudBadFile, PlyIsChecked) {
   const std::string binary = test::binary_ply<false>();
   const std::string vertex = "element vertex 2";
   expect_bad("a.ply", {{"", "'ply'"},
-                       {"plyx\n" + text, "'ply'"},
                        {"ply\ncomment " + std::string(std::size_t{1} << 20, 'x'), "65536"},
                        {replaced(text, "format ascii", "format binary"), "binary"},
                        {replaced(text, "format ascii 1.0\n", ""), "format"},
@@ -132,8 +115,6 @@ TEST(CloudBadFile, PlyIsChecked) {
                        {replaced(text, vertex, "element vertex 18446744073709551615"), "4 GiB"},
                        {replaced(binary, vertex, "element vertex 100000000"), "1900000000 bytes"},
                        {replaced(binary, "camera 2", "camera 18446744073709551615"), "ends before"},
-                       {replaced(text, "camera 2", "camera 18446744073709551615"), "ends before"},
-                       {replaced(text, "2 5 6 0.5", "18446744073709551615 5 6 0.5"), "\"ids\""},
                        {replaced(text, "2 5 6 0.5", "9223372036854775807 5 6 0.5"), "ends before"},
                        {replaced(text, "2 5 6 0.5", "-1 5 6 0.5"), "\"ids\""},
                        {replaced(text, "list uchar short", "list float short"), "integers"},
@@ -156,24 +137,20 @@ TEST(CloudBadFile, NumpyIsChecked) {
     return header("{'descr': " + type + ", 'fortran_order': False, 'shape': " + sizes + "}");
   };
   expect_bad("a.npy", {{"", "NumPy"},
-                       {"\x93NUMPX" + good.substr(6), "NumPy"},
                        {replaced(good, "NUMPY\x01", "NUMPY\x04"), "version 4"},
                        {replaced(good, "NUMPY\x01", "NUMPY\x03"), "header"},
                        {good.substr(0, 40), "header"},
                        {good.substr(0, good.size() - 1), "truncated"},
                        {good + "x", "follow"},
                        {shape("(3,)"), "1 dimensions"},
-                       {shape("(1, 1, 3)"), "3 dimensions"},
                        {shape("(1, 2)"), "C >= 3"},
                        {shape("(3, 18446744073709551615)"), "no cloud"},
                        {shape("(18446744073709551615, 3)"), "4 GiB"},
                        {shape("(100000000, 3)"), "1200000000"},
                        {shape("(-1, 3)"), "plain array"},
-                       {shape("(1, 3"), "plain array"},
                        {shape("(1, 3)", "'<f2'"), "<f2"},
                        {shape("(1, 3)", "'>f4'"), ">f4"},
                        {shape("(1,)", "[('x', '<f4')]"), "plain array"},
-                       {header("{'descr': '<f4'}"), "plain array"},
                        {header("[1]"), "plain array"}});
 }
 
@@ -203,16 +180,12 @@ TEST(CloudBadFile, CloudsThatAreInconsistentOrDoNotFitAreNotWritten) {
   expect_unwritten("a.txt", ".pcd", [](Cloud&) {});
   expect_unwritten("a.pcd", "big-endian", [](Cloud& c) { c.is_bigendian = true; });
   expect_unwritten("a.pcd", "no fields", [](Cloud& c) { c.fields.clear(); });
-  expect_unwritten("a.pcd", "no name", [](Cloud& c) { c.fields[1].name = ""; });
   expect_unwritten("a.ply", "no name", [](Cloud& c) { c.fields[1].name = "a\nb"; });
-  expect_unwritten("a.pcd", "datatype 0", [](Cloud& c) { c.fields[1].datatype = 0; });
   expect_unwritten("a.pcd", "datatype 9", [](Cloud& c) { c.fields[1].datatype = 9; });
   expect_unwritten("a.pcd", "\"y\"", [](Cloud& c) { c.fields[1].offset = 4294967295; });
   expect_unwritten("a.pcd", "\"y\"", [](Cloud& c) { c.fields[1].count = 4294967295; });
-  expect_unwritten("a.pcd", "\"y\"", [](Cloud& c) { c.fields[1].count = 0; });
   expect_unwritten("a.pcd", "limit", [](Cloud& c) { c.fields.resize(20000, c.fields[0]); });
   expect_unwritten("a.pcd", "fewer data", [](Cloud& c) { c.width = 3; });
-  expect_unwritten("a.pcd", "fewer data", [](Cloud& c) { c.width = 4294967295; });
   expect_unwritten("a.pcd", "fewer data", [](Cloud& c) { c.height = 4294967295; });
   expect_unwritten("a.npy", "x y z", [](Cloud& c) { c.fields[0].name = "i"; });
   expect_unwritten("a.bin", "x y z i;", [](Cloud& c) { c.fields[3].name = "i"; });

@@ -203,18 +203,5 @@ TEST_F(CloudFile, GapsBetweenFieldsAndRowsAreLeftOut) {
                 data.substr(8, 4) + data.substr(4, 2) + data.substr(26, 4) + data.substr(22, 2));
 }
 
-TEST_F(CloudFile, AMovedCloudKeepsItsPoints) {
-  StoredCloud first = read("a.bin", test::kitti());
-  StoredCloud second(std::move(first));
-  EXPECT_EQ(points_of(second), test::kitti());
-  first = std::move(second);
-  EXPECT_EQ(points_of(first), test::kitti());
-}
-
-TEST_F(CloudFile, TheExtensionNamesTheFormat) {
-  for (const char* name : {"a.pcd", "a.PLY", "b/c.npy", "a.bin"}) EXPECT_TRUE(is_cloud_file(name));
-  for (const char* name : {"a.las", "pcd", "a.pcd.txt", ""}) EXPECT_FALSE(is_cloud_file(name));
-}
-
 }  // namespace
 }  // namespace penumbra::io

@@ -170,12 +170,9 @@ TEST(CloudPoints, LiesOfSizesAreRefused) {
   const std::pair<void (*)(M&), std::string_view> lies[] = {
       {[](M&) {}, ""},
       {[](M& m) { m.width = 5; }, "do not fit"},
-      {[](M& m) { m.width = most; }, "do not fit"},
-      {[](M& m) { m.height = 3; }, "do not fit"},
       {[](M& m) { m.width = m.height = m.row_step = most; }, "do not fit"},
       {[](M& m) { m.row_step = 11; }, "do not fit"},
       {[](M& m) { m.point_step = most; }, "do not fit"},
-      {[](M& m) { m.fields[1].offset = 9; }, "field 'y'"},
       {[](M& m) { m.fields[1].offset = most; }, "field 'y'"},
       {[](M& m) { m.fields[1].count = most; }, "field 'y'"},
       {[](M& m) { m.fields[1].datatype = 9; }, "field 'y'"},

@@ -2,8 +2,9 @@
 // Files of point clouds, put together by the descriptions of their formats.
 #pragma once
 
+#include "files.hpp"
+
 #include <algorithm>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -12,15 +13,7 @@
 
 namespace penumbra::test {
 
-/// Returns the bytes of numbers, one after the other.
-template <typename... T>
-std::string raw(T... values) {
-  std::string bytes;
-  (bytes.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
-  return bytes;
-}
-
-/// The same in the other byte order.
+/// As raw(), in the other byte order.
 template <typename... T>
 std::string raw_big(T... values) {
   std::string bytes;

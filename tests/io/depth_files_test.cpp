@@ -31,8 +31,7 @@ class DepthFiles : public testing::Test {
     std::vector<float> depth, other(columns * rows, 9.0F);
     for (int v = 0; v < rows; ++v)
       for (int u = 0; u < columns; ++u) depth.push_back(depth_at(u, v));
-    std::vector<std::uint16_t> half;  // 1.5, 1.5, ...
-    half.assign(columns * rows, 0x3E00);
+    std::vector<std::uint16_t> half(columns * rows, 0x3E00);  // 1.5, 1.5, ...
     Imf::Header header(columns, rows);
     Imf::FrameBuffer pixels;
     for (const std::string& name : channels) {

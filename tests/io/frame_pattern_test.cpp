@@ -23,13 +23,6 @@ TEST(FramePattern, PutsTheNumberIn) {
   EXPECT_EQ(FramePattern("%d.png", "/with%d/%s").file(1).string(), "/with%d/%s/1.png");
 }
 
-TEST(FramePattern, NamesAVideo) {
-  const FramePattern video("color.MP4", "/r");
-  EXPECT_TRUE(video.is_video());
-  EXPECT_EQ(video.file(7), "/r/color.MP4");
-  EXPECT_FALSE(FramePattern("%d.mp4", "/r").is_video());
-}
-
 TEST(FramePattern, RefusesEverythingElse) {
   for (const char* pattern : {"depth.png", "", "%", "%d_%d.png", "%s.png", "%n", "%6d.png", "%00d",
                               "%0d", "%010d", "%x", "%06", "%d%", "%-5d", "%%d", "%ld"})

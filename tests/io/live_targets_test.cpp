@@ -7,20 +7,6 @@
 namespace penumbra::test {
 namespace {
 
-TEST(LiveTargets, ComeWithTheNextImage) {
-  LiveBench bench(LiveBench::one_camera({"/wrist"}));
-  bench.tell_all();
-  bench.tell_depth(start - seconds);  // the camera's frame is known by its first image
-  bench.publish("/wrist", live_target(start, {1.2, 0.0, 3.0}));
-  bench.tell_joints(start);
-  bench.tell_depth(start);
-  EXPECT_EQ(bench.work(), 1U);
-  const auto targets = bench.results.last<io::TargetsMessage>(io::Result::targets).targets;
-  ASSERT_EQ(targets.size(), 1U);
-  EXPECT_EQ(targets[0].name, "/wrist");
-  EXPECT_EQ(targets[0].verdict, io::TargetMessage::visible);
-}
-
 /// A planned motion of the board by a quarter of a turn in a second.
 io::JointTrajectoryMessage quarter_turn() {
   io::JointTrajectoryMessage motion{.joint_names = {"spin"}};

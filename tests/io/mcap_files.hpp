@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <initializer_list>
 #include <sstream>
 #include <string>
@@ -24,15 +23,9 @@ namespace mcap_file {
 
 inline const std::string magic = "\x89MCAP0\r\n";
 
-template <typename T>
-std::string number(T value) {
-  std::string bytes(sizeof value, '\0');
-  std::memcpy(bytes.data(), &value, sizeof value);
-  return bytes;
-}
-inline std::string u16(std::uint16_t value) { return number(value); }
-inline std::string u32(std::uint64_t value) { return number(static_cast<std::uint32_t>(value)); }
-inline std::string u64(std::uint64_t value) { return number(value); }
+inline std::string u16(std::uint16_t value) { return raw(value); }
+inline std::string u32(std::uint64_t value) { return raw(static_cast<std::uint32_t>(value)); }
+inline std::string u64(std::uint64_t value) { return raw(value); }
 inline std::string text(const std::string& value) { return u32(value.size()) + value; }
 inline std::uint32_t crc(const std::string& bytes) {
   return static_cast<std::uint32_t>(
@@ -49,9 +42,8 @@ inline std::string schema(std::uint16_t id, const std::string& name) {
 inline std::string channel(std::uint16_t id, std::uint16_t schema_id, const std::string& topic) {
   return record(0x04, u16(id) + u16(schema_id) + text(topic) + text("cdr") + text(""));
 }
-inline std::string message(std::uint16_t channel_id, std::uint64_t time,
-                           const std::string& data = "data") {
-  return record(0x05, u16(channel_id) + u32(time) + u64(time) + u64(time) + data);
+inline std::string message(std::uint16_t channel_id, std::uint64_t time) {
+  return record(0x05, u16(channel_id) + u32(time) + u64(time) + u64(time) + "data");
 }
 inline std::string chunk(std::uint64_t start, std::uint64_t end, const std::string& records) {
   return record(0x06, u64(start) + u64(end) + u64(records.size()) + u32(crc(records)) + text("") +
@@ -67,7 +59,7 @@ inline std::string chunk_index(std::uint64_t start, std::uint64_t end, std::uint
   return record(0x08, u64(start) + u64(end) + u64(offset) + u64(length) + u32(0) + u64(0) +
                           text("") + u64(0) + u64(0));
 }
-inline std::string data_end(std::uint64_t data_crc = 0) { return record(0x0f, u32(data_crc)); }
+inline std::string data_end() { return record(0x0f, u32(0)); }
 inline std::string footer(std::uint64_t summary_start = 0) {
   return record(0x02, u64(summary_start) + u64(0) + u32(0)) + magic;
 }
@@ -101,11 +93,6 @@ struct McapContents {
   std::vector<std::string> faults;
   std::vector<std::uint64_t> fault_offsets;
 };
-
-/// For names of tests.
-inline std::string compression_name(const testing::TestParamInfo<io::mcap::Compression>& info) {
-  return info.param == io::mcap::Compression::none ? "none" : std::string(to_string(info.param));
-}
 
 inline std::string bytes_of(std::span<const std::byte> data) {
   return {reinterpret_cast<const char*>(data.data()), data.size()};

@@ -10,9 +10,8 @@ using namespace test::mcap_file;
 using test::McapContents;
 using test::RecordedMessage;
 
-RecordedMessage hand_made(const std::string& topic, std::int64_t time,
-                          const std::string& data = "data") {
-  return {topic, "p/msg/A", static_cast<std::uint32_t>(time), time, time, data};
+RecordedMessage hand_made(const std::string& topic, std::int64_t time) {
+  return {topic, "p/msg/A", static_cast<std::uint32_t>(time), time, time, "data"};
 }
 
 class McapReader : public testing::Test {
@@ -141,7 +140,6 @@ TEST_F(McapReader, RefusesWhatIsNoMcap) {
   for (const char* const bytes : {"", "#ROSBAG V2.0\n"})
     EXPECT_HAS(refusal(bytes), "a.mcap: is not an MCAP file");
   EXPECT_HAS(refusal("\x89MCAP1\r\n"), "version 0 is read");
-  EXPECT_HAS(test::refusal([&] { Reader reader(folder_.path() / "none.mcap"); }), "none.mcap");
   EXPECT_HAS(test::refusal([&] { Reader reader(folder_.path()); }), "regular file");
 }
 

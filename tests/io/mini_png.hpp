@@ -9,6 +9,8 @@
 
 #include <zlib.h>
 
+#include <penumbra/base/image.hpp>
+
 // PNG written and read straight from the specification (https://www.w3.org/TR/png-3), so that
 // libpng is not its own judge.
 namespace penumbra::test::mini_png {
@@ -63,6 +65,16 @@ inline std::string deflated(const std::string& raw) {
              reinterpret_cast<const Bytef*>(raw.data()), raw.size());
   packed.resize(size);
   return packed;
+}
+
+/// Big-endian samples of 16 bits, as they lie in a file.
+inline std::string samples(const Image<std::uint16_t>& image) {
+  std::string bytes;
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    bytes += static_cast<char>(image.data()[i] >> 8);
+    bytes += static_cast<char>(image.data()[i] & 0xff);
+  }
+  return bytes;
 }
 
 /// A file of unfiltered rows; `samples` are rows from above without filter bytes, 8 or 16 bits

@@ -15,7 +15,6 @@ namespace penumbra::io {
 namespace {
 
 const std::string good_header = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }\n";
-const std::vector<float> six = {1.5F, -2.0F, 0.0F, 4.25F, 5.0F, 6.0F};
 const std::string six_bytes = test::raw(1.5F, -2.0F, 0.0F, 4.25F, 5.0F, 6.0F);
 
 std::string npy(int version, const std::string& header, const std::string& values = six_bytes) {
@@ -45,7 +44,7 @@ TEST_F(Npy, ReadsEveryVersionAndSpelling) {
       ASSERT_EQ(read(npy(version, header)).message, "");
       ASSERT_EQ(image_.width(), 3);
       ASSERT_EQ(image_.height(), 2);
-      EXPECT_EQ(std::vector<float>(image_.data(), image_.data() + 6), six);
+      EXPECT_EQ(std::memcmp(image_.data(), six_bytes.data(), six_bytes.size()), 0);
     }
   }
 }
@@ -64,7 +63,6 @@ TEST_F(Npy, NamesWhatItDoesNotRead) {
                                  {header("<f4", "False", "(40000, 3)"), "a side of 40000"},
                                  {header("<f4", "False", "(30000, 30000)"), "ends before"},
                                  {two, "header"},
-                                 {npy(1, ""), "header"},
                                  {npy(4, good_header), "version 4.0"},
                                  {npy(2, std::string(70000, ' '), ""), "70000"},
                                  {"frame,joint1\n0,1", "NumPy"},
@@ -91,17 +89,6 @@ TEST_F(Npy, ReturnsWhatWasWrittenWithAnyStride) {
   write_npy(file_, flipped);
   ASSERT_EQ(read_npy(file_, image_).message, "");
   EXPECT_TRUE(test::same_pixels(flipped, image_.view()));
-}
-
-TEST_F(Npy, NumPyReadsIt) {
-  if (std::system("python3 -c 'import numpy' >/dev/null 2>&1") != 0) GTEST_SKIP() << "no NumPy";
-  Image<float> image(3, 2);
-  for (int i = 0; i < 6; ++i) image.data()[i] = six[static_cast<std::size_t>(i)];
-  write_npy(file_, std::as_const(image).view());
-  const std::string script = "python3 -c \"import numpy, sys; a = numpy.load('" + file_.string() +
-                             "'); sys.exit(not (a.dtype == numpy.float32 and a.tolist() == [[1.5, "
-                             "-2, 0], [4.25, 5, 6]]))\"";
-  EXPECT_EQ(std::system(script.c_str()), 0);
 }
 
 TEST_F(Npy, FindsEveryTruncation) {

@@ -19,25 +19,10 @@ namespace fs = std::filesystem;
 class PendingFileTest : public testing::Test {
  protected:
   static void write(const PendingFile& file) { std::ofstream(file.part()) << "new"; }
-  [[nodiscard]] std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), {}));
-  }
 
   test::TemporaryFolder folder_;
   fs::path file_ = folder_.write("a.npy", "old");
 };
-
-TEST_F(PendingFileTest, TakesThePlaceOnlyWhenItIsFinished) {
-  write(PendingFile(file_));
-  EXPECT_EQ(test::read_bytes(file_), "old");
-  EXPECT_EQ(files(), 1U) << "nothing unfinished is left";
-  PendingFile pending(file_);
-  write(pending);
-  EXPECT_EQ(test::read_bytes(file_), "old") << "as SIGKILL would leave it";
-  pending.finish();
-  EXPECT_EQ(test::read_bytes(file_), "new");
-  EXPECT_EQ(files(), 1U);
-}
 
 TEST_F(PendingFileTest, ReplacesWhatALinkLeadsTo) {
   fs::create_symlink("a.npy", folder_.path() / "b.npy");
@@ -54,17 +39,6 @@ TEST_F(PendingFileTest, ReplacesWhatALinkLeadsTo) {
   write(first);
   first.finish();
   EXPECT_EQ(test::read_bytes(folder_.path() / "not_yet.npy"), "new");
-}
-
-TEST_F(PendingFileTest, APartThatIsALinkIsNotFollowed) {
-  const fs::path other = folder_.write("other", "the user's own");
-  const fs::path part = PendingFile::part_of(file_);
-  fs::create_symlink(other, part);
-  PendingFile pending(file_);
-  write(pending);
-  pending.finish();
-  EXPECT_EQ(test::read_bytes(other), "the user's own");
-  EXPECT_EQ(test::read_bytes(file_), "new");
 }
 
 /// As /dev/stdout is: behind a link of the kernel's, whose text need not be a path.

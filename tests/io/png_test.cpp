@@ -14,6 +14,7 @@ namespace penumbra::io {
 namespace {
 
 using test::mini_png::Format;
+using test::mini_png::samples;
 
 class Png : public testing::Test {
  protected:
@@ -38,16 +39,6 @@ Image<T> random_image(int width, int height, std::mt19937_64& random) {
   for (std::size_t i = 0; i < image.size(); ++i)
     image.data()[i] = random() % 3 == 0 || i == 0 ? static_cast<T>(random()) : image.data()[i - 1];
   return image;
-}
-
-// Big-endian samples as they lie in a PNG file.
-std::string samples(const Image<std::uint16_t>& image) {
-  std::string bytes;
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    bytes += static_cast<char>(image.data()[i] >> 8);
-    bytes += static_cast<char>(image.data()[i] & 0xff);
-  }
-  return bytes;
 }
 
 TEST_F(Png, ReadsGrey16OfAnotherWriter) {

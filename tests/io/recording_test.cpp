@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <io/files/frame_reader.hpp>
-#include <io/files/npy.hpp>
 #include <io/files/png.hpp>
 #include <io/files/recording.hpp>
 
@@ -74,15 +73,8 @@ class RecordingFolder : public testing::Test {
   static std::string attached(const std::string& keys) {
     return std::string(minimal) + "attached: [{name: part, link: hand, " + keys + "}]\n";
   }
-  /// More than any list may have.
-  static std::string many(const std::string& item) {
-    std::string text;
-    for (int i = 0; i < 2000; ++i) text += item;
-    return text;
-  }
   static std::string replaced(const std::string& from, const std::string& to) {
-    std::string text = minimal;
-    return text.replace(text.find(from), from.size(), to);
+    return test::replaced(minimal, from, to);
   }
 
   test::TemporaryFolder folder_;
@@ -189,8 +181,6 @@ TEST_F(RecordingFolder, NamesKeyAndLineOfEveryFault) {
        {attached("box: [1, 1, 1], frames: [9, 3]"), ":11: attached[0].frames: "},
        {attached("box: [1, 1, 1]}, {name: part, link: base, box: [1, 1, 1], frames: [6, 7]"),
         ":11: attached[1]: "},
-       {with("  urdf", "  extra: [" + many("{link: hand, mesh: arm.urdf}, ") + "]"),
-        ":3: robot.extra: "},
        {with("  parent", "  parent: tool"), ":6: key 'parent'"},
        {"", ":1: "},
        {"text", ":1: "}},
@@ -220,32 +210,14 @@ TEST_F(RecordingFolder, ReadsFrames) {
   EXPECT_EQ(plain.color_message, "");
 }
 
-TEST_F(RecordingFolder, ReadsWhatIsAttachedInWhichFrames) {
-  write_yaml(attached("box: [0.1, 0.2, 0.3], pose: [1, 2, 3, 0, 0, 1, 0], frames: [6, 8]"));
-  const FrameReader frames = reader();
-  for (const std::size_t i : {1U, 0U}) {
-    const Frame frame = frames.read(i, false);
-    ASSERT_EQ(frame.pose.attached.size(), i) << "frames 5 and 7";
-    if (i == 0) continue;
-    const AttachedBody& body = frame.pose.attached[0];
-    EXPECT_EQ(body.name, "part");
-    EXPECT_EQ(body.link, "hand");
-    EXPECT_TRUE(body.mesh->bounds.sizes().isApprox(Eigen::Vector3d(0.1, 0.2, 0.3), 1e-6));
-    EXPECT_TRUE((body.T_link_body * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(0, 2, 3)));
-  }
-}
-
 TEST_F(RecordingFolder, ReadsSeveralRobots) {
   const std::string two =
       "robots:\n"
       "  a: {urdf: arm.urdf, pose: [0, 1, 0, 0, 0, 0, 1]}\n"
       "  b: {urdf: arm.urdf, pose: [0, 0, 2, 0, 0, 1, 0], margins: {tool: 0.01}}\n";
-  const auto numbered = [](int count) {
-    std::string text;
-    for (int i = 0; i < count; ++i)
-      text += "  r" + std::to_string(i) + ": {urdf: arm.urdf, pose: [0, 0, 0, 0, 0, 0, 1]}\n";
-    return text;
-  };
+  std::string many = "robots:\n";
+  for (int i = 0; i < 1000; ++i)
+    many += "  r" + std::to_string(i) + ": {urdf: arm.urdf, pose: [0, 0, 0, 0, 0, 0, 1]}\n";
   const auto with_robots = [&](const std::string& robots) {
     return replaced("robot:\n  urdf: arm.urdf\n", robots);
   };
@@ -280,23 +252,11 @@ TEST_F(RecordingFolder, ReadsSeveralRobots) {
        {with_robots("robots:\n  a: {urdf: arm.urdf}\n"), ":2: "},
        {with_robots("robots:\n  \"a\\e[31m\": {urdf: arm.urdf, pose: [0, 0, 0, 0, 0, 0, 1]}\n"),
         "control character"},
-       {with_robots("robots:\n" + numbered(1000)), ":1: robots: "},
+       {with_robots(many), ":1: robots: "},
        {with_robots("robots:\n  a: {urdf: arm.urdf, pose: [0, 0, 0, 0, 0, 0, 2]}\n"),
         ":2: robots.a.pose: "},
        {with("  urdf", "  pose: [0, 0, 0, 0, 0, 0, 1]"), ":3: robot.pose: is for several robots"}},
       [&](const std::string& text) { static_cast<void>(open(text)); });
-}
-
-TEST_F(RecordingFolder, ReadsDepthInMetres) {
-  Image<float> metres(width, height, 1.25F);
-  write_npy(file("z_05.npy"), std::as_const(metres).view());
-  write_yaml(replaced("depth_%d.png", "z_%02d.npy"));
-  const FrameReader frames = reader();
-  Frame frame = frames.read(0, false);
-  ASSERT_EQ(frame.source_status, FrameStatus::ok) << frame.source_message;
-  EXPECT_EQ(std::get<ImageView<const float>>(frame.depth.view)(7, 5), 1.25F);
-  frame = frames.read(1, false);
-  EXPECT_EQ(frame.source_status, FrameStatus::missing_depth);
 }
 
 TEST_F(RecordingFolder, SurvivesDamage) {

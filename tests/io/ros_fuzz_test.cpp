@@ -27,19 +27,9 @@ Bytes damaged(const Bytes& whole, std::mt19937_64& random) {
   if (random() % 4 == 0) bytes.resize(random() % (bytes.size() + 1));
   for (std::size_t n = 1 + random() % 6; n > 0 && !bytes.empty(); --n) {
     std::byte& byte = bytes[random() % bytes.size()];
-    switch (random() % 4) {
-      case 0:
-        byte = std::byte{0xff};
-        break;
-      case 1:
-        byte ^= static_cast<std::byte>(1U << random() % 8);
-        break;
-      case 2:
-        byte = std::byte{0};
-        break;
-      default:
-        byte = static_cast<std::byte>(random());
-    }
+    const std::byte bit = static_cast<std::byte>(1U << random() % 8);
+    const std::byte others[] = {std::byte{0xff}, byte ^ bit, std::byte{0}, std::byte(random())};
+    byte = others[random() % 4];
   }
   return bytes;
 }
@@ -56,19 +46,15 @@ void fuzz(const Bytes& whole, int rounds, std::mt19937_64& random, const Call& c
 void fuzz_messages(int rounds, std::uint64_t seed) {
   std::mt19937_64 random = test::seeded_random(seed);
   const test::MemoryShortage shortage(large_memory, 0);
+  const auto fuzz_as = [&]<typename M>(M out, const Bytes& payload) {
+    fuzz(payload, rounds, random,
+         [&, decoder = Decoder<M>()](auto bytes) { return decoder.decode(bytes, out); });
+  };
   test::for_each_sample([&](const auto& message) {
-    using M = std::decay_t<decltype(message)>;
-    const Decoder<M> decoder;
-    M out;
-    fuzz(test::encoded(message), rounds, random,
-         [&](auto bytes) { return decoder.decode(bytes, out); });
+    fuzz_as(std::decay_t<decltype(message)>(), test::encoded(message));
   });
-  Detection2DArrayMessage flat;
-  fuzz(test::detection_2d_payload(), rounds, random,
-       [&, d = Decoder<Detection2DArrayMessage>()](auto b) { return d.decode(b, flat); });
-  Detection3DArrayMessage solid;
-  fuzz(test::detection_3d_payload(), rounds, random,
-       [&, d = Decoder<Detection3DArrayMessage>()](auto b) { return d.decode(b, solid); });
+  fuzz_as(Detection2DArrayMessage(), test::detection_2d_payload());
+  fuzz_as(Detection3DArrayMessage(), test::detection_3d_payload());
   EXPECT_EQ(shortage.asked(), 0U);
 }
 

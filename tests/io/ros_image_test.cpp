@@ -24,7 +24,7 @@ class Laid {
  public:
   template <typename T>
   Laid(const Image<T>& image, std::string encoding, std::size_t step, std::size_t offset, bool big)
-      : offset_(offset), memory_(offset + step * static_cast<std::size_t>(image.height())) {
+      : memory_(offset + step * static_cast<std::size_t>(image.height())) {
     for (int v = 0; v < image.height(); ++v)
       for (int u = 0; u < image.width(); ++u) {
         T value = image(u, v);
@@ -41,13 +41,12 @@ class Laid {
     message_.height = static_cast<std::uint32_t>(image.height());
     message_.step = static_cast<std::uint32_t>(step);
     message_.is_bigendian = big ? 1 : 0;
-    message_.data = std::span(memory_).subspan(offset_);
+    message_.data = std::span(memory_).subspan(offset);
   }
 
   ImageMessage message_;
 
  private:
-  std::size_t offset_;
   std::vector<std::byte> memory_;
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "files.hpp"
 #include "mini_png.hpp"
 #include "ros_rvl.hpp"
 
-#include <cstring>
 #include <random>
 #include <string>
 #include <vector>
@@ -29,36 +29,15 @@ inline Image<std::uint16_t> depth_image(int width, int height, std::mt19937_64& 
   return image;
 }
 
-inline std::vector<std::byte> png_of(const Image<std::uint16_t>& image) {
-  std::string samples;
-  for (std::size_t i = 0; i < image.size(); ++i) {
-    samples += static_cast<char>(image.data()[i] >> 8);
-    samples += static_cast<char>(image.data()[i] & 0xff);
-  }
-  const mini_png::Format format{static_cast<std::uint32_t>(image.width()),
-                                static_cast<std::uint32_t>(image.height()), 16, 0, false};
-  return bytes_of(mini_png::encode(format, samples));
-}
-
-template <typename T>
-void append_number(std::vector<std::byte>& bytes, T value) {
-  const std::size_t at = bytes.size();
-  bytes.resize(at + sizeof(T));
-  std::memcpy(bytes.data() + at, &value, sizeof(T));
-}
-
 /// Data of the transport compressedDepth: parameters, then PNG or, with its size, RVL.
 inline std::vector<std::byte> compressed_depth(const Image<std::uint16_t>& image, bool rvl, float a,
                                                float b) {
-  std::vector<std::byte> bytes;
-  append_number(bytes, std::int32_t{0});
-  append_number(bytes, a);
-  append_number(bytes, b);
-  if (rvl) {
-    append_number(bytes, image.width());
-    append_number(bytes, image.height());
-  }
-  const auto packed = rvl ? RvlPacker::pack(std::span(image.data(), image.size())) : png_of(image);
+  const mini_png::Format format{static_cast<std::uint32_t>(image.width()),
+                                static_cast<std::uint32_t>(image.height()), 16, 0, false};
+  const std::string head = raw(std::int32_t{0}, a, b);
+  if (!rvl) return bytes_of(head + mini_png::encode(format, mini_png::samples(image)));
+  auto bytes = bytes_of(head + raw(image.width(), image.height()));
+  const auto packed = RvlPacker::pack(std::span(image.data(), image.size()));
   bytes.insert(bytes.end(), packed.begin(), packed.end());
   return bytes;
 }

@@ -67,10 +67,7 @@ TEST(RosMessages, DefinitionsOfOtherFieldsAreRefusedByName) {
 // boxes in space are laid out as today's.
 TEST(RosMessages, OlderDetectionsAreRefusedUnlessTheirFieldsAreEqual) {
   const auto changed = [](std::string_view type, const std::string& from, const std::string& to) {
-    std::string text(definition_of(type));
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos);
-    return text.replace(at, from.size(), to);
+    return test::replaced(std::string(definition_of(type)), from, to);
   };
   const std::string flat = "vision_msgs/msg/Detection2DArray";
   const std::string solid = "vision_msgs/msg/Detection3DArray";

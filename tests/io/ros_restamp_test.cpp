@@ -90,31 +90,26 @@ TEST(Restamp, FindsHeadersOfDetections) {
   expect_shifted(io::Detection3DArrayMessage(), detection_3d_payload());
 }
 
-const std::string header_text =
-    "===\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n";
-
-TEST(Restamp, ChangesTheHeaderThatAnyOtherTypeBeginsWith) {
-  const io::Restamper restamper("a/msg/B", "std_msgs/Header header\nwstring text\n" + header_text);
-  EXPECT_TRUE(restamper.has_headers());
-  EXPECT_FALSE(restamper.leaves_headers());
-}
-
 TEST(Restamp, TellsOfHeadersThatItLeaves) {
-  const auto restamper = [](const std::string& text) {
-    return io::Restamper("a/msg/B", text + header_text);
+  const std::string
+      header = "std_msgs/Header header\n",
+      definition = "===\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n";
+  struct Case {
+    std::string text;
+    bool changes, leaves;
   };
-  const auto first =
-      restamper("std_msgs/Header header\nC[] more\n===\nMSG: a/C\nstd_msgs/Header header\n");
-  EXPECT_TRUE(first.has_headers() && first.leaves_headers());
-  const auto behind = restamper("int32 count\nstd_msgs/Header header\n");
-  EXPECT_TRUE(!behind.has_headers() && behind.leaves_headers());
-  const auto several = restamper("std_msgs/Header[] headers\n");
-  EXPECT_TRUE(!several.has_headers() && several.leaves_headers());
-  const io::Restamper other("a/msg/B",
-                            "std_msgs/Header header\n===\nMSG: std_msgs/Header\nuint32 seq\n");
-  EXPECT_TRUE(!other.has_headers() && other.leaves_headers());
-  EXPECT_TRUE(io::Restamper("a/msg/B", "").leaves_headers());
-  EXPECT_FALSE(io::Restamper("a/msg/B", "int32 count\n").leaves_headers());
+  for (const auto& [text, changes, leaves] :
+       {Case{header + "wstring text\n" + definition, true, false},
+        {header + "C[] more\n===\nMSG: a/C\n" + header + definition, true, true},
+        {"int32 count\n" + header + definition, false, true},
+        {"std_msgs/Header[] headers\n" + definition, false, true},
+        {header + "===\nMSG: std_msgs/Header\nuint32 seq\n", false, true},
+        {"", false, true},
+        {"int32 count\n", false, false}}) {
+    const io::Restamper restamper("a/msg/B", text);
+    EXPECT_EQ(restamper.has_headers(), changes) << text;
+    EXPECT_EQ(restamper.leaves_headers(), leaves) << text;
+  }
 }
 
 }  // namespace

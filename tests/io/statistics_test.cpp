@@ -10,11 +10,7 @@ namespace {
 
 TEST(Statistics, QuantilesByRank) {
   EXPECT_FALSE(quantiles({}).has_value());
-  const auto one = quantiles({3.0}).value();
-  EXPECT_EQ(one.min, 3.0);
-  EXPECT_EQ(one.median, 3.0);
-  EXPECT_EQ(one.p99, 3.0);
-  EXPECT_EQ(one.max, 3.0);
+  EXPECT_EQ(quantiles({3.0})->p99, 3.0);
   EXPECT_EQ(quantiles({4.0, 1.0, 2.0, 3.0})->median, 3.0);
 
   std::vector<double> samples(200);

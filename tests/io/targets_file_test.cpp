@@ -152,7 +152,6 @@ TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
                         {"rle: {size: [48, 64], counts: [3072]}\n", "without any pixel"}},
                        open_target);
   test::expect_refused({{keypoint + "radius: 0\n", ":4: targets[0].radius"},
-                        {keypoint + "radius: 1e12\n", "1e+12"},
                         {keypoint + "min_score: 0.5\n", ":3: targets[0].keypoint"},
                         {keypoint + "expected_depth: 1e30\n", ":3: targets[0].keypoint: expected"},
                         {"keypoint: {csv: no.csv}\n", "no.csv"},
@@ -161,7 +160,6 @@ TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
                         {"keypoint: {csv: twice.csv}\n", "twice.csv:3"},
                         {"keypoint: {csv: plain.csv}\n  min_score: 0.5\n", "'score'"},
                         {"box3d: [0, 0, 1, 0, 0, 0, 0]" + size, ":3: targets[0].box3d: quaternion"},
-                        {"box3d: [0, 0, .nan, 0, 0, 0, 1]" + size, "finite"},
                         {"box3d: [0, 0, 1e7, 0, 0, 0, 1]" + size, "1000 km"},
                         {"box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [0.1, 0, 0.1]\n", ":4: "},
                         {"point: [0, .nan, 1]\n", ":3: targets[0].point"},
@@ -177,7 +175,6 @@ TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
   const std::string along = "{pose: {motion: along_direction, direction: [1, 0, 0], speed: 0.1, ";
   test::expect_refused(
       {{box + "frame_id: other\n", ":4: targets[0].frame_id"},
-       {box + "expected_depth: -1\n", ":4: targets[0].expected_depth"},
        {box + "depth_margin: 1e30\n", ":4: targets[0].depth_margin"},
        {box + "thresholds: {partial_enter: 0.1, partial_leave: 0.2}\n", "targets[0].thresholds"},
        {pose + "  thresholds: {min_inside: 0.5}\n", ":5: targets[0].thresholds.min_inside"},

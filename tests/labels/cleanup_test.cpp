@@ -59,16 +59,6 @@ TEST_P(Cleanup, AHoledObjectStaysWhole) {
   EXPECT_EQ(front_pixels(), 900u - holes);
 }
 
-TEST_P(Cleanup, UntouchedTilesBesideTheRobotSupportItsObjects) {
-  // The robot ends with its tile, so that what carries its last columns lies in an untouched one.
-  fill(scene.robot, 0.0f, 96, 0, width, height);
-  scene.mark_tiles();
-  ASSERT_EQ(scene.tiles.rows[4] >> 3, 0u);
-  fill(scene.metres, wall, 96, 0, width, height);
-  fill(scene.metres, object, 93, 30, 125, 60);
-  EXPECT_EQ(front_pixels(), 90u);
-}
-
 // The fringe on scenes whose answer is known: a robot of vertical sides before a far wall, whose
 // depth the sensor carries sideways.
 

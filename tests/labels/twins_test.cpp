@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every SIMD target gives the labels of the reference, bit by bit.
-#include "../support/test.hpp"
 #include "scene.hpp"
-
-#include <penumbra/labels/labels.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -28,8 +25,7 @@ class LabelReference {
   template <typename F>
   auto map(F&& f) const {
     Image<decltype(f(0, 0))> image(width_, height_);
-    for (int v = 0; v < height_; ++v)
-      for (int u = 0; u < width_; ++u) image(u, v) = f(u, v);
+    for (const auto [u, v] : each_pixel(image)) image(u, v) = f(u, v);
     return image;
   }
 
@@ -63,11 +59,10 @@ class LabelReference {
   [[nodiscard]] Image<float> nearest_of_cells() const {
     Image<float> cells(width_ / LabelRule::cell + 1, height_ / LabelRule::cell + 1,
                        std::numeric_limits<float>::infinity());
-    for (int v = 0; v < height_; ++v)
-      for (int u = 0; u < width_; ++u) {
-        float& cell = cells(u / LabelRule::cell, v / LabelRule::cell);
-        if (robot_(u, v) > 0.0f) cell = std::min(cell, robot_(u, v));
-      }
+    for (const auto [u, v] : each_pixel(robot_)) {
+      float& cell = cells(u / LabelRule::cell, v / LabelRule::cell);
+      if (robot_(u, v) > 0.0f) cell = std::min(cell, robot_(u, v));
+    }
     return cells;
   }
 
@@ -106,13 +101,12 @@ class LabelReference {
              (!is_measured(u, v) && ((has(-1, 0) && has(1, 0)) || (has(0, -1) && has(0, 1))));
     });
     Image<char> seeds(width_, height_);
-    for (int v = 0; v < height_; ++v)
-      for (int u = 0; u < width_; ++u) {
-        if (!all_of_square(counts, u, v)) continue;
-        for (int y = v; y < v + rule_.front_min_width; ++y)
-          for (int x = u; x < u + rule_.front_min_width; ++x)
-            seeds(x, y) |= labels_(x, y) == Label::front && certain(x, y) != 0;
-      }
+    for (const auto [u, v] : each_pixel(seeds)) {
+      if (!all_of_square(counts, u, v)) continue;
+      for (int y = v; y < v + rule_.front_min_width; ++y)
+        for (int x = u; x < u + rule_.front_min_width; ++x)
+          seeds(x, y) |= labels_(x, y) == Label::front && certain(x, y) != 0;
+    }
     const int reach = rule_.edge_margin / 2;
     labels_ = map([&](int u, int v) {
       if (labels_(u, v) != Label::front) return labels_(u, v);

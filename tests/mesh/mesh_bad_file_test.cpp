@@ -20,12 +20,6 @@ class MeshBadFile : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(MeshBadFile, NoFile) {
-  EXPECT_TRUE(holds(refusal(folder_.path() / "none.stl"), "none.stl: "));
-  EXPECT_TRUE(holds(refusal(folder_.path()), "is a folder"));
-  EXPECT_TRUE(holds(refusal("/dev/zero"), "not a regular file"));
-}
-
 TEST_F(MeshBadFile, NoMesh) {
   for (const char* name : {"e.stl", "e.dae", "e.obj", "e.ply", "e.gltf", "e.glb", "e.step"})
     expect_refused(name, "", "empty");

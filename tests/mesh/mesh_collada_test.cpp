@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Collada reader: files that it refuses, and a comparison with Assimp on valid files.
 #include "../support/data.hpp"
+#include "mesh_oracle.hpp"
 #include "mesh_samples.hpp"
 
 #include <assimp/Importer.hpp>
@@ -27,12 +28,9 @@ struct Measures {
 Measures measure(const TriangleMesh& mesh) {
   Measures m;
   m.triangles = mesh.triangles.size();
-  for (const auto& t : mesh.triangles) {
-    std::array<Vector3d, 3> p;
-    for (std::size_t k = 0; k < 3; ++k) {
-      p[k] = mesh.vertices[t[k]].cast<double>();
-      m.bounds.extend(p[k]);
-    }
+  for (std::size_t i = 0; i < m.triangles; ++i) {
+    const std::array<Vector3d, 3> p = corners(mesh, i);
+    for (const Vector3d& corner : p) m.bounds.extend(corner);
     m.area += (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2.0;
     m.volume += p[0].dot(p[1].cross(p[2])) / 6.0;
   }

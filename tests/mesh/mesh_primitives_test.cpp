@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "signed_volume.hpp"
+#include "mesh_oracle.hpp"
 
 #include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/mesh/primitives.hpp>
@@ -29,13 +29,11 @@ double cylinder_distance(const Vector3d& p, double radius, double length) {
 double surface_error(const TriangleMesh& mesh, const Distance& distance) {
   constexpr int steps = 6;
   double worst = 0.0;
-  for (const auto& t : mesh.triangles) {
-    const Vector3d a = mesh.vertices[t[0]].cast<double>();
-    const Vector3d b = mesh.vertices[t[1]].cast<double>() - a;
-    const Vector3d c = mesh.vertices[t[2]].cast<double>() - a;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [a, b, c] = corners(mesh, t);
     for (int i = 0; i <= steps; ++i)
       for (int j = 0; i + j <= steps; ++j)
-        worst = std::max(worst, std::abs(distance(a + b * i / steps + c * j / steps)));
+        worst = std::max(worst, std::abs(distance(a + (b - a) * i / steps + (c - a) * j / steps)));
   }
   return worst;
 }
@@ -64,7 +62,6 @@ TEST(MeshPrimitives, Box) {
 TEST(MeshPrimitives, Sphere) {
   for (const double r : radii) {
     const TriangleMesh sphere = make_sphere(r);
-    std::cout << "sphere " << r << " m: " << sphere.triangles.size() << " triangles\n";
     expect_solid(sphere, 4.0 / 3.0 * pi * r * r * r, 4.0 * pi * r * r,
                  [=](const Vector3d& p) { return capsule_distance(p, r, 0.0); });
   }
@@ -73,7 +70,6 @@ TEST(MeshPrimitives, Sphere) {
 TEST(MeshPrimitives, Cylinder) {
   for (const double r : radii) {
     const TriangleMesh cylinder = make_cylinder(r, 0.4);
-    std::cout << "cylinder " << r << " m: " << cylinder.triangles.size() << " triangles\n";
     expect_solid(cylinder, pi * r * r * 0.4, 2.0 * pi * r * 0.4,
                  [=](const Vector3d& p) { return cylinder_distance(p, r, 0.4); });
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../robot/urdf_text.hpp"
 #include "../support/data.hpp"
-#include "offset_oracle.hpp"
+#include "../support/shapes.hpp"
+#include "mesh_oracle.hpp"
 
 #include <penumbra/mesh/mesh_file.hpp>
 #include <penumbra/mesh/primitives.hpp>
@@ -16,11 +17,9 @@ PreparedMesh offset_surface(const TriangleMesh& mesh, double margin) {
   return penumbra::offset_surface(PreparedMesh(mesh), margin);
 }
 
-void append(TriangleMesh& mesh, const TriangleMesh& other, const Vector3d& shift) {
-  const auto first = std::uint32_t(mesh.vertices.size());
-  for (const auto& v : other.vertices) mesh.vertices.push_back(v + shift.cast<float>());
-  for (const auto& t : other.triangles)
-    mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+void append(TriangleMesh& mesh, TriangleMesh other, const Vector3d& shift) {
+  for (auto& v : other.vertices) v += shift.cast<float>();
+  test::append(mesh, other);
 }
 
 /// A polygon in x, y (counter-clockwise, star-shaped about its first corner), extruded to height.
@@ -56,11 +55,6 @@ TriangleMesh crumpled(double amount) {
   TriangleMesh mesh = make_sphere(0.003);
   std::uniform_real_distribution<float> stretch(float(1 - amount), 1.0F);
   for (auto& v : mesh.vertices) v *= 30.0F * stretch(random);
-  return mesh;
-}
-
-TriangleMesh turned(TriangleMesh mesh) {
-  for (auto& t : mesh.triangles) std::swap(t[0], t[1]);
   return mesh;
 }
 
@@ -135,7 +129,7 @@ TEST(Offset, SolidsGrow) {
       {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
   for (const double margin : margins({0.001, 0.01, 0.03}))
     for (const TriangleMesh& mesh :
-         {turned(make_box({0.3, 0.2, 0.1})), make_cylinder(0.04, 0.1), l_shape(), finned(0.002),
+         {mirrored(make_box({0.3, 0.2, 0.1})), make_cylinder(0.04, 0.1), l_shape(), finned(0.002),
           crumpled(0.1), crumpled(0.6), several, needle})
       expect_grown(mesh, offset_surface(mesh, margin), margin, 300);
 }
@@ -157,7 +151,7 @@ TEST(Offset, SolidsShrinkAndDetailsVanish) {
   TriangleMesh two = make_box({0.1, 0.1, 0.1});
   append(two, make_sphere(0.03), {0, 0.1, 0});
   for (const double depth : margins({0.0005, 0.002, 0.01}))
-    for (const TriangleMesh& mesh : {turned(make_box({0.3, 0.2, 0.1})), make_cylinder(0.04, 0.1),
+    for (const TriangleMesh& mesh : {mirrored(make_box({0.3, 0.2, 0.1})), make_cylinder(0.04, 0.1),
                                      l_shape(), finned(0.003), crumpled(0.4), two})
       expect_shrunk(mesh, offset_surface(mesh, -depth), depth, 300);
 }

@@ -130,17 +130,6 @@ TEST_F(FrameStatusTest, DepthWithoutAnyMeasurement) {
   EXPECT_FALSE(process(frame).nothing_measured) << "there was no image";
 }
 
-TEST(FrameStatusOfRobot, ALinkWithoutItsMeshIsTold) {
-  Pipeline pipeline(slab_robot_without_mesh(), slab_camera());
-  const Image<float> depth = scene_depth(slab_camera(), 0.0);
-  const FrameReport& report = pipeline.process(frame_of(depth));
-  EXPECT_EQ(report.status, FrameStatus::missing_link);
-  EXPECT_TRUE(holds(report.message, "'lost'"));
-  ASSERT_EQ(report.missing_links.size(), 1U);
-  EXPECT_EQ(report.missing_links[0], "lost");
-  EXPECT_GT(report.pixels.occluded, 0U) << "the other links are judged";
-}
-
 /// The slab's middle lies just behind its near face.
 TEST(FrameStatusOfRobot, ACameraInsideOfALinkIsAFaultOfTheFrame) {
   PipelineConfig config = plain_config();
@@ -184,21 +173,6 @@ class GivenPoses : public testing::Test {
   std::vector<Isometry3d> links_;
   Pipeline pipeline_{slab_robot(), camera_, plain_config()};
 };
-
-TEST_F(GivenPoses, OfLinksGiveWhatTheirJointsGive) {
-  const FrameReport& by_joints = pipeline_.process(frame_of(depth_, 0.1));
-  const auto depth = pixels_of(by_joints.virtual_depth.depth);
-  const auto labels = pixels_of(by_joints.labels);
-  ASSERT_GT(by_joints.pixels.occluded, 100U);
-  Frame given = frame();
-  given.pose.age = 7;
-  const FrameReport& by_poses = pipeline_.process(given);
-  EXPECT_EQ(by_poses.status, FrameStatus::ok) << by_poses.message;
-  EXPECT_EQ(pixels_of(by_poses.virtual_depth.depth), depth);
-  EXPECT_EQ(pixels_of(by_poses.labels), labels);
-  EXPECT_EQ(by_poses.joint_age, 7);
-  EXPECT_TRUE(by_poses.T_root_link[1].isApprox(links_[1]));
-}
 
 TEST_F(GivenPoses, OfTheCameraHoldForTheirFrameAlone) {
   Frame moved = frame();

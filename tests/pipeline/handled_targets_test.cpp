@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets that are followed: which estimates are taken, and where they are said to be; and those of
 // earlier frames.
-#include "targets_fixture.hpp"
+#include "slab_scene.hpp"
 
 namespace penumbra::test {
 namespace {

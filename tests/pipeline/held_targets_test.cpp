@@ -101,12 +101,9 @@ TEST_F(Carrying, APointBecomesItsBall) {
 
 /// The pose in a link that turns, given in any frame, with handling and without.
 TEST(AttachTarget, TurnsWithTheLink) {
-  const Robot robot = Robot::parse(slab_urdf(R"(
-    <link name="arm"/>
-    <joint name="turn" type="continuous">
-      <parent link="base"/><child link="arm"/><origin xyz="0.3 -0.1 1.2"/><axis xyz="0 0 1"/>
-    </joint>)"),
-                                   ".");
+  const Robot robot = parse(
+      slab_urdf(link_xml("arm") + joint_xml("turn", "continuous", "base", "arm",
+                                            R"(<origin xyz="0.3 -0.1 1.2"/><axis xyz="0 0 1"/>)")));
   const Vector3d pivot(0.3, -0.1, 1.2), at(0.05, 0.2, 1.1);
   const auto turned = [](double angle) { return Isometry3d(AngleAxisd(angle, Vector3d::UnitZ())); };
   const Isometry3d start = Translation3d(at) * turned(0.4);
@@ -189,32 +186,38 @@ AttachedBody attached_cup(const Isometry3d& T_link_body = Isometry3d::Identity()
   return {"cup", "slab", std::make_shared<PreparedMesh>(make_box(cup_size)), T_link_body};
 }
 
-/// The verdict is that of the target's stamp; the handled pose that of the frame's.
+/// A target's verdict and what hides it are those of its stamp.
 TEST(HeldTargets, LateOnesAreHeldIfTheyWereAtTheirStamp) {
   PipelineConfig config = plain_config();
   config.target_history = 1.0;
   Pipeline pipeline(slab_robot(), slab_camera(), config);
   const Image<float> with = scene_depth(slab_camera(), 0.0, {{picked, cup_size, 4}});
   const Image<float> without = scene_depth(slab_camera(), 0.0);
-  const auto verdict = [&](std::int64_t stamp, bool is_carried, std::int64_t asked) {
-    Frame frame = frame_of(is_carried ? with : without, 0.0, {region("cup", PixelBox{5, 5, 6, 6})});
+  const auto expect = [&](std::int64_t stamp, bool is_carried, std::int64_t asked, Verdict of_cup,
+                          Verdict behind_it) {
+    Frame frame =
+        frame_of(is_carried ? with : without, 0.0,
+                 {region("cup", PixelBox{5, 5, 6, 6}), region("behind", PixelBox{101, 61, 4, 6})});
     if (is_carried) frame.pose.attached = {attached_cup(at(0.19, 0.06, -0.08))};
     frame.stamp = stamp * ms;
-    frame.targets[0].stamp = asked * ms;
-    return pipeline.process(frame).targets[0].verdict;
+    for (Target& target : frame.targets) target.stamp = asked * ms;
+    expect_verdicts(pipeline.process(frame), {of_cup, behind_it});
   };
-  EXPECT_EQ(verdict(1, false, 1), Verdict::visible);
-  EXPECT_EQ(verdict(2, true, 1), Verdict::visible);
-  EXPECT_EQ(verdict(3, true, 2), Verdict::held);
-  EXPECT_EQ(verdict(4, false, 3), Verdict::held);
-  EXPECT_EQ(verdict(5, false, 4), Verdict::visible);
+  using enum Verdict;
+  expect(1, false, 1, visible, visible);
+  expect(2, true, 1, visible, visible);
+  expect(3, true, 2, held, hidden);
+  expect(4, false, 3, held, hidden);
+  expect(5, false, 4, visible, visible);
 }
 
 /// Without a depth image the carrier's pose is known; without joints nothing is.
 TEST(HeldTargets, NeedThePoseOnly) {
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
   Frame frame{.pose = {.attached = {attached_cup()}}, .targets = {cup(picked)}};
-  EXPECT_EQ(pipeline.process(frame).targets[0].verdict, Verdict::unknown);
+  const TargetReport& without_pose = pipeline.process(frame).targets[0];
+  EXPECT_EQ(without_pose.verdict, Verdict::unknown);
+  EXPECT_TRUE(holds(without_pose.reason, to_string(FrameStatus::missing_joints)));
   frame.pose.positions = {0.0};
   EXPECT_EQ(pipeline.process(frame).targets[0].verdict, Verdict::held);
 }

@@ -29,22 +29,6 @@ EditedScene edited_scene(const Camera& camera, double slide) {
 
 PENUMBRA_BACKEND_TEST(PipelineOf);
 
-TEST_P(PipelineOf, DrawsWhatTheFormulaTells) {
-  const Camera camera = slab_camera();
-  Pipeline pipeline(slab_robot(), camera, plain_config(GetParam()));
-  for (const double slide : {0.0, 0.317, -0.25}) {
-    const FrameReport& report = pipeline.process({.pose = {.positions = {slide}}});
-    std::size_t robot = 0;
-    expect_drawn(report.virtual_depth, [&](const auto& ray) {
-      const Seen seen = cast(ray, slide);
-      robot += seen.depth > 0.0 ? 1 : 0;
-      return seen;
-    });
-    EXPECT_GT(robot, 500U);
-    EXPECT_EQ(report.pixels.robot, robot);
-  }
-}
-
 TEST_P(PipelineOf, LabelsEveryPixelAsTheRuleSays) {
   const Camera camera = slab_camera();
   const EditedScene scene = edited_scene(camera, 0.1);
@@ -79,19 +63,6 @@ TEST(Pipeline, TakesTheCameraOnAMovingLink) {
     EXPECT_NEAR(report.virtual_depth.depth(73, 57), slab_depth, depth_tolerance);
     EXPECT_NEAR(report.virtual_depth.depth(73 + 40, 57 + 8), 1.45 - slide, depth_tolerance);
   }
-}
-
-TEST(Pipeline, BothRangesLimitWhatIsMeasured) {
-  Camera camera = slab_camera();
-  camera.range = {0.5, 0.96};
-  PipelineConfig config = plain_config();
-  config.rule.range = {0.2, 10.0};
-  Pipeline pipeline(slab_robot(), camera, config);
-  const Image<float> depth = scene_depth(camera, 0.0);
-  const FrameReport& report = pipeline.process(frame_of(depth));
-  EXPECT_GT(report.pixels.occluded, 0U) << "the slab at 0.95 m";
-  EXPECT_GT(report.pixels.unknown, 0U) << "the plate at 1.45 m";
-  EXPECT_EQ(report.pixels.front + report.pixels.beyond, 0U);
 }
 
 TEST(Pipeline, RefusesAFaultyConfiguration) {

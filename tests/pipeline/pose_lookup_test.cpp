@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../robot/urdf_text.hpp"
 #include "slab_scene.hpp"
 
 #include <penumbra/poses/pose_lookup.hpp>
@@ -8,87 +7,6 @@ namespace penumbra::test {
 namespace {
 
 constexpr double rounding = 1e-12;  // metres
-
-class PoseLookupTest : public testing::Test {
- protected:
-  void add_joint(std::int64_t stamp, double slide) {
-    const std::string names[] = {"slide"};
-    const double positions[] = {slide};
-    history_.add_joints(stamp, names, positions);
-  }
-
-  /// As robot_state_publisher tells it.
-  void add_slab(std::int64_t stamp, double slide, const std::string& prefix = "") {
-    history_.add_transform(stamp, prefix + "base", prefix + "slab", at(0, 0, 1 + slide));
-  }
-
-  const RobotPose& ask(std::int64_t stamp, const PoseOptions& options) {
-    PoseLookup lookup(robot_, options);
-    lookup.at(history_, stamp, answer_);
-    EXPECT_EQ(answer_.message.empty(), answer_.status == FrameStatus::ok) << answer_.message;
-    return answer_;
-  }
-
-  void expect(FrameStatus status, const std::string& names) {
-    EXPECT_EQ(answer_.status, status);
-    EXPECT_TRUE(holds(answer_.message, names));
-  }
-
-  Robot robot_ = slab_robot();
-  PoseHistory history_{robot_};
-  RobotPose answer_;
-};
-
-TEST_F(PoseLookupTest, ByJoints) {
-  ask(5 * ms, {});
-  expect(FrameStatus::missing_joints, "'slide': never seen");
-  add_joint(10 * ms, 0.1);
-  ask(15 * ms, {});
-  expect(FrameStatus::stale_joints, "'slide'");
-  add_joint(20 * ms, 0.12);
-  EXPECT_EQ(ask(15 * ms, {}).status, FrameStatus::ok);
-  EXPECT_NEAR(answer_.positions[0], 0.11, rounding);
-  EXPECT_EQ(answer_.age, 5 * ms);
-  EXPECT_FALSE(answer_.T_parent_camera);
-  add_joint(30 * ms, 0.9);
-  ask(25 * ms, {});
-  expect(FrameStatus::stale_joints, "'slide': jumps");
-}
-
-TEST_F(PoseLookupTest, ByTransforms) {
-  const PoseOptions options{.source = PoseSource::transforms};
-  add_joint(10 * ms, 0.1);
-  ask(10 * ms, options);
-  expect(FrameStatus::missing_transform, "'slab'");
-  add_slab(10 * ms, 0.1);
-  EXPECT_EQ(ask(10 * ms, options).status, FrameStatus::ok);
-  ask(13 * ms, options);
-  expect(FrameStatus::stale_transform, "'slab' in 'base'");
-  add_slab(20 * ms, 0.2);
-  ASSERT_EQ(ask(13 * ms, options).status, FrameStatus::ok);
-  EXPECT_EQ(answer_.age, 7 * ms);
-  ASSERT_EQ(answer_.T_root_link.size(), 3U);
-  EXPECT_TRUE(answer_.T_root_link[*robot_.find_link("slab")].isApprox(at(0, 0, 1.13), rounding));
-  EXPECT_TRUE(answer_.T_root_link[*robot_.find_link("plate")].isApprox(at(0.5, 0.1, 1.5)))
-      << "a fixed joint that TF does not tell is the URDF's";
-  history_.add_static_transform("base", "plate", at(0.6, 0.1, 1.5));
-  ask(13 * ms, options);
-  EXPECT_TRUE(answer_.T_root_link[*robot_.find_link("plate")].isApprox(at(0.6, 0.1, 1.5)))
-      << "what it tells is what is";
-}
-
-TEST_F(PoseLookupTest, ByBothWhereTheyAgree) {
-  const PoseOptions options{.source = PoseSource::both};
-  add_joint(10 * ms, 0.1);
-  ask(10 * ms, options);
-  expect(FrameStatus::missing_transform, "'slab'");
-  add_slab(10 * ms, 0.1049);
-  ASSERT_EQ(ask(10 * ms, options).status, FrameStatus::ok);
-  EXPECT_TRUE(answer_.T_root_link.empty()) << "the links' poses follow from the joints";
-  add_slab(10 * ms, 0.1062);
-  ask(10 * ms, options);
-  expect(FrameStatus::poses_disagree, "'slab' 6.2 mm apart, more than 5 mm");
-}
 
 RobotPose look_up(const Robot& robot, const PoseHistory& history, std::int64_t stamp,
                   const PoseOptions& options = {}) {
@@ -107,6 +25,75 @@ void expect_uncertain(const RobotPose& answer, const std::vector<std::size_t>& l
 void expect_fault(const RobotPose& answer, FrameStatus status, const std::string& names) {
   EXPECT_EQ(answer.status, status);
   EXPECT_TRUE(holds(answer.message, names));
+}
+
+class PoseLookupTest : public testing::Test {
+ protected:
+  void add_joint(std::int64_t stamp, double slide) {
+    const std::string names[] = {"slide"};
+    const double positions[] = {slide};
+    history_.add_joints(stamp, names, positions);
+  }
+
+  /// As robot_state_publisher tells it.
+  void add_slab(std::int64_t stamp, double slide) {
+    history_.add_transform(stamp, "base", "slab", at(0, 0, 1 + slide));
+  }
+
+  const RobotPose& ask(std::int64_t stamp, const PoseOptions& options) {
+    answer_ = look_up(robot_, history_, stamp, options);
+    EXPECT_EQ(answer_.message.empty(), answer_.status == FrameStatus::ok) << answer_.message;
+    return answer_;
+  }
+
+  Robot robot_ = slab_robot();
+  PoseHistory history_{robot_};
+  RobotPose answer_;
+};
+
+TEST_F(PoseLookupTest, ByJoints) {
+  expect_fault(ask(5 * ms, {}), FrameStatus::missing_joints, "'slide': never seen");
+  add_joint(10 * ms, 0.1);
+  expect_fault(ask(15 * ms, {}), FrameStatus::stale_joints, "'slide'");
+  add_joint(20 * ms, 0.12);
+  EXPECT_EQ(ask(15 * ms, {}).status, FrameStatus::ok);
+  EXPECT_NEAR(answer_.positions[0], 0.11, rounding);
+  EXPECT_EQ(answer_.age, 5 * ms);
+  EXPECT_FALSE(answer_.T_parent_camera);
+  add_joint(30 * ms, 0.9);
+  expect_fault(ask(25 * ms, {}), FrameStatus::stale_joints, "'slide': jumps");
+}
+
+TEST_F(PoseLookupTest, ByTransforms) {
+  const PoseOptions options{.source = PoseSource::transforms};
+  add_joint(10 * ms, 0.1);
+  expect_fault(ask(10 * ms, options), FrameStatus::missing_transform, "'slab'");
+  add_slab(10 * ms, 0.1);
+  EXPECT_EQ(ask(10 * ms, options).status, FrameStatus::ok);
+  expect_fault(ask(13 * ms, options), FrameStatus::stale_transform, "'slab' in 'base'");
+  add_slab(20 * ms, 0.2);
+  ASSERT_EQ(ask(13 * ms, options).status, FrameStatus::ok);
+  EXPECT_EQ(answer_.age, 7 * ms);
+  ASSERT_EQ(answer_.T_root_link.size(), 3U);
+  EXPECT_TRUE(answer_.T_root_link[*robot_.find_link("slab")].isApprox(at(0, 0, 1.13), rounding));
+  EXPECT_TRUE(answer_.T_root_link[*robot_.find_link("plate")].isApprox(at(0.5, 0.1, 1.5)))
+      << "a fixed joint that TF does not tell is the URDF's";
+  history_.add_static_transform("base", "plate", at(0.6, 0.1, 1.5));
+  ask(13 * ms, options);
+  EXPECT_TRUE(answer_.T_root_link[*robot_.find_link("plate")].isApprox(at(0.6, 0.1, 1.5)))
+      << "what it tells is what is";
+}
+
+TEST_F(PoseLookupTest, ByBothWhereTheyAgree) {
+  const PoseOptions options{.source = PoseSource::both};
+  add_joint(10 * ms, 0.1);
+  expect_fault(ask(10 * ms, options), FrameStatus::missing_transform, "'slab'");
+  add_slab(10 * ms, 0.1049);
+  ASSERT_EQ(ask(10 * ms, options).status, FrameStatus::ok);
+  EXPECT_TRUE(answer_.T_root_link.empty()) << "the links' poses follow from the joints";
+  add_slab(10 * ms, 0.1062);
+  expect_fault(ask(10 * ms, options), FrameStatus::poses_disagree,
+               "'slab' 6.2 mm apart, more than 5 mm");
 }
 
 /// Nothing of the link `frame` is drawn.
@@ -191,8 +178,7 @@ TEST(ThreeBoxes, OnlyWhatAnUnknownJointMovesIsUncertain) {
 TEST_F(PoseLookupTest, OfTheCameraInTF) {
   const PoseOptions options{.camera_parent = "slab", .camera_frame = "optical"};
   add_joint(10 * ms, 0.0);
-  ask(10 * ms, options);
-  expect(FrameStatus::missing_transform, "'optical'");
+  expect_fault(ask(10 * ms, options), FrameStatus::missing_transform, "'optical'");
   add_slab(10 * ms, 0.0);
   history_.add_static_transform("slab", "housing", at(0.1, 0, 0));
   history_.add_static_transform("housing", "optical", at(0, 0.2, 0));
@@ -203,8 +189,7 @@ TEST_F(PoseLookupTest, OfTheCameraInTF) {
   EXPECT_EQ(answer_.age, ms);
 
   const PoseOptions at_root{.camera_parent = "", .camera_frame = "optical"};
-  ask(11 * ms, at_root);
-  expect(FrameStatus::stale_transform, "'slab' in 'base'");
+  expect_fault(ask(11 * ms, at_root), FrameStatus::stale_transform, "'slab' in 'base'");
   add_slab(12 * ms, 0.2);
   ASSERT_EQ(ask(11 * ms, at_root).status, FrameStatus::ok);
   EXPECT_TRUE(answer_.T_parent_camera->isApprox(at(0.1, 0.2, 1.1)));
@@ -227,13 +212,11 @@ TEST_F(PoseHistoryTest, AJumpOfTheClockForgetsWhatWasBefore) {
   add_slab(5000 * ms, 0.5);
   add_joint(4000 * ms, 0.4);
   EXPECT_EQ(history_.clock_jumps(), 0U) << "late by a second";
-  EXPECT_EQ(history_.last_jump(), "");
   const auto epoch = history_.epoch();
   add_joint(4000 * ms - 1, 0.1);
   EXPECT_EQ(history_.clock_jumps(), 1U);
   EXPECT_NE(history_.epoch(), epoch);
-  EXPECT_TRUE(holds(history_.last_jump(), "1000 ms"));
-  EXPECT_TRUE(holds(history_.last_jump(), "joint states"));
+  EXPECT_TRUE(holds(history_.last_jump(), {"1000 ms", "joint states"}));
   EXPECT_EQ(ask(5000 * ms, {}).status, FrameStatus::stale_joints) << "not of the new time";
   EXPECT_EQ(ask(4000 * ms - 1, {}).status, FrameStatus::ok);
   EXPECT_EQ(ask(5000 * ms, {.source = PoseSource::transforms}).status,

@@ -58,7 +58,6 @@ TEST(Reach, HoldsAllVerticesAtAnyPosition) {
           }
     }
   }
-  std::cout << "the farthest vertex is at " << fullest << " of the radius\n";
   EXPECT_GT(fullest, 0.8) << "the balls are no larger than needed";
 }
 

@@ -43,13 +43,6 @@ TEST(XArm7Recording, RobotStandsWhereTheMasksSayItDoes) {
     io::read_png(folder / ("robot_mask_" + std::to_string(reader.index(i)) + ".png"), mask)
         .require();
     const double iou = intersection_over_union(report.virtual_depth.depth, mask.view());
-    const auto robot_pixels = double(report.pixels.robot.value());
-    std::printf(
-        "frame %zu: IoU %.4f, front %.3f %%, occluded %.2f %%, unknown %.2f %%, beyond %.2f %%\n",
-        i, iou, 100.0 * double(report.pixels.front) / robot_pixels,
-        100.0 * double(report.pixels.occluded) / robot_pixels,
-        100.0 * double(report.pixels.unknown) / robot_pixels,
-        100.0 * double(report.pixels.beyond) / robot_pixels);
     EXPECT_GE(iou, least_each) << "frame " << i;
     sum += iou;
   }

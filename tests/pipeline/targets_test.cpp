@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "targets_fixture.hpp"
+#include "slab_scene.hpp"
 
 #include <penumbra/mesh/primitives.hpp>
 
@@ -48,21 +48,6 @@ TEST_F(TargetsTest, SolidsAreSeenAlikeFromEveryFrame) {
   for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(report.targets[i].judgement->covered, covered);
   // The near face at 1.55 m, 0.1 m wide.
   EXPECT_NEAR(double(covered), 0.1 * 120.3 / 1.55 * 0.1 * 118.7 / 1.55, 10.0);
-}
-
-/// Hidden needs no sensor depth where the expected depth is known; without it the frame is unknown.
-TEST_F(TargetsTest, AreUnknownWithoutPoseOrDepth) {
-  const auto expect_unknown = [&](const Frame& frame, FrameStatus status) {
-    const FrameReport& report = pipeline_.process(frame);
-    EXPECT_EQ(report.status, status);
-    EXPECT_EQ(report.targets[0].verdict, Verdict::unknown);
-    EXPECT_FALSE(report.targets[0].judgement);
-    EXPECT_TRUE(holds(report.targets[0].reason, to_string(status)));
-  };
-  const std::vector<Target> targets{region("target", beside_slab)};
-  expect_unknown({.pose = {.positions = positions_}, .targets = targets},
-                 FrameStatus::missing_depth);
-  expect_unknown({.depth = depth_.view(), .targets = targets}, FrameStatus::missing_joints);
 }
 
 /// The model alone says so: the rest was not looked at.

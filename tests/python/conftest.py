@@ -41,7 +41,6 @@ class Opened:
         self.pipeline = penumbra.Pipeline(self.robot, self.camera, self.config)
 
     def targets(self):
-        """Those of the recording's file."""
         return penumbra.TargetsFile.open(self.recording.targets, robot=self.robot, image=self.config.image,
                                          images=self.pipeline.intrinsics, has_distortion=False, beyond_hides=True)
 
@@ -55,12 +54,6 @@ def opened():
 def shipped():
     """One that is not changed by its tests."""
     return Opened(SHIPPED)
-
-
-@pytest.fixture(scope="session")
-def real():
-    skip_without_data()
-    return Opened(DATA / "xarm7_realsense")
 
 
 def execute(*words, status=0, **options):

@@ -235,8 +235,3 @@ def test_init_needs_one_robot_and_images(folder):
     shutil.rmtree(folder / "color")
     assert "images" in run("init", folder, status=2).stderr
     assert not (folder / "recording.yaml").exists()
-
-
-def test_an_unknown_command_names_near_ones():
-    told = run("calibrat", status=2).stderr
-    assert "no such command" in told and "calibrate?" in told

@@ -69,13 +69,6 @@ def test_visibility_is_that_along_the_motion(cell):
     assert np.isnan(none).all()
 
 
-def test_motions_are_ranked(cell):
-    ahead = cell.ahead()
-    ranked = penumbra.rank([ahead.along(cell.motion()), ahead.along(cell.still([0, 1]))])
-    assert [each.trajectory for each in ranked] == [1, 0]
-    assert ranked[0].seen == pytest.approx(1.0) and "lid" in ranked[1].reason
-
-
 def test_a_target_moves_with_its_velocity(cell):
     away = penumbra.ForecastTarget(cell.lid, velocity=[0, 3.0, 0])
     (forecast,) = cell.ahead([away]).along(cell.still([0, 2]))

@@ -2,16 +2,15 @@
 """Arrays lie where C++ has them, outlive their owners, and never change in silence."""
 
 import gc
-import subprocess
-import sys
 import threading
 import weakref
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
 import penumbra
-from conftest import address, only_in_full, Opened, refuses, SHIPPED
+from conftest import address, only_in_full, Opened, refuses, run_python, SHIPPED
 
 
 def test_nothing_is_copied_on_the_way_in(opened):
@@ -143,11 +142,9 @@ def test_other_threads_run_while_a_frame_is_judged():
 
 
 def in_threads(count, work):
-    threads = [threading.Thread(target=work) for _ in range(count)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
+    with ThreadPoolExecutor(count) as pool:
+        for done in [pool.submit(work) for _ in range(count)]:
+            done.result()
 
 
 def test_a_second_thread_is_refused():
@@ -200,7 +197,5 @@ def test_data_sets_take_the_same_memory_for_more_frames(tmp_path):
     from test_datasets import describe, recorded, write_h5
     joints = np.array([frame.frame.joints for frame in penumbra.open_input(SHIPPED)])[:5]
     files = [write_h5(tmp_path / f"{n}.h5", {"qpos": np.resize(recorded(joints), (n, 7))}) for n in (50, 2000)]
-    done = subprocess.run([sys.executable, "-c", MEMORY, describe(tmp_path), *files, tmp_path / "out"],
-                          capture_output=True, text=True, check=True)
-    first, last = map(int, done.stdout.split())
+    first, last = map(int, run_python("-c", MEMORY, describe(tmp_path), *files, tmp_path / "out").stdout.split())
     assert last - first < 50_000, f"{last - first} kB"

@@ -10,9 +10,12 @@ import numpy as np
 import pytest
 
 import penumbra
-from conftest import Opened, refuses, ROOT, SHIPPED
+from conftest import refuses, ROOT, SHIPPED
 
 GOOD = np.zeros((480, 640), np.uint16)
+POSE = np.eye(4)
+POINT = np.array([1.0, 2.0, 3.0])
+CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
 
 BAD_DEPTHS = [
     (None, TypeError, "uint16 or float32"),
@@ -54,20 +57,42 @@ def test_frames_refuse_images(depth, error, says):
 def test_arrays_that_were_pickled_are_taken():
     mask = pickle.loads(pickle.dumps(np.eye(4, dtype=bool)))
     assert np.array_equal(penumbra.PixelMask(mask).mask, np.eye(4, dtype=np.uint8))
-    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
-    mesh = penumbra.TriangleMesh(pickle.loads(pickle.dumps(corners)),
+    mesh = penumbra.TriangleMesh(pickle.loads(pickle.dumps(CORNERS)),
                                  pickle.loads(pickle.dumps(np.array([[0, 1, 2]], np.uint32))))
-    assert np.array_equal(mesh.vertices, corners)
+    assert np.array_equal(mesh.vertices, CORNERS)
 
 
-def test_doubts_of_what_is_no_link_are_refused(opened):
-    frame = opened.frames[0].frame.replace(uncertain_reason="two tell it")
-    count = len(opened.robot.links)
-    for link in (count, 10**6):
-        with pytest.raises(penumbra.InputError, match=f"link {link} .* below {count}"):
-            opened.pipeline.process(frame.replace(uncertain_links=[count - 1, link]))
-    good = opened.pipeline.process(frame.replace(uncertain_links=[count - 1]))
-    assert good.status is penumbra.FrameStatus.ok
+# A valid array and a call of it for each kind of argument.
+CASES = {
+    "joints": (np.zeros(7), lambda x: penumbra.Frame(GOOD, x)),
+    "poses": (np.stack([POSE] * 11), lambda x: penumbra.Frame(GOOD, None, T_root_link=x)),
+    "pose": (POSE, lambda x: penumbra.PipelineConfig(T_parent_camera=x)),
+    "point": (POINT, lambda x: penumbra.PointTarget(x)),
+    "estimate": (POINT, lambda x: penumbra.TargetEstimate(x)),
+    "polygon": (CORNERS[:, :2].astype(float), lambda x: penumbra.PixelPolygon(x)),
+    "mask": (np.eye(4, dtype=bool), lambda x: penumbra.PixelMask(x)),
+    "vertices": (CORNERS, lambda x: penumbra.TriangleMesh(x, np.array([[0, 1, 2]], np.uint32))),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_masked_arrays_are_refused(name):
+    valid, call = CASES[name]
+    call(valid)
+    one = np.zeros(valid.shape, bool)
+    one.flat[0] = True
+    for mask in (one, np.ma.nomask):
+        refuses("its mask would be lost", lambda: call(np.ma.masked_array(valid, mask=mask)), TypeError)
+
+
+def test_other_arrays_are_taken():
+    class Own(np.ndarray):
+        """A subclass without a mask."""
+
+    for joints in (np.zeros(7).view(Own), [np.float32(0)] * 7, (0,) * 7, np.zeros(7, np.int32)):
+        assert np.array_equal(penumbra.Frame(GOOD, joints).joints, np.zeros(7))
+    poses = [POSE, POSE.astype(np.float32).tolist()]
+    assert np.array_equal(penumbra.Frame(GOOD, None, T_root_link=poses).T_root_link, [POSE, POSE])
 
 
 def test_enumerations_have_all_values_of_the_headers():
@@ -98,8 +123,9 @@ def test_rows_may_lie_apart_and_run_upwards(opened):
 
 
 def test_images_of_another_size_raise(opened):
-    for wrong in (GOOD[:10].copy(), GOOD[:, :10].copy(), np.zeros((640, 480), np.float32)):
-        with pytest.raises(ValueError) as raised:
+    for wrong, says in ((GOOD[:10].copy(), ""), (GOOD[:, :10].copy(), ""),
+                        (np.zeros((640, 480), np.float32), "transposed")):
+        with pytest.raises(ValueError, match=says) as raised:
             opened.pipeline.process(opened.frames[0].frame.replace(depth=wrong))
         assert "(480, 640)" in str(raised.value) and str(wrong.shape) in str(raised.value)
     assert opened.pipeline.process(opened.frames[0].frame).status is penumbra.FrameStatus.ok
@@ -107,11 +133,13 @@ def test_images_of_another_size_raise(opened):
 
 BAD_CALLS = [
     (lambda o: o.pipeline.process(None), TypeError, "penumbra.Frame"),
+    (lambda o: o.pipeline.process(o.frames[0].frame.replace(joints=[0, 0])), ValueError, "expected 7 positions"),
+    (lambda o: o.pipeline.process(o.frames[0].frame.replace(uncertain_links=[11])), penumbra.InputError, "below 11"),
     (lambda o: penumbra.Pipeline(None, o.camera), TypeError, "penumbra.Robot"),
     (lambda o: penumbra.PipelineConfig(backend="gl"), TypeError, "penumbra.Backend"),
     (lambda o: penumbra.PipelineConfig(bakend=None), TypeError, "backend"),
     (lambda o: penumbra.LabelRule(front_min_width=None), TypeError, "front_min_width: int"),
-    (lambda o: penumbra.Classifier(0, 480, penumbra.LabelRule()), ValueError, "1 to 32767"),
+    (lambda o: penumbra.Classifier(0, 480, penumbra.LabelRule.paper()), ValueError, "1 to 32767"),
     (lambda o: penumbra.Classifier(64, 48, penumbra.LabelRule(beyond_factor=0)), ValueError,
      "beyond_factor 0"),
     (lambda o: penumbra.Intrinsics(0, 0, 1, 1, 0, 0), ValueError, "1 .. 32767"),
@@ -123,7 +151,9 @@ BAD_CALLS = [
     (lambda o: o.robot.forward_kinematics(["a"] * 7), TypeError, "float64"),
     (lambda o: o.robot.forward_kinematics([float("nan")] * 7), ValueError, "+-1e9"),
     (lambda o: o.robot.meshes(99), IndexError, "below 11"),
+    (lambda o: o.robot.find_variable("tail"), KeyError, "tail"),
     (lambda o: o.frames[12], IndexError, "-12..11"),
+    (lambda o: penumbra.open_input(SHIPPED)[12], IndexError, "frame 12"),
     (lambda o: penumbra.Frame(GOOD, 1.0), ValueError, "shape (N,)"),
     (lambda o: penumbra.Frame(GOOD, [1j]), TypeError, "float64"),
     (lambda o: penumbra.Frame(GOOD, None, targets=[None]), TypeError, "penumbra.Target"),
@@ -148,13 +178,14 @@ BAD_CALLS = [
      "penumbra.Verdict"),
     (lambda o: penumbra.PointTracker().update(1, [1, 2], penumbra.Verdict.visible), ValueError,
      "(3,)"),
-    (lambda o: penumbra.Recording.open("nowhere"), ValueError, "nowhere"),
+    (lambda o: penumbra.Recording.open("nowhere"), penumbra.InputError, "nowhere"),
     (lambda o: penumbra.open_input("nowhere"), ValueError, "nowhere"),
     (lambda o: penumbra.open_input(SHIPPED, bag=penumbra.BagOptions()), ValueError, "bags"),
     (lambda o: penumbra.open_input(SHIPPED, frames=(3, 99)), ValueError, "0 to 11"),
     (lambda o: pickle.dumps(o.pipeline), TypeError, "pickle"),
     (lambda o: copy.copy(o.pipeline), TypeError, "pickle"),
     (lambda o: setattr(o.config, "backend", None), AttributeError, "no setter"),
+    (lambda o: penumbra.RobotOptions(packages={"a": "/tmp"}).packages.update(b="/"), AttributeError, "update"),
 ]
 
 
@@ -172,6 +203,7 @@ def test_renderers_refuse_poses(opened):
                         (good * np.array([2, 2, 2, 1])[:, None], "rotations"), (good[0], "(N, 4, 4)")):
         refuses(r".*" + says.replace("(", r"\(").replace(")", r"\)"), lambda: renderer.render(poses), ValueError)
     renderer.submit(good)
+    assert renderer.pending == renderer.max_pending == 1
     refuses("pending", lambda: renderer.submit(good), ValueError)
     refuses("pending", lambda: renderer.render(good), ValueError)
     assert renderer.collect().depth.shape == (480, 640)
@@ -181,29 +213,12 @@ def test_renderers_refuse_poses(opened):
 def test_errors_are_of_the_named_classes():
     assert issubclass(penumbra.InputError, ValueError)
     assert issubclass(penumbra.DeviceError, RuntimeError)
-    with pytest.raises(penumbra.InputError):
-        Opened("/nowhere")
-
-
-def test_a_wrong_number_of_joints_is_refused(opened):
-    frame = opened.frames[0].frame
-    with pytest.raises(ValueError, match=f"expected {len(opened.robot.variables)} positions"):
-        opened.pipeline.process(frame.replace(joints=[0.0, 0.0]))
-
-
-def test_transposed_depth_is_said_to_be_so(opened):
-    frame = opened.frames[0].frame
-    turned = np.ascontiguousarray(np.zeros((opened.camera.intrinsics.width,
-                                            opened.camera.intrinsics.height), np.uint16))
-    refuses("transposed", lambda: opened.pipeline.process(frame.replace(depth=turned)), ValueError)
 
 
 def test_an_inverted_camera_pose_is_diagnosed(opened):
-    poses = {cause: config for cause, config in [
-        ("none", opened.config),
-        ("camera_inverted",
-         opened.config.replace(T_parent_camera=np.linalg.inv(opened.config.T_parent_camera)))]}
-    for cause, config in poses.items():
+    pose = opened.config.T_parent_camera
+    for cause, T_parent_camera in (("none", pose), ("camera_inverted", np.linalg.inv(pose))):
+        config = opened.config.replace(T_parent_camera=T_parent_camera)
         pipeline = penumbra.Pipeline(opened.robot, opened.camera, config)
         for frame in opened.frames:
             pipeline.process(frame.frame)

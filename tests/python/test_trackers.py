@@ -96,14 +96,3 @@ def test_shapes_in_space_and_their_handling(opened):
         target.check()
     opened.pipeline.forget_target("box")
     opened.pipeline.forget_targets()
-
-
-def test_defaults_are_those_of_cpp():
-    assert penumbra.LabelRule.paper().tolerance.a == 0.01
-    assert penumbra.LabelRule().replace(front_min_width=3).front_min_width == 3
-    options = penumbra.RobotOptions(packages={"a": "/tmp"}, ignore_links=["x*"])
-    again = penumbra.RobotOptions(packages=options.packages, ignore_links=options.ignore_links)
-    assert repr(options) == repr(again) == repr(options.replace())
-    with pytest.raises(TypeError):
-        options.packages["b"] = "/"
-    assert isinstance(options.ignore_links, tuple)

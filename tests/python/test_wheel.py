@@ -3,12 +3,9 @@
 
 import os
 import re
-import subprocess
 import sys
 
-import pytest
-
-from conftest import ROOT, SHIPPED
+from conftest import execute, only_in_full, ROOT, SHIPPED
 
 CHECK = """
 import pathlib, sys, penumbra
@@ -21,16 +18,14 @@ print(sum(pipeline.process(frame.frame).pixels.robot for frame in given))
 """
 
 
-@pytest.mark.skipif("PENUMBRA_FULL" not in os.environ, reason="compiles all anew: --full")
+@only_in_full
 def test_the_wheel_is_built_offline_and_works(tmp_path):
     clean = {key: value for key, value in os.environ.items()
              if key not in ("PYTHONPATH", "PIP_INDEX_URL", "PYTHONDONTWRITEBYTECODE")}
     clean.update(PIP_NO_INDEX="1", PIP_DISABLE_PIP_VERSION_CHECK="1")
 
     def step(*command):
-        done = subprocess.run(list(map(str, command)), env=clean, cwd=tmp_path, capture_output=True, text=True)
-        assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
-        return done.stdout
+        return execute(*command, env=clean, cwd=tmp_path).stdout
 
     step(sys.executable, "-m", "venv", "--system-site-packages", tmp_path / "venv")
     python = tmp_path / "venv" / "bin" / "python"

@@ -22,6 +22,12 @@ export const compressors = {
   zstd: (data) => ({ compression: "zstd", compressedData: zstdCodec.compress(data, 3) }),
 };
 
+/** A file for the library's indexed reader. */
+export const readable = (bytes) => ({
+  size: async () => BigInt(bytes.length),
+  read: async (offset, size) => bytes.subarray(Number(offset), Number(offset + size)),
+});
+
 /** TOPIC SCHEMA SEQUENCE LOG_TIME PUBLISH_TIME SIZE CRC; "-" for no schema. */
 export function line(channel, schema, message) {
   const { sequence, logTime, publishTime, data } = message;

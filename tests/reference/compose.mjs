@@ -27,8 +27,8 @@ class Composer {
     return place;
   }
 
-  crcFrom(offset) {
-    return crc32(Buffer.concat(this.bytes).subarray(Number(offset)));
+  bytesFrom(offset) {
+    return Buffer.concat(this.bytes).subarray(Number(offset));
   }
 }
 
@@ -123,7 +123,7 @@ export function compose(options, content) {
   composer.add((b) => b.writeHeader({ profile: "ros2", library: "composed" }));
   const chunkIndexes = addData(composer, options, content);
   if (options.dataEnd) {
-    const dataSectionCrc = options.crc ? composer.crcFrom(0n) : 0;
+    const dataSectionCrc = options.crc ? crc32(composer.bytesFrom(0n)) : 0;
     composer.add((b) => b.writeDataEnd({ dataSectionCrc }));
   }
   const start = composer.length;
@@ -134,8 +134,7 @@ export function compose(options, content) {
     const builder = new McapRecordBuilder();
     builder.writeFooter(footer);
     const head = Uint8Array.from(builder.buffer).subarray(0, builder.length - 4);
-    const summary = Buffer.concat(composer.bytes).subarray(Number(start));
-    footer.summaryCrc = crc32(Buffer.concat([summary, head]));
+    footer.summaryCrc = crc32(Buffer.concat([composer.bytesFrom(start), head]));
   }
   composer.add((b) => b.writeFooter(footer));
   composer.add((b) => b.writeMagic());

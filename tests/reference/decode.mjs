@@ -8,7 +8,7 @@ import { parse } from "@foxglove/rosmsg";
 import { MessageReader } from "@foxglove/rosmsg2-serialization";
 import { McapIndexedReader } from "@mcap/core";
 
-import { decompressHandlers } from "./common.mjs";
+import { decompressHandlers, readable } from "./common.mjs";
 
 const longest = 64;
 
@@ -21,12 +21,8 @@ function plain(_key, value) {
   return { length: value.length, crc: crc32(bytes).toString(16).padStart(8, "0") };
 }
 
-const bytes = readFileSync(process.argv[2]);
-const readable = {
-  size: async () => BigInt(bytes.length),
-  read: async (offset, size) => bytes.subarray(Number(offset), Number(offset + size)),
-};
-const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers });
+const file = readable(readFileSync(process.argv[2]));
+const reader = await McapIndexedReader.Initialize({ readable: file, decompressHandlers });
 const decoders = new Map();
 for (const [id, schema] of reader.schemasById)
   decoders.set(id, new MessageReader(parse(new TextDecoder().decode(schema.data), { ros2: true })));

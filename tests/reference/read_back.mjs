@@ -7,19 +7,7 @@ import { deepStrictEqual, strictEqual } from "node:assert";
 import { crc32 } from "@foxglove/crc";
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 
-import { decompressHandlers, line } from "./common.mjs";
-
-class Bytes {
-  constructor(bytes) {
-    this.bytes = bytes;
-  }
-  async size() {
-    return BigInt(this.bytes.length);
-  }
-  async read(offset, size) {
-    return this.bytes.subarray(Number(offset), Number(offset + size));
-  }
-}
+import { decompressHandlers, line, readable } from "./common.mjs";
 
 /** Reads from the start to the end, as one without an index does. */
 function readStream(bytes) {
@@ -55,7 +43,7 @@ function checkStatistics(statistics, stream) {
 }
 
 async function readIndexed(bytes) {
-  const reader = await McapIndexedReader.Initialize({ readable: new Bytes(bytes), decompressHandlers });
+  const reader = await McapIndexedReader.Initialize({ readable: readable(bytes), decompressHandlers });
   const lines = [];
   for await (const message of reader.readMessages({ validateCrcs: true })) {
     const channel = reader.channelsById.get(message.channelId);

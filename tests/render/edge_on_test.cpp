@@ -26,8 +26,7 @@ std::pair<bool, bool> any_and_all_around(const Image<float>& depth, int u, int v
 
 /// The least and largest depth of the scene's corners, with the renderers' tolerance.
 std::pair<double, double> depth_range(const Scene& scene) {
-  double low = inf;
-  double high = -low;
+  double low = inf, high = -inf;
   const std::vector<Body> bodies = scene.bodies();
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (const TriangleMesh& mesh : bodies[i].meshes)
@@ -204,9 +203,8 @@ TEST_P(EdgeOn, SolidsOfSliversTurnedAboutTheCamera) {
     const auto [mesh, half] = random_solid(random, true);
     // The face's plane passes the centre up to rounding; the view direction does not lie in it.
     const Vector3d place(uniform(random, -0.2, 0.2), half, uniform(random, 1.2, 2.0));
-    const Vector3d axis(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
     Scene scene;
-    scene.add(mesh, AngleAxisd(uniform(random, -0.3, 0.3), axis.normalized()) * at(place));
+    scene.add(mesh, AngleAxisd(uniform(random, -0.3, 0.3), random_direction(random)) * at(place));
     const Intrinsics& camera = cameras[random() % cameras.size()];
     SCOPED_TRACE(::testing::Message() << "scene " << i);
     const Frame frame = render(camera, scene);

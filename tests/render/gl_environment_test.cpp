@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Machines on which parts of OpenGL are missing, as a process of their own sees them.
+#include "../support/temporary_folder.hpp"
 #include "../support/test.hpp"
 #include "opengl.hpp"
 
@@ -36,29 +37,12 @@ class GlEnvironment : public ::testing::Test {
   }
 };
 
-/// A folder whose libraries of these names cannot be loaded.
-class BrokenLibraries {
- public:
-  explicit BrokenLibraries(const std::vector<std::string>& names)
-      : folder_(std::filesystem::path(::testing::TempDir()) / ("broken_" + names.front())) {
-    std::filesystem::create_directories(folder_);
-    for (const std::string& name : names) std::ofstream(folder_ / name) << "no library";
-  }
-  ~BrokenLibraries() { std::filesystem::remove_all(folder_); }
-  BrokenLibraries(const BrokenLibraries&) = delete;
-  BrokenLibraries& operator=(const BrokenLibraries&) = delete;
-
-  [[nodiscard]] std::string first_of_all() const { return "LD_LIBRARY_PATH=" + folder_.string(); }
-
- private:
-  std::filesystem::path folder_;
-};
-
 TEST_F(GlEnvironment, DrawsWithoutADisplay) { EXPECT_TRUE(holds(probe(""), "drawn: 2\n")); }
 
 TEST_F(GlEnvironment, WithoutEgl) {
-  const BrokenLibraries broken({"libEGL.so.1"});
-  expect_refused(broken.first_of_all(), "libEGL.so.1 cannot be loaded");
+  const TemporaryFolder broken;
+  broken.write("libEGL.so.1", "no library");
+  expect_refused("LD_LIBRARY_PATH=" + broken.path().string(), "libEGL.so.1 cannot be loaded");
 }
 
 TEST_F(GlEnvironment, WithoutADriver) {

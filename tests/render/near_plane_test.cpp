@@ -40,7 +40,6 @@ TEST_P(NearPlane, ClosedBodiesGrazedByTheNearPlane) {
 
 TEST_P(NearPlane, RandomScenesAllAroundTheCamera) {
   std::mt19937_64 random = seeded_random(54);
-  Agreement total;
   for (int round = 0; round < samples(25); ++round) {
     Scene scene;
     scene.add(triangle_soup(random, 12, 1.5F), at(0, 0, 0.8));
@@ -48,9 +47,8 @@ TEST_P(NearPlane, RandomScenesAllAroundTheCamera) {
     scene.add(sphere(0.2F, 9), random_pose(random, {0.3, -0.4, -0.3}, {0.6, 0.4, 1.5}));
     scene.add(mirrored(sphere(0.15F, 9)), random_pose(random, {-0.6, -0.4, 0}, {-0.2, 0.4, 1.5}));
     scene.add(box({0.1F, 0.1F, 0.4F}), random_pose(random, {-0.5, -0.5, 0.5}, {0.5, 0.5, 1.5}));
-    total += expect_agrees_with_brute_force(render(near_camera, scene).view(), scene, near_camera);
+    expect_agrees_with_brute_force(render(near_camera, scene).view(), scene, near_camera);
   }
-  std::cout << total << '\n';
 }
 
 using Found = std::vector<std::size_t>;
@@ -147,20 +145,10 @@ TEST(CameraInside, TellsTheFirstBodyThatHoldsTheCamera) {
   EXPECT_EQ(check.find(scene.poses), 1U);
 }
 
-/// A mesh without the triangles that have a corner there.
-TriangleMesh cut(TriangleMesh mesh, const std::function<bool(const Vector3f&)>& there) {
-  std::erase_if(mesh.triangles, [&](const std::array<std::uint32_t, 3>& corners) {
-    return std::any_of(corners.begin(), corners.end(),
-                       [&](std::uint32_t i) { return there(mesh.vertices[i]); });
-  });
-  return mesh;
-}
-
 TEST(CameraInside, AnOpenPieceHoldsWhatItClosesAroundForMoreThanHalf) {
   // As meshes for the eye are: a cylinder without its ends, a shell that is no body.
   const TriangleMesh ball = sphere(0.3F, 24);
-  const TriangleMesh most = cut(ball, [](const auto& p) { return p.z() > 0.1F; });
-  const TriangleMesh least = cut(ball, [](const auto& p) { return p.z() > -0.1F; });
+  const TriangleMesh most = cut_above(ball, 0.1F), least = cut_above(ball, -0.1F);
   for (const TriangleMesh& mesh : {most, mirrored(most)}) {
     Scene scene;
     scene.add(mesh);
@@ -172,16 +160,6 @@ TEST(CameraInside, AnOpenPieceHoldsWhatItClosesAroundForMoreThanHalf) {
   scene.add(least);
   EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), std::nullopt)
       << "a bowl, from above its rim";
-}
-
-TEST(CameraInside, SmallHolesLetNobodyOut) {
-  Scene scene;
-  TriangleMesh pierced = sphere(0.3F, 24);
-  pierced.triangles.erase(pierced.triangles.begin() + 200);
-  scene.add(pierced, at(0.1, 0, 0.1));
-  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), 0U);
-  scene.poses[0] = at(0.1, 0, 0.4);
-  EXPECT_EQ(CameraInsideCheck(scene.bodies()).find(scene.poses), std::nullopt);
 }
 
 TEST(CameraInside, AgreesWithTheFormulaOfABox) {

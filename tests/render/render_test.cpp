@@ -41,6 +41,13 @@ std::size_t Frame::covered() const {
       std::count_if(depth.data(), depth.data() + depth.size(), [](float z) { return z > 0.0F; }));
 }
 
+TriangleMesh cut_above(TriangleMesh mesh, float z) {
+  std::erase_if(mesh.triangles, [&](const auto& triangle) {
+    return std::ranges::any_of(triangle, [&](std::uint32_t v) { return mesh.vertices[v].z() > z; });
+  });
+  return mesh;
+}
+
 void expect_consistent(const VirtualDepthView& view, const Intrinsics& intrinsics,
                        std::size_t bodies) {
   ASSERT_EQ(view.depth.width, intrinsics.width());
@@ -72,12 +79,11 @@ void expect_consistent(const VirtualDepthView& view, const Intrinsics& intrinsic
   EXPECT_EQ(covered_inside, covered) << "pixels outside of the touched tiles are not 0";
 }
 
-Agreement expect_agrees_with_brute_force(const VirtualDepthView& view, const Scene& scene,
-                                         const Intrinsics& intrinsics) {
+void expect_agrees_with_brute_force(const VirtualDepthView& view, const Scene& scene,
+                                    const Intrinsics& intrinsics) {
   const BruteForceOracle oracle(scene.bodies(), scene.poses);
-  Agreement agreement = compare(view, oracle, cast_image(oracle, intrinsics), intrinsics);
+  const Agreement agreement = compare(view, oracle, cast_image(oracle, intrinsics), intrinsics);
   EXPECT_EQ(agreement.errors, 0U) << agreement;
-  return agreement;
 }
 
 void expect_same_bits(const VirtualDepthView& a, const VirtualDepthView& b) {

@@ -4,10 +4,6 @@
 #include "../support/run_length.hpp"
 #include "../support/temporary_folder.hpp"
 
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -17,12 +13,6 @@ namespace penumbra::test {
 namespace {
 
 using nlohmann::json;
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 struct Results {
   std::string metrics;
@@ -37,7 +27,7 @@ Results run(research::ExperimentOptions options) {
     results.total = total;
     ++results.steps;
   });
-  results.metrics = text_of(options.output / "metrics.json");
+  results.metrics = read_bytes(options.output / "metrics.json");
   return results;
 }
 
@@ -113,7 +103,7 @@ TEST(Experiment, WritesTheFramesOfTheFirstSeed) {
                                             .frames = true,
                                             .output = folder.path()};
   research::run_experiment(options, [](std::size_t) {});
-  EXPECT_EQ(json::parse(text_of(folder.path() / "metrics.json")).at("seeds"), json({7, 9}));
+  EXPECT_EQ(json::parse(read_bytes(folder.path() / "metrics.json")).at("seeds"), json({7, 9}));
   std::size_t frames = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder.path() / "frames"))
     frames += file.path().extension() == ".png" ? 1 : 0;

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The oracle is a ray caster of a textured rectangle, written here.
-#include <algorithm>
-#include <cmath>
-
-#include <gtest/gtest.h>
-#include <tests/support/random.hpp>
+#include "../support/test.hpp"
 
 #include <research/pose_estimator.hpp>
 
 namespace penumbra::test {
 namespace {
 
-using research::FeatureMatch;
 using research::PoseEstimator;
-using research::PoseGuess;
 
 const Eigen::Vector3d size(0.20, 0.15, 0.08);
 const PixelBox everywhere{0, 0, 640, 480};
@@ -23,15 +17,13 @@ Camera camera() { return {Intrinsics(640, 480, 600, 600, 310, 245), {}, {}, {}};
 /// Rectangles of random colours: corners at every scale.
 Image<Rgb8> busy_image(std::mt19937_64& random) {
   Image<Rgb8> image(320, 240, {128, 128, 128});
-  const auto below = [&](int most) {
-    return static_cast<int>(random() % static_cast<unsigned>(most));
-  };
+  const auto any = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
   for (int i = 0; i < 400; ++i) {
-    const int u0 = below(310), v0 = below(230), w = 4 + below(40), h = 4 + below(40);
-    const Rgb8 color{static_cast<std::uint8_t>(below(256)), static_cast<std::uint8_t>(below(256)),
-                     static_cast<std::uint8_t>(below(256))};
-    for (int v = v0; v < std::min(v0 + h, 240); ++v)
-      for (int u = u0; u < std::min(u0 + w, 320); ++u) image(u, v) = color;
+    const int u0 = any(310), v0 = any(230), w = 4 + any(40), h = 4 + any(40);
+    const Rgb8 color{static_cast<std::uint8_t>(any(256)), static_cast<std::uint8_t>(any(256)),
+                     static_cast<std::uint8_t>(any(256))};
+    for (const auto [u, v] : each_pixel(u0, v0, std::min(u0 + w, 320), std::min(v0 + h, 240)))
+      image(u, v) = color;
   }
   return image;
 }
@@ -54,17 +46,15 @@ Image<Rgb8> view_of(const Image<Rgb8>& print, const Eigen::Isometry3d& T_camera_
   constexpr int rays = 2;  // in each direction of a pixel
   const Eigen::Isometry3d T_object_camera = T_camera_object.inverse();
   Image<Rgb8> image(640, 480);
-  for (int v = 0; v < 480; ++v)
-    for (int u = 0; u < 640; ++u) {
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (int i = 0; i < rays; ++i)
-        for (int k = 0; k < rays; ++k)
-          sum += seen_at(print, T_object_camera, u + (k + 0.5) / rays - 0.5,
-                         v + (i + 0.5) / rays - 0.5);
-      sum /= rays * rays;
-      image(u, v) = {static_cast<std::uint8_t>(sum.x()), static_cast<std::uint8_t>(sum.y()),
-                     static_cast<std::uint8_t>(sum.z())};
-    }
+  for (const auto [u, v] : each_pixel(image)) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto [k, i] : each_pixel(0, 0, rays, rays))
+      sum +=
+          seen_at(print, T_object_camera, u + (k + 0.5) / rays - 0.5, v + (i + 0.5) / rays - 0.5);
+    sum /= rays * rays;
+    image(u, v) = {static_cast<std::uint8_t>(sum.x()), static_cast<std::uint8_t>(sum.y()),
+                   static_cast<std::uint8_t>(sum.z())};
+  }
   return image;
 }
 
@@ -86,16 +76,23 @@ Eigen::Isometry3d random_pose(std::mt19937_64& random) {
 constexpr double most_distance = 0.004, most_angle = 0.02;  // metres, radians
 constexpr double most_sigmas = 6.0;  // the claimed covariance holds features for independent
 
-TEST(PoseEstimator, FindsThePoseThatARayCasterDrew) {
-  auto random = seeded_random(4);
+/// An object with a print of its own, and who looks for it.
+struct Bench {
+  explicit Bench(std::uint64_t seed) : random(seeded_random(seed)) {}
+
+  std::mt19937_64 random;
   const Image<Rgb8> print = busy_image(random);
-  const PoseEstimator estimator(camera(), print.view(), size);
-  const Image<std::uint8_t> whole(640, 480, 255);
+  const PoseEstimator estimator{camera(), print.view(), size};
+  const Image<std::uint8_t> whole{640, 480, 255};
+};
+
+TEST(PoseEstimator, FindsThePoseThatARayCasterDrew) {
+  Bench bench(4);
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Isometry3d truth = random_pose(random);
-    const Image<Rgb8> image = view_of(print, truth);
-    const auto matches = estimator.match(image.view(), everywhere);
-    const auto guess = estimator.estimate(matches, whole.view());
+    const Eigen::Isometry3d truth = random_pose(bench.random);
+    const Image<Rgb8> image = view_of(bench.print, truth);
+    const auto matches = bench.estimator.match(image.view(), everywhere);
+    const auto guess = bench.estimator.estimate(matches, bench.whole.view());
     ASSERT_TRUE(guess) << "view " << i << ", " << matches.size() << " matches";
     const Eigen::Vector3d off = guess->T_camera_object.translation() - truth.translation();
     const Eigen::AngleAxisd turn(truth.linear().transpose() * guess->T_camera_object.linear());
@@ -108,31 +105,27 @@ TEST(PoseEstimator, FindsThePoseThatARayCasterDrew) {
 }
 
 TEST(PoseEstimator, LooksOnlyWhereTheMaskIs) {
-  auto random = seeded_random(5);
-  const Image<Rgb8> print = busy_image(random);
-  const PoseEstimator estimator(camera(), print.view(), size);
-  const Image<Rgb8> image = view_of(print, random_pose(random));
+  Bench bench(5);
+  const PoseEstimator& estimator = bench.estimator;
+  const Image<Rgb8> image = view_of(bench.print, random_pose(bench.random));
   const auto matches = estimator.match(image.view(), everywhere);
   const Image<std::uint8_t> nowhere(640, 480, 0);
   EXPECT_FALSE(estimator.estimate(matches, nowhere.view()));
   Image<std::uint8_t> half(640, 480, 0);
   for (int v = 0; v < 480; ++v) std::fill(half.view().row(v), half.view().row(v) + 310, 255);
   const auto some = estimator.estimate(matches, half.view());
-  const Image<std::uint8_t> whole(640, 480, 255);
-  const auto all = estimator.estimate(matches, whole.view());
+  const auto all = estimator.estimate(matches, bench.whole.view());
   ASSERT_TRUE(some && all);
   EXPECT_LT(some->inliers, all->inliers);
   EXPECT_GT(some->covariance->trace(), all->covariance->trace());
 }
 
 TEST(PoseEstimator, ClaimsNothingWhereTheObjectIsNot) {
-  auto random = seeded_random(6);
-  const Image<Rgb8> print = busy_image(random);
-  const PoseEstimator estimator(camera(), print.view(), size);
-  const Image<std::uint8_t> whole(640, 480, 255);
+  Bench bench(6);
   for (int i = 0; i < 3; ++i) {
-    const Image<Rgb8> other = view_of(busy_image(random), random_pose(random));
-    EXPECT_FALSE(estimator.estimate(estimator.match(other.view(), everywhere), whole.view()));
+    const Image<Rgb8> other = view_of(busy_image(bench.random), random_pose(bench.random));
+    const auto matches = bench.estimator.match(other.view(), everywhere);
+    EXPECT_FALSE(bench.estimator.estimate(matches, bench.whole.view()));
   }
 }
 

@@ -7,59 +7,44 @@
 
 namespace penumbra::test {
 
-// A robot as plain numbers and its kinematics as plain 4x4 matrices, written apart from the library
-// as its oracle.
+// A robot as plain numbers and its kinematics as products of 4x4 matrices, written apart from the
+// library as its oracle.
 
-using Matrix = std::array<std::array<double, 4>, 4>;
-using Triple = std::array<double, 3>;
+using Matrix = Eigen::Matrix4d;
 
-inline Matrix identity() { return {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}; }
-
-inline Matrix times(const Matrix& a, const Matrix& b) {
-  Matrix c{};
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j)
-      for (std::size_t k = 0; k < 4; ++k) c[i][j] += a[i][k] * b[k][j];
-  return c;
-}
-
-inline Matrix translation(const Triple& t) {
-  Matrix m = identity();
-  for (std::size_t i = 0; i < 3; ++i) m[i][3] = t[i];
+inline Matrix translation(const Vector3d& t) {
+  Matrix m = Matrix::Identity();
+  m.topRightCorner<3, 1>() = t;
   return m;
 }
 
 /// Rodrigues' formula: I + sin K + (1 - cos) K K with K the cross product by the axis.
-inline Matrix rotation(const Triple& axis, double angle) {
-  const auto [x, y, z] = axis;
-  const Matrix k{{{0, -z, y, 0}, {z, 0, -x, 0}, {-y, x, 0, 0}, {0, 0, 0, 0}}};
-  const Matrix kk = times(k, k);
-  Matrix m = identity();
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      m[i][j] += std::sin(angle) * k[i][j] + (1.0 - std::cos(angle)) * kk[i][j];
+inline Matrix rotation(const Vector3d& axis, double angle) {
+  Matrix3d k;
+  k << 0, -axis.z(), axis.y(), axis.z(), 0, -axis.x(), -axis.y(), axis.x(), 0;
+  Matrix m = Matrix::Identity();
+  m.topLeftCorner<3, 3>() += std::sin(angle) * k + (1.0 - std::cos(angle)) * k * k;
   return m;
 }
 
 inline Matrix quaternion(double x, double y, double z, double w) {
-  const double n = std::sqrt(x * x + y * y + z * z + w * w);
-  if (n == 0.0) return identity();
-  const double s = std::sqrt(x * x + y * y + z * z);
-  if (s == 0.0) return identity();
-  return rotation({x / s, y / s, z / s}, 2.0 * std::atan2(s, w));
+  const Vector3d axis(x, y, z);
+  const double s = axis.norm();
+  if (s == 0.0) return Matrix::Identity();
+  return rotation(axis / s, 2.0 * std::atan2(s, w));
 }
 
 /// Turns about the fixed axes: first roll about x, then pitch about y, then yaw about z.
-inline Matrix fixed_axes(const Triple& rpy) {
-  return times(rotation({0, 0, 1}, rpy[2]),
-               times(rotation({0, 1, 0}, rpy[1]), rotation({1, 0, 0}, rpy[0])));
+inline Matrix fixed_axes(const Vector3d& rpy) {
+  return rotation(Vector3d::UnitZ(), rpy[2]) * rotation(Vector3d::UnitY(), rpy[1]) *
+         rotation(Vector3d::UnitX(), rpy[0]);
 }
 
 struct PlainJoint {
   std::string name, type, parent, child;
-  Matrix origin = identity();
-  Triple xyz{}, rpy{};
-  Triple axis{1, 0, 0};  // of any length
+  Matrix origin = Matrix::Identity();
+  Vector3d xyz = Vector3d::Zero(), rpy = Vector3d::Zero();
+  Vector3d axis = Vector3d::UnitX();  // of any length
   double lower = 0.0, upper = 0.0;
   std::string mimics;
   double multiplier = 1.0, offset = 0.0;
@@ -80,37 +65,30 @@ inline double value_of(const PlainRobot& robot, const PlainJoint& joint, const P
   throw std::logic_error("mimics nothing");
 }
 
-inline Triple unit(Triple a) {
-  const double n = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-  return {a[0] / n, a[1] / n, a[2] / n};
-}
-
 // x and y of the plane: the frame's axes turned from z (or -z) to the normal the shortest way.
-inline Matrix planar_motion(const Triple& n, double x, double y, double yaw) {
-  const bool below = n[2] < 0.0;
+inline Matrix planar_motion(const Vector3d& n, double x, double y, double yaw) {
+  const bool below = n.z() < 0.0;
   const double sign = below ? -1.0 : 1.0;
-  const double s = std::hypot(n[0], n[1]);
-  const Triple about = s > 0.0 ? Triple{-sign * n[1] / s, sign * n[0] / s, 0.0} : Triple{1, 0, 0};
-  const Matrix tilt = rotation(about, std::atan2(s, sign * n[2]));
-  const Matrix flip = below ? rotation({1, 0, 0}, 3.14159265358979323846) : identity();
-  const Matrix axes = times(tilt, flip);
-  Triple shift{};
-  for (std::size_t i = 0; i < 3; ++i) shift[i] = axes[i][0] * x + axes[i][1] * y;
-  return times(translation(shift), rotation(n, yaw));
+  const double s = std::hypot(n.x(), n.y());
+  Vector3d about = Vector3d::UnitX();
+  if (s > 0.0) about << -sign * n.y() / s, sign * n.x() / s, 0.0;
+  Matrix axes = rotation(about, std::atan2(s, sign * n.z()));
+  if (below) axes *= rotation(Vector3d::UnitX(), std::numbers::pi);
+  const Vector3d shift = axes.topLeftCorner<3, 2>() * Vector2d(x, y);
+  return translation(shift) * rotation(n, yaw);
 }
 
 inline Matrix motion_of(const PlainRobot& robot, const PlainJoint& joint, const Positions& at) {
-  if (joint.type == "fixed") return identity();
+  if (joint.type == "fixed") return Matrix::Identity();
   const std::string& n = joint.name;
   if (joint.type == "floating")
-    return times(
-        translation({at.at(n + "/x"), at.at(n + "/y"), at.at(n + "/z")}),
-        quaternion(at.at(n + "/qx"), at.at(n + "/qy"), at.at(n + "/qz"), at.at(n + "/qw")));
-  const Triple axis = unit(joint.axis);
+    return translation({at.at(n + "/x"), at.at(n + "/y"), at.at(n + "/z")}) *
+           quaternion(at.at(n + "/qx"), at.at(n + "/qy"), at.at(n + "/qz"), at.at(n + "/qw"));
+  const Vector3d axis = joint.axis.normalized();
   if (joint.type == "planar")
     return planar_motion(axis, at.at(n + "/x"), at.at(n + "/y"), at.at(n + "/yaw"));
   const double q = value_of(robot, joint, at);
-  if (joint.type == "prismatic") return translation({axis[0] * q, axis[1] * q, axis[2] * q});
+  if (joint.type == "prismatic") return translation(q * axis);
   return rotation(axis, q);
 }
 
@@ -118,9 +96,8 @@ inline Matrix motion_of(const PlainRobot& robot, const PlainJoint& joint, const 
 inline Matrix pose_of(const PlainRobot& robot, const std::string& link, const Positions& at) {
   for (const PlainJoint& joint : robot.joints)
     if (joint.child == link)
-      return times(pose_of(robot, joint.parent, at),
-                   times(joint.origin, motion_of(robot, joint, at)));
-  return identity();
+      return pose_of(robot, joint.parent, at) * joint.origin * motion_of(robot, joint, at);
+  return Matrix::Identity();
 }
 
 using Random = std::mt19937_64;
@@ -132,11 +109,11 @@ inline std::string exact(double value) {
   return text;
 }
 
-inline std::string exact(const Triple& t) {
+inline std::string exact(const Vector3d& t) {
   return exact(t[0]) + " " + exact(t[1]) + "  " + exact(t[2]);
 }
 
-inline Triple random_triple(Random& random, double size) {
+inline Vector3d random_triple(Random& random, double size) {
   return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
 }
 
@@ -152,7 +129,7 @@ inline PlainJoint random_joint(Random& random, std::size_t child, const std::str
   joint.child = "link_" + std::to_string(child);
   joint.xyz = random_triple(random, 1.0);
   joint.rpy = random_triple(random, 4.0);
-  joint.origin = times(translation(joint.xyz), fixed_axes(joint.rpy));
+  joint.origin = translation(joint.xyz) * fixed_axes(joint.rpy);
   joint.axis = random_triple(random, 2.0);
   if (below(random, 3) == 0) joint.axis = {0, 0, below(random, 2) == 0 ? 1.0 : -1.0};
   joint.lower = uniform(random, -4.0, 0.0);
@@ -218,11 +195,7 @@ inline std::vector<double> random_positions(Random& random, const Robot& robot) 
 }
 
 inline void expect_pose(const Isometry3d& pose, const Matrix& expected, const std::string& link) {
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j)
-      EXPECT_NEAR(pose.matrix()(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)),
-                  expected[i][j], kPoseTolerance)
-          << link << " row " << i << " column " << j;
+  EXPECT_LT((pose.matrix() - expected).cwiseAbs().maxCoeff(), kPoseTolerance) << link;
 }
 
 /// Poses every link at random positions and compares with the plain matrices.

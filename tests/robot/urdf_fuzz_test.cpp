@@ -50,10 +50,7 @@ std::string mutated(Random& random, std::string xml) {
   return xml;
 }
 
-std::string ur5e_text() {
-  std::ifstream in(data_folder() / "robots/ur5e/ur5e.urdf");
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+std::string ur5e_text() { return read_bytes(data_folder() / "robots/ur5e/ur5e.urdf"); }
 
 void truncate_everywhere(const std::string& xml) {
   const std::size_t end = xml.rfind("</robot>") + std::string("</robot>").size();

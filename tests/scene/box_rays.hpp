@@ -65,13 +65,11 @@ inline std::vector<TargetRay> rays_of(const BoxTarget& box, const Isometry3d& T_
                                       const Intrinsics& camera) {
   std::vector<TargetRay> rays;
   const Isometry3d T_box_camera = box.pose.inverse() * T_root_camera;
-  const Eigen::Array3d half = 0.5 * box.size.array();
-  const Eigen::Array3d from = T_box_camera.translation().array();
   for (const auto [u, v] : each_pixel(camera)) {
-    const Eigen::Array3d d = (T_box_camera.linear() * camera.ray(u, v)).array();
-    const Eigen::Array3d a = (-half - from) / d, b = (half - from) / d;
-    const double in = a.min(b).maxCoeff(), out = a.max(b).minCoeff();
-    if (in <= out && in > 0.0) rays.push_back({T_root_camera.linear() * camera.ray(u, v), in});
+    const Vector3d ray = camera.ray(u, v);
+    const auto in =
+        enter_box(T_box_camera.translation(), T_box_camera.linear() * ray, box.size / 2);
+    if (in && *in > 0.0) rays.push_back({T_root_camera.linear() * ray, *in});
   }
   return rays;
 }

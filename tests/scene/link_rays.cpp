@@ -59,8 +59,6 @@ LinkRays::LinkRays(const Robot& robot) : scene_(std::make_unique<Scene>()) {
     if (!robot.meshes(link).empty()) scene_->add(robot, link);
 }
 LinkRays::~LinkRays() = default;
-LinkRays::LinkRays(LinkRays&&) noexcept = default;
-LinkRays& LinkRays::operator=(LinkRays&&) noexcept = default;
 
 void LinkRays::place(std::span<const Isometry3d> T_root_link) {
   for (std::size_t i = 0; i < scene_->instances.size(); ++i) {

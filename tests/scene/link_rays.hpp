@@ -12,8 +12,6 @@ class LinkRays {
  public:
   explicit LinkRays(const Robot& robot);
   ~LinkRays();
-  LinkRays(LinkRays&&) noexcept;
-  LinkRays& operator=(LinkRays&&) noexcept;
 
   void place(std::span<const Isometry3d> T_root_link);
 

@@ -149,37 +149,34 @@ TEST(LookAheadCell, ATargetMovesOutOfTheShadow) {
   EXPECT_TRUE(seen.any.seen_again_at().has_value());
 }
 
-/// A polynomial's value and derivatives.
-struct Moment {
-  double position, velocity, acceleration;
-};
+/// A polynomial's value by Horner's scheme.
+double value_at(double t, const std::vector<double>& c) {
+  return std::accumulate(c.rbegin(), c.rend(), 0.0,
+                         [&](double sum, double a) { return sum * t + a; });
+}
+
+std::vector<double> derivative(std::vector<double> c) {
+  for (std::size_t i = 0; i < c.size(); ++i) c[i] *= double(i);
+  c.erase(c.begin());
+  return c;
+}
 
 TEST(Trajectory, FollowsPolynomialsOfItsDegree) {
-  const auto value = [](const std::vector<double>& c, double t) {
-    Moment m{0, 0, 0};
-    for (std::size_t i = 0; i < c.size(); ++i) {
-      const auto n = double(i);
-      m.position += c[i] * std::pow(t, n);
-      if (i > 0) m.velocity += n * c[i] * std::pow(t, n - 1);
-      if (i > 1) m.acceleration += n * (n - 1) * c[i] * std::pow(t, n - 2);
-    }
-    return m;
-  };
   const std::vector<std::vector<double>> polynomials = {
       {0.1, 0.3}, {0.1, 0.3, -0.2, 0.15}, {0.1, 0.3, -0.2, 0.15, 0.05, -0.02}};
   for (const std::vector<double>& c : polynomials) {
     std::vector<TrajectoryPoint> points;
     for (const double t : {0.0, 0.7, 1.5}) {
-      const Moment m = value(c, t);
-      points.push_back({.time = t, .positions = {m.position}});
-      if (c.size() > 2) points.back().velocities = {m.velocity};
-      if (c.size() > 4) points.back().accelerations = {m.acceleration};
+      points.push_back({.time = t, .positions = {value_at(t, c)}});
+      const std::vector<double> velocity = derivative(c);
+      if (c.size() > 2) points.back().velocities = {value_at(t, velocity)};
+      if (c.size() > 4) points.back().accelerations = {value_at(t, derivative(velocity))};
     }
     const Trajectory trajectory(slab_robot(), slide_joint, points, std::vector{0.1});
     for (double t = 0.0; t <= 1.5; t += 0.05) {
       std::vector<double> positions(1);
       trajectory.at(t, positions);
-      EXPECT_NEAR(positions[0], value(c, t).position, 1e-12) << t;
+      EXPECT_NEAR(positions[0], value_at(t, c), 1e-12) << t;
     }
   }
 }

@@ -67,7 +67,6 @@ struct Tally {
   std::size_t intervals = 0, lost = 0;                          // hidden for 30 ms and more
   std::vector<double> borders;                                  // seconds off
   std::size_t blamed = 0, blamed_right = 0;
-  std::vector<double> shares;  // off
 
   [[nodiscard]] double balanced() const {
     return 0.5 *
@@ -141,9 +140,6 @@ void compare(const CameraForecast& forecast, const std::vector<Truth>& truth, co
         truth[std::min(truth.size() - 1, std::size_t(std::lround(forecast.times[i] / truth_step)))];
     const Prediction& prediction = forecast.predictions[i];
     if (prediction.verdict == Verdict::out_of_view) continue;
-    // Times between two milliseconds are left out.
-    if (std::abs(std::remainder(forecast.times[i], truth_step)) < 1e-6)
-      tally.shares.push_back(std::abs(prediction.hidden - at.hidden));
     if (at.hidden < thresholds.partial_enter || prediction.by.empty()) continue;
     ++tally.blamed;
     tally.blamed_right += prediction.by == robot.links()[at.by] ? 1 : 0;
@@ -197,8 +193,7 @@ TEST(LookAhead, AgreesWithRaysEveryMillisecond) {
             << ", 99 % " << 1e3 * quantile(tally.borders, 0.99) << ", most "
             << 1e3 * quantile(tally.borders, 1.0) << " ms, blame right "
             << 100.0 * double(tally.blamed_right) / double(tally.blamed) << " % of " << tally.blamed
-            << ", share off: median " << quantile(tally.shares, 0.5) << ", 99 % "
-            << quantile(tally.shares, 0.99) << '\n';
+            << '\n';
   EXPECT_GT(tally.both, 0U);
   EXPECT_GT(tally.balanced(), 0.995);
   EXPECT_EQ(tally.lost, 0U);

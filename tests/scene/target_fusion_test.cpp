@@ -67,22 +67,16 @@ TargetFusion fusion_of(const std::vector<std::string>& names) {
   return TargetFusion(cameras);
 }
 
-/// Fuses one verdict of each camera, all of one stamp.
-FusedTarget fuse(const std::vector<Verdict>& verdicts) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) names.push_back("camera" + std::to_string(i));
-  TargetFusion views = fusion_of(names);
-  for (std::size_t i = 0; i < verdicts.size(); ++i) views.add(i, Shot(0, verdicts[i]).get());
-  return views.fused("part");
-}
-
 TEST(TargetFusion, TheVerdictFollowsTheTableOfAllPairs) {
   using enum Verdict;
   const std::vector<Verdict> order{visible, partial, unknown, hidden, out_of_view};
   // The first of two in that order wins.
   for (std::size_t a = 0; a < order.size(); ++a)
     for (std::size_t b = 0; b < order.size(); ++b) {
-      const FusedTarget target = fuse({order[a], order[b]});
+      TargetFusion views = fusion_of({"left", "right"});
+      views.add(0, Shot(0, order[a]).get());
+      views.add(1, Shot(0, order[b]).get());
+      const FusedTarget target = views.fused("part");
       EXPECT_EQ(target.verdict, order[std::min(a, b)])
           << to_string(order[a]) << to_string(order[b]);
       EXPECT_EQ(target.reason.empty(), target.verdict != unknown);

@@ -3,9 +3,6 @@
 #include "simulated.hpp"
 
 #include <cstdio>
-#include <functional>
-#include <optional>
-#include <utility>
 
 #include <penumbra/diagnosis/diagnosis.hpp>
 
@@ -69,10 +66,6 @@ class DiagnosisTruth : public testing::Test {
     EXPECT_FALSE(found.message.empty());
   }
 
-  [[nodiscard]] std::size_t variable(const std::string& name) const {
-    return *simulation_->robot().find_variable(name);
-  }
-
   std::optional<sim::Simulation> simulation_;
   std::optional<Given> given_;
 };
@@ -134,7 +127,9 @@ TEST_F(DiagnosisTruth, DepthInAnotherUnitAndCameraInfoOfOtherImages) {
 }
 
 TEST_F(DiagnosisTruth, JointsOfAnotherConventionOrOfOtherFrames) {
-  const std::size_t lift = variable("shoulder_lift"), elbow = variable("elbow");
+  const Robot& robot = simulation_->robot();
+  const std::size_t lift = *robot.find_variable("shoulder_lift"),
+                    elbow = *robot.find_variable("elbow");
   const auto changed = [](const std::function<void(std::vector<double>&)>& change) {
     return [=](Given& given) {
       for (auto& joints : given.joints) change(joints);

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether what MuJoCo draws is the truth: against closed forms, and against Penumbra's own
 // rendering of the arm, which shares nothing with it but the URDF.
-#include "../support/run_length.hpp"
 #include "simulated.hpp"
-
-#include <cmath>
-#include <cstdlib>
 
 namespace penumbra::test {
 namespace {
 
 using DrawingTruth = SimulationTest;
 
-using Eigen::Isometry3d;
-using Eigen::Vector3d;
 using sim::ObjectTruth;
 using sim::SimFrame;
 using sim::Simulation;
@@ -25,26 +19,11 @@ constexpr double least_union = 99.9;          // percent of robot pixels drawn b
 constexpr double surface_tolerance = 0.5e-3;  // metres: round parts have other facets there
 constexpr int silhouette = 2;                 // pixels that tell nothing beside a depth step
 
-/// Depth of the first point of a box about its own origin on the ray of a pixel; 0: missed.
-double box_depth(const Isometry3d& T_camera_box, const Vector3d& half, const Vector3d& ray) {
-  const Isometry3d T = T_camera_box.inverse();
-  const Vector3d from = T.translation(), along = T.linear() * ray;
-  double enter = 0.0, leave = 1e9;
-  for (int k = 0; k < 3; ++k) {
-    const double a = (-half[k] - from[k]) / along[k], b = (half[k] - from[k]) / along[k];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-  }
-  return enter < leave ? enter : 0.0;
-}
-
-bool interior(const Image<std::uint8_t>& mask, int u, int v) {
-  for (int dv = -1; dv <= 1; ++dv)
-    for (int du = -1; du <= 1; ++du) {
-      const int x = u + du, y = v + dv;
-      if (x < 0 || y < 0 || x >= mask.width() || y >= mask.height()) return false;
-      if (mask(x, y) != mask(u, v)) return false;
-    }
+/// Whether a condition holds for all pixels up to `reach` away, and the image has them.
+bool all_around(const auto& image, int u, int v, int reach, const auto& holds_at) {
+  if (u < reach || v < reach || u + reach >= image.width || v + reach >= image.height) return false;
+  for (const auto [x, y] : each_pixel(u - reach, v - reach, u + reach + 1, v + reach + 1))
+    if (!holds_at(image(x, y))) return false;
   return true;
 }
 
@@ -55,22 +34,23 @@ TEST_F(DrawingTruth, ParcelLiesWhereItsPoseSays) {
     ASSERT_TRUE(simulation.next(frame));
     const ObjectTruth& parcel = frame.objects.at(0);
     ASSERT_GT(parcel.pixels_alone, 5000U);
-    const Isometry3d T_camera_box = simulation.T_base_camera().inverse() * parcel.T_base_object;
+    const Isometry3d T_box_camera = parcel.T_base_object.inverse() * simulation.T_base_camera();
     const Vector3d half = 0.5 * simulation.object_size();
     const Intrinsics& k = simulation.camera().intrinsics;
     std::size_t covered = 0, compared = 0;
-    for (int v = 0; v < frame.ids.height(); ++v)
-      for (int u = 0; u < frame.ids.width(); ++u) {
-        const double expected = box_depth(T_camera_box, half, k.ray(u, v));
-        covered += expected > 0.0 ? 1 : 0;
-        if (!interior(parcel.alone, u, v)) continue;
-        EXPECT_EQ(expected > 0.0, parcel.alone(u, v) == 1) << u << ' ' << v;
-        if (frame.ids(u, v) != parcel.id) continue;
-        EXPECT_NEAR(static_cast<double>(frame.true_depth(u, v)), expected, depth_tolerance)
-            << u << ' ' << v;
-        EXPECT_NEAR(frame.depth(u, v), 1000.0 * expected, 0.5 + 1000.0 * depth_tolerance);
-        ++compared;
-      }
+    for (const auto [u, v] : each_pixel(frame.ids)) {
+      const auto expected =
+          enter_box(T_box_camera.translation(), T_box_camera.linear() * k.ray(u, v), half);
+      covered += expected ? 1 : 0;
+      const auto is_same = [here = parcel.alone(u, v)](auto one) { return one == here; };
+      if (!all_around(parcel.alone.view(), u, v, 1, is_same)) continue;
+      EXPECT_EQ(expected.has_value(), parcel.alone(u, v) == 1) << u << ' ' << v;
+      if (!expected || frame.ids(u, v) != parcel.id) continue;
+      EXPECT_NEAR(static_cast<double>(frame.true_depth(u, v)), *expected, depth_tolerance)
+          << u << ' ' << v;
+      EXPECT_NEAR(frame.depth(u, v), 1000.0 * *expected, 0.5 + 1000.0 * depth_tolerance);
+      ++compared;
+    }
     EXPECT_GT(compared, 4000U);
     // Half a pixel off would be a twentieth of the outline: the areas agree far better.
     EXPECT_NEAR(static_cast<double>(covered), static_cast<double>(parcel.pixels_alone),
@@ -83,13 +63,8 @@ TEST_F(DrawingTruth, ParcelLiesWhereItsPoseSays) {
 bool smooth(ImageView<const float> depth, int u, int v) {
   constexpr float step = 0.003F;  // relative
   const float z = depth(u, v);
-  if (!(z > 0.0F)) return false;
-  for (int y = v - silhouette; y <= v + silhouette; ++y)
-    for (int x = u - silhouette; x <= u + silhouette; ++x) {
-      if (x < 0 || y < 0 || x >= depth.width || y >= depth.height) return false;
-      if (!(std::abs(depth(x, y) - z) < step * z)) return false;
-    }
-  return true;
+  return z > 0.0F && all_around(depth, u, v, silhouette,
+                                [&](float one) { return std::abs(one - z) < step * z; });
 }
 
 struct Agreement {
@@ -97,19 +72,17 @@ struct Agreement {
 };
 
 void compare(const SimFrame& frame, const VirtualDepthView& drawn, Agreement& all) {
-  for (int v = 0; v < frame.ids.height(); ++v)
-    for (int u = 0; u < frame.ids.width(); ++u) {
-      const bool ours = drawn.depth(u, v) > 0.0F, theirs = frame.robot_ids(u, v) > 0;
-      all.either += ours || theirs ? 1 : 0;
-      if (!ours || !theirs) continue;
-      ++all.both;
-      all.same_link += drawn.links(u, v) == frame.robot_ids(u, v) ? 1 : 0;
-      if (!smooth(drawn.depth, u, v) || !smooth(frame.robot_depth.view(), u, v)) continue;
-      ++all.compared;
-      const double off = std::abs(static_cast<double>(drawn.depth(u, v)) -
-                                  static_cast<double>(frame.robot_depth(u, v)));
-      all.far_off += off > surface_tolerance ? 1 : 0;
-    }
+  for (const auto [u, v] : each_pixel(frame.ids)) {
+    const bool ours = drawn.depth(u, v) > 0.0F, theirs = frame.robot_ids(u, v) > 0;
+    all.either += ours || theirs ? 1 : 0;
+    if (!ours || !theirs) continue;
+    ++all.both;
+    all.same_link += drawn.links(u, v) == frame.robot_ids(u, v) ? 1 : 0;
+    if (!smooth(drawn.depth, u, v) || !smooth(frame.robot_depth.view(), u, v)) continue;
+    ++all.compared;
+    const float off = std::abs(drawn.depth(u, v) - frame.robot_depth(u, v));
+    all.far_off += static_cast<double>(off) > surface_tolerance ? 1 : 0;
+  }
 }
 
 TEST_F(DrawingTruth, TheArmIsTheUrdfs) {
@@ -126,9 +99,6 @@ TEST_F(DrawingTruth, TheArmIsTheUrdfs) {
     for (Isometry3d& pose : poses) pose = simulation.T_base_camera().inverse() * pose;
     compare(frame, renderer->render(poses), all);
   }
-  std::cout << "intersection over union " << percent(all.both, all.either) << ", same link "
-            << percent(all.same_link, all.both) << ", off by more than 0.5 mm " << all.far_off
-            << " of " << all.compared << '\n';
   EXPECT_GT(percent(all.both, all.either), least_union);
   EXPECT_GT(percent(all.same_link, all.both), least_union);
   EXPECT_GT(all.compared, 10'000U);

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What look-ahead says of a planned motion against what MuJoCo shows when the robot moves: 30 ms
 // late and with a tracking error, over a parcel on a belt.
-#include "../support/run_length.hpp"
 #include "simulated.hpp"
-
-#include <cmath>
-#include <iostream>
-#include <optional>
-#include <random>
 
 #include <penumbra/scene/look_ahead.hpp>
 

@@ -2,14 +2,7 @@
 #pragma once
 
 #include "../support/required.hpp"
-
-#include <algorithm>
-#include <array>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
+#include "../support/test.hpp"
 
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
@@ -79,24 +72,13 @@ inline constexpr double degree = std::numbers::pi / 180.0;  // rad
 
 /// True depths, true joints.
 [[nodiscard]] inline sim::SimulationOptions without_noise(std::uint64_t seed) {
-  sim::SimulationOptions options;
-  options.seed = seed;
-  options.depth = {};
-  return options;
+  return {.seed = seed, .depth = {}};
 }
 
 /// Depths with a depth camera's noise, or true ones; no colours.
 [[nodiscard]] inline sim::SimulationOptions without_color(std::uint64_t seed, bool noisy) {
-  sim::SimulationOptions options = without_noise(seed);
-  if (noisy) options.depth = sim::DepthNoise::d415();
-  options.color = false;
-  return options;
-}
-
-[[nodiscard]] inline Robot visual_robot(const sim::Simulation& simulation) {
-  RobotOptions options;
-  options.geometry = Geometry::visual;
-  return Robot::load(simulation.urdf(), options);
+  return {
+      .seed = seed, .depth = noisy ? sim::DepthNoise::d415() : sim::DepthNoise(), .color = false};
 }
 
 [[nodiscard]] inline PipelineConfig config_of(const sim::Simulation& simulation) {

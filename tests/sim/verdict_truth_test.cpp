@@ -2,14 +2,7 @@
 // Verdicts against MuJoCo's segmentation: random arms with targets before, behind and beside them.
 // Labels, virtual depth and verdicts are Penumbra's; truth is MuJoCo's: ids and depths of what is
 // seen and of each thing alone. Masks are MuJoCo's too; of 3-D targets Penumbra gets the pose.
-#include "../support/run_length.hpp"
 #include "simulated.hpp"
-
-#include <cmath>
-#include <iostream>
-#include <memory>
-#include <numeric>
-#include <variant>
 
 #include <penumbra/mesh/primitives.hpp>
 #include <penumbra/targets/target_judge.hpp>
@@ -118,20 +111,7 @@ struct Tally {
   }
 };
 
-LabelView labels_of(const FrameReport& report) {
-  const PixelCounts& n = report.pixels;
-  const auto all = static_cast<std::size_t>(report.labels.width) *
-                   static_cast<std::size_t>(report.labels.height);
-  return {
-      report.labels,
-      {all - n.front - n.occluded - n.unknown - n.beyond, n.front, n.occluded, n.unknown, n.beyond},
-      nullptr};
-}
-
-struct Tallies {
-  std::array<Tally, ways> all;
-  std::size_t small = 0;
-};
+using Tallies = std::array<Tally, ways>;
 
 /// A target as 3-D shapes: a box by its edges and as a mesh, a ball as a mesh and by its middle and
 /// radius.
@@ -144,7 +124,7 @@ class Bench {
  public:
   Bench(std::uint64_t seed, bool noisy)
       : simulation_("random", without_color(seed, noisy)),
-        pipeline_(visual_robot(simulation_), simulation_.camera(), config_of(simulation_)),
+        pipeline_(simulation_.robot(), simulation_.camera(), config_of(simulation_)),
         judge_(simulation_.camera(), pipeline_.rule(), pipeline_.robot().links().size()) {}
 
   void run(int frames, Tallies& tallies) {
@@ -156,17 +136,15 @@ class Bench {
                                                      .pose = {.positions = frame.joints},
                                                      .targets = solids});
       ASSERT_EQ(report.status, FrameStatus::ok) << report.message;
-      judge_.begin({labels_of(report), report.virtual_depth, frame.depth.view()});
+      judge_.begin({{report.labels, {}, nullptr}, report.virtual_depth, frame.depth.view()});
       for (std::size_t k = 0; k < frame.objects.size(); ++k) {
         const ObjectTruth& target = frame.objects[k];
         EXPECT_FALSE(touches(frame, target)) << "frame " << i << ", " << target.name;
-        if (target.pixels_alone < least_pixels) {
-          ++tallies.small;
-          continue;
-        }
+        if (target.pixels_alone < least_pixels) continue;
         judge(frame, target, tallies);
-        add_solid(frame, target, 2 * k, solids[2 * k], report, tallies);
-        add_solid(frame, target, 2 * k + 1, solids[2 * k + 1], report, tallies);
+        const bool is_ball = target.solid.kind == sim::Solid::ball;
+        add_solid(frame, target, report.targets[2 * k], tallies[as_mesh]);
+        add_solid(frame, target, report.targets[2 * k + 1], tallies[is_ball ? as_point : as_box]);
       }
       pipeline_.forget_targets();  // frames have nothing to do with each other
     }
@@ -178,9 +156,9 @@ class Bench {
     TargetView seen;
     seen.region = PixelMask{target.alone.view()};
     seen.wants_point = false;
-    tallies.all[by_labels].add(truth_of(frame, target, links, false), judge_.judge(seen), target);
+    tallies[by_labels].add(truth_of(frame, target, links, false), judge_.judge(seen), target);
     seen.region = RenderedRegion{target.alone_depth.view()};
-    tallies.all[by_depth].add(truth_of(frame, target, links, true), judge_.judge(seen), target);
+    tallies[by_depth].add(truth_of(frame, target, links, true), judge_.judge(seen), target);
   }
 
   std::vector<Target> solids_of(const SimFrame& frame) {
@@ -204,15 +182,11 @@ class Bench {
     return targets;
   }
 
-  void add_solid(const SimFrame& frame, const ObjectTruth& object, std::size_t number,
-                 const Target& target, const FrameReport& report, Tallies& tallies) {
-    const TargetReport& said = report.targets[number];
+  void add_solid(const SimFrame& frame, const ObjectTruth& object, const TargetReport& said,
+                 Tally& tally) {
     ASSERT_TRUE(said.judgement.has_value()) << said.name << ": " << said.reason;
-    const Way way = std::holds_alternative<BoxTarget>(target.shape)    ? as_box
-                    : std::holds_alternative<MeshTarget>(target.shape) ? as_mesh
-                                                                       : as_point;
-    tallies.all[way].add(truth_of(frame, object, pipeline_.robot().links().size(), true),
-                         *said.judgement, object);
+    tally.add(truth_of(frame, object, pipeline_.robot().links().size(), true), *said.judgement,
+              object);
   }
 
   std::vector<Solids> solids_;
@@ -221,23 +195,17 @@ class Bench {
   TargetJudge judge_;
 };
 
-Tallies judge_all(bool noisy) {
+void expect_all(bool noisy, const std::array<Bounds, ways>& bounds) {
   const int frames = measures_in_full() ? 1000 : 60;
   Tallies tallies;
   for (int seed = 0; seed < seeds; ++seed) {
     Bench bench(static_cast<std::uint64_t>(seed) + 100, noisy);
     bench.run(frames / seeds, tallies);
   }
-  std::cout << frames << " frames; " << tallies.small << " targets of fewer than " << least_pixels
-            << " pixels left out\n";
-  for (std::size_t way = 0; way < ways; ++way) tallies.all[way].print(way_names[way]);
-  return tallies;
-}
-
-void expect_all(const Tallies& tallies, const std::array<Bounds, ways>& bounds) {
   for (std::size_t way = 0; way < ways; ++way) {
     SCOPED_TRACE(way_names[way]);
-    const Tally& tally = tallies.all[way];
+    const Tally& tally = tallies[way];
+    tally.print(way_names[way]);
     ASSERT_GT(tally.errors.size(), 100U);
     EXPECT_LT(tally.mean(), bounds[way].mean_error);
     EXPECT_LT(quantile(tally.errors, 0.99), bounds[way].p99_error);
@@ -250,7 +218,7 @@ void expect_all(const Tallies& tallies, const std::array<Bounds, ways>& bounds) 
 // Without sensor noise what is left are silhouettes, the clean-up's narrow gaps and millimetres.
 TEST_F(VerdictTruth, WithoutNoise) {
   constexpr Bounds asked{0.01, 0.05, 0.99, 0.98, 0.06};
-  expect_all(judge_all(false), {asked, asked, asked, asked, asked});
+  expect_all(false, {asked, asked, asked, asked, asked});
 }
 
 // With a D415's noise pixels at edges are unknown or mixed, which an expected depth makes up for.
@@ -258,7 +226,7 @@ TEST_F(VerdictTruth, WithoutNoise) {
 TEST_F(VerdictTruth, WithADepthCamerasNoise) {
   constexpr Bounds labels{0.03, 0.15, 0.92, 0.87, 0.09}, depth{0.01, 0.05, 0.99, 0.97, 0.07},
       points{0.01, 0.05, 0.99, 0.96, 0.07};
-  expect_all(judge_all(true), {labels, depth, depth, depth, points});
+  expect_all(true, {labels, depth, depth, depth, points});
 }
 
 }  // namespace

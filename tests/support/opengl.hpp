@@ -13,21 +13,19 @@
 
 namespace penumbra::test {
 
-/// The first of gl_devices() that can draw.
-inline std::optional<std::size_t> find_device() {
-  try {
-    const std::vector<GlDevice> devices = gl_devices();
-    for (std::size_t i = 0; i < devices.size(); ++i)
-      if (devices[i].fault.empty()) return i;
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-  return std::nullopt;
-}
-
-/// Returns the same; fails the test if OpenGL is_required() and no device can draw.
+/// Returns the first of gl_devices() that can draw; fails the test if OpenGL is_required() and none
+/// can.
 inline std::optional<std::size_t> working_device() {
-  static const std::optional<std::size_t> device = find_device();
+  static const auto device = []() -> std::optional<std::size_t> {
+    try {
+      const std::vector<GlDevice> devices = gl_devices();
+      for (std::size_t i = 0; i < devices.size(); ++i)
+        if (devices[i].fault.empty()) return i;
+      return std::nullopt;
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  }();
   static_cast<void>(is_there(device.has_value(), "opengl"));
   return device;
 }

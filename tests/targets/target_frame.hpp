@@ -35,8 +35,7 @@ struct TargetFrame {
 
   /// Link number `link` of the robot at a depth, seen by the sensor where `seen`.
   void add_robot(int u0, int v0, int u1, int v1, float z, std::uint16_t link, bool seen = true) {
-    for (const auto [u, v] :
-         each_pixel(std::max(u0, 0), std::max(v0, 0), std::min(u1, width), std::min(v1, height))) {
+    for (const auto [u, v] : each_pixel(u0, v0, u1, v1)) {
       robot(u, v) = z;
       links(u, v) = std::uint16_t(link + 1);
       if (seen) measured(u, v) = z;
@@ -44,8 +43,7 @@ struct TargetFrame {
     }
   }
   void see(int u0, int v0, int u1, int v1, float d) {
-    for (int v = std::max(v0, 0); v < std::min(v1, height); ++v)
-      for (int u = std::max(u0, 0); u < std::min(u1, width); ++u) measured(u, v) = d;
+    for (const auto [u, v] : each_pixel(u0, v0, u1, v1)) measured(u, v) = d;
   }
 
   [[nodiscard]] LabelledImages images() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What regions cover: shared edges, sizes and what is refused. Which pixels those are is asked of
-// geometry in target_oracle_test.cpp.
+// What regions cover: shared edges and sizes. Which pixels those are is asked of geometry in
+// target_oracle_test.cpp.
 #include "target_frame.hpp"
 #include "target_regions.hpp"
 
@@ -14,9 +14,6 @@ class Regions : public testing::Test {
     target.region = region;
     judge_.begin(frame_.images());
     return judge_.judge(target);
-  }
-  testing::AssertionResult is_refused(const Region& bad, std::string_view part) {
-    return holds(message_of([&] { (void)judge(bad); }), part);
   }
 
   static constexpr std::size_t all = std::size_t{TargetFrame::width} * TargetFrame::height;

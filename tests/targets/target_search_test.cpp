@@ -67,8 +67,7 @@ struct Truth {
                world.object.u + world.object.w <= width - gap_to_border &&
                world.object.v + world.object.h <= height - gap_to_border;
     if (gap > 0) wear(world, gap);
-    for (const std::uint8_t one : std::vector<std::uint8_t>(seen.data(), seen.data() + seen.size()))
-      left += one;
+    left = std::accumulate(seen.data(), seen.data() + seen.size(), 0);
   }
 
   /// A mask that keeps away from the robot that hides the object.

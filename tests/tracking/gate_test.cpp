@@ -89,13 +89,6 @@ TEST(Sources, FollowVerdictsFrameByFrame) {
   EXPECT_EQ(tracker.at(stamp_at(3.0) + 1).source, Source::predicted);
 }
 
-TEST(Sources, LostAfterTheTimeOutAndNotBefore) {
-  const auto tracker = settled();
-  EXPECT_EQ(tracker.at(stamp_at(0.9 + 3.0)).source, Source::predicted);
-  EXPECT_EQ(tracker.at(stamp_at(0.9 + 3.0) + 1000).source, Source::lost);
-  EXPECT_NEAR(tracker.at(stamp_at(0.9 + 10)).age, 10, 1e-9);
-}
-
 TEST(Sources, NothingIsKnownBeforeTheFirst) {
   const PoseTracker empty;
   const auto nothing = empty.at(stamp_at(0));

@@ -77,6 +77,14 @@ inline Isometry3d random_pose(std::mt19937_64& random) {
   return pose_of(position, turn(normal<3>(random)));
 }
 
+/// What of a vector changes a velocity; the rest makes positions drift.
+inline Vector3d along(const PoseTrackerConfig& config, const Vector3d& v) {
+  if (config.motion == Motion::still || config.speed) return Vector3d::Zero();
+  if (config.motion != Motion::along_direction) return v;
+  const Vector3d d = config.direction.normalized();
+  return d * d.dot(v);
+}
+
 /// A target that moves as a tracker's configuration says: a sample of its stochastic model,
 /// simulated in small steps of the true, curved motion.
 class RandomMotion {
@@ -85,7 +93,8 @@ class RandomMotion {
       : config_(config), random_(random), pose_(random_pose(random)) {
     const Vector3d linear = config.speed_sigma * normal<3>(random);
     const Vector3d angular = config.angular_speed_sigma * normal<3>(random);
-    twist_ << along(linear), (config.motion == Motion::constant_twist ? 1.0 : 0.0) * angular;
+    twist_ << along(config, linear),
+        (config.motion == Motion::constant_twist ? 1.0 : 0.0) * angular;
     if (config.speed) twist_.head<3>() = *config.speed * config.direction.normalized();
   }
 
@@ -103,20 +112,12 @@ class RandomMotion {
   }
 
  private:
-  /// What of a vector changes a velocity; the rest makes positions drift.
-  [[nodiscard]] Vector3d along(const Vector3d& v) const {
-    if (config_.motion == Motion::still || config_.speed) return Vector3d::Zero();
-    if (config_.motion != Motion::along_direction) return v;
-    const Vector3d d = config_.direction.normalized();
-    return d * d.dot(v);
-  }
-
   void step(double h) {
     const Vector3d kick = normal<3>(random_), wander = normal<3>(random_);
     const Vector6d before = twist_;
-    twist_.head<3>() += config_.acceleration * std::sqrt(h) * along(kick);
+    twist_.head<3>() += config_.acceleration * std::sqrt(h) * along(config_, kick);
     Vector6d change = Vector6d::Zero();
-    change.head<3>() = config_.drift * std::sqrt(h) * (wander - along(wander));
+    change.head<3>() = config_.drift * std::sqrt(h) * (wander - along(config_, wander));
     if (config_.motion == Motion::constant_twist) {
       twist_.tail<3>() += config_.angular_acceleration * std::sqrt(h) * normal<3>(random_);
     } else {

@@ -4,14 +4,12 @@
 #include "../apps/tiny_clouds.hpp"
 #include "viewer_process.hpp"
 
-#include <cstring>
-
 namespace penumbra::test {
 namespace {
 
 using nlohmann::json;
 
-class CloudViewTest : public BagTest {};
+using CloudViewTest = BagTest;
 
 TEST_F(CloudViewTest, HasThePointsAndTheirLabels) {
   add_clouds(bag_);
@@ -31,7 +29,7 @@ TEST_F(CloudViewTest, HasThePointsAndTheirLabels) {
   EXPECT_EQ(points["unknown"], 1);
   EXPECT_NE(report["summary"], nullptr);
 
-  const Packet packet(viewer.client().get("/api/frames/1/packet?with=cloud").body);
+  const Packet packet = viewer.packet(1, "cloud");
   EXPECT_EQ(packet.json["frame"], report["frames"][1]);
   EXPECT_EQ(packet.json["link_poses"].size(), session["links"].size());
   EXPECT_TRUE(packet.json["camera_pose"].is_array());
@@ -40,9 +38,7 @@ TEST_F(CloudViewTest, HasThePointsAndTheirLabels) {
   const std::array labels{Label::occluded, Label::front, Label::clear};
   for (std::size_t i = 0; i < labels.size(); ++i)
     EXPECT_EQ(cloud[16 * i + 12], static_cast<char>(labels.at(i)));
-  float z = 0;
-  std::memcpy(&z, cloud.data() + 8, sizeof z);
-  EXPECT_EQ(z, on_board(1));
+  EXPECT_EQ(packet.float_at("cloud", 8), on_board(1));
   EXPECT_EQ(viewer.end(), 0);
 }
 

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a live page is sent: the values that were judged, and no more than it asks for.
+#include "../apps/tiny_clouds.hpp"
 #include "../io/live_scene.hpp"
 #include "packet.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <memory>
-#include <utility>
-
-#include <gtest/gtest.h>
 
 #include <io/assembly/cloud_worker.hpp>
 #include <io/files/report_json.hpp>
@@ -22,18 +15,10 @@ using nlohmann::json;
 
 constexpr const char* color_topic = "/camera/color/image_raw";
 
-template <typename T>
-std::string bytes_of(ImageView<const T> image) {
-  std::string bytes;
-  for (int v = 0; v < image.height; ++v)
-    bytes.append(reinterpret_cast<const char*>(image.row(v)),
-                 sizeof(T) * static_cast<std::size_t>(image.width));
-  return bytes;
-}
-
 io::LiveOptions with_color() {
   io::LiveOptions options = LiveBench::one_camera();
   options.cameras.front().color_topic = color_topic;
+  options.robot.robot.allow_missing_meshes = true;
   return options;
 }
 
@@ -50,11 +35,8 @@ std::optional<Packet> next(io::WebChannel& client) {
 /// A camera that is judged by hand, and its page. Keeps what was judged.
 class LivePage : public testing::Test, public io::FrameWatcher {
  protected:
-  explicit LivePage(const io::LiveOptions& options = with_color()) : bench_(options) {}
-
   void judge(std::int64_t stamp) {
-    bench_.tell_joints(stamp - 10 * milliseconds);
-    bench_.tell_joints(stamp + 10 * milliseconds);
+    bench_.tell_joints_around(stamp);
     const Image<Rgb8> red(64, 48, {200, 0, 0});
     bench_.publish(color_topic, encoded(io::image_message(io::MessageHeader{stamp, "optical"},
                                                           "rgb8", red.view())));
@@ -83,7 +65,7 @@ class LivePage : public testing::Test, public io::FrameWatcher {
     return json::parse(*view_.answer({path, {}}).body.front());
   }
 
-  LiveBench bench_;
+  LiveBench bench_{with_color()};
   io::LiveView view_{"live"};
   std::string report_;  // of the last frame
   std::map<std::string, std::string> parts_;
@@ -98,9 +80,7 @@ TEST_F(LivePage, ShowsTheValuesThatWereJudged) {
   EXPECT_EQ(packet->json["frame"], json::parse(report_));
   EXPECT_EQ(packet->json["frame"]["status"], "ok");
   for (const auto& [name, bytes] : parts_) EXPECT_TRUE(packet->parts.at(name) == bytes) << name;
-  float z = 0;
-  std::memcpy(&z, packet->parts.at("depth").data(), sizeof z);
-  EXPECT_FLOAT_EQ(z, 3.0F);                                       // the wall
+  EXPECT_FLOAT_EQ(packet->float_at("depth"), 3.0F);               // the wall
   EXPECT_EQ(packet->parts.at("color").substr(0, 2), "\xFF\xD8");  // a JPEG
   ASSERT_GE(packet->parts.at("cloud").size(), 16U);
   EXPECT_NEAR(static_cast<unsigned char>(packet->parts.at("cloud")[13]), 200, 5);  // its red
@@ -143,40 +123,25 @@ TEST_F(LivePage, AFrameOfBeforeAWishIsNotSent) {
   EXPECT_FALSE(packet->parts.contains("vdi"));
 }
 
-io::LiveOptions with_cloud() {
+TEST(LiveScans, ShowTheirPointsWhereTheSensorWas) {
   io::LiveOptions options;
   options.clouds = {{.topic = "/points"}};
-  return options;
-}
-
-TEST(LiveScans, ShowTheirPointsWhereTheSensorWas) {
-  LiveBench bench(with_cloud());
-  bench.inbox.set_type(static_cast<std::size_t>(
-                           std::find_if(bench.inbox.topics().begin(), bench.inbox.topics().end(),
-                                        [](const auto& topic) { return topic.name == "/points"; }) -
-                           bench.inbox.topics().begin()),
-                       io::message_type<io::PointCloud2Message>());
+  LiveBench bench(options);
+  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
+    if (bench.inbox.topics()[i].name == "/points")
+      bench.inbox.set_type(i, io::message_type<io::PointCloud2Message>());
   io::LiveView view("live", true);
   const auto browser = view.open_channel("/api/live");
   EXPECT_TRUE(browser->take(R"({"type": "want", "with": ["cloud"]})"));
   bench.tell_robot();
   bench.tell_mount();
-  bench.tell_joints(start - 10 * milliseconds);
-  bench.tell_joints(start + 10 * milliseconds);
-  const float nan = std::nanf("");
-  const float points[3][3] = {{0, 0, 0.95F}, {nan, nan, nan}, {1, 0, 3}};  // board, none, wall
-  std::vector<std::byte> data(sizeof points);
-  std::memcpy(data.data(), points, sizeof points);
-  bench.publish("/points", encoded(io::PointCloud2Message{.header = {start, "optical"},
-                                                          .height = 1,
-                                                          .width = 3,
-                                                          .fields = {{"x", 0}, {"y", 4}, {"z", 8}},
-                                                          .point_step = 12,
-                                                          .row_step = sizeof points,
-                                                          .data = data}));
+  bench.tell_joints_around(start);
+  FourPoints points(0);
+  points.message.header.stamp = start;
+  bench.publish("/points", encoded(points.message));
   const auto cloud = bench.inbox.cloud(0).next(bench.now);
   ASSERT_TRUE(cloud);
-  io::CloudWorker worker(with_cloud().clouds[0]);
+  io::CloudWorker worker(options.clouds[0]);
   EXPECT_TRUE(view.show(*cloud, worker.label(*cloud), start));
   const auto packet = next(*browser);
   ASSERT_TRUE(packet);
@@ -185,24 +150,13 @@ TEST(LiveScans, ShowTheirPointsWhereTheSensorWas) {
   EXPECT_EQ(packet->json["link_poses"][1][2], 1.0) << "the board";
   EXPECT_EQ(packet->json["camera_pose"][2], 0.0) << "the sensor is in the base";
   const std::string& shown = packet->parts.at("cloud");
-  ASSERT_EQ(shown.size(), 2 * 16U);
+  ASSERT_EQ(shown.size(), 3 * 16U) << "what is no measurement is not shown";
   EXPECT_EQ(shown[12], static_cast<char>(Label::occluded));
-  EXPECT_EQ(shown[16 + 12], static_cast<char>(Label::clear));
+  EXPECT_EQ(shown[2 * 16 + 12], static_cast<char>(Label::clear));
   EXPECT_EQ(json::parse(*view.answer({"/api/session", {}}).body.front())["parts"], json({"cloud"}));
 }
 
-io::LiveOptions lenient() {
-  io::LiveOptions options = with_color();
-  options.robot.robot.allow_missing_meshes = true;
-  return options;
-}
-
-class LivePageOfAPartialRobot : public LivePage {
- protected:
-  LivePageOfAPartialRobot() : LivePage(lenient()) {}
-};
-
-TEST_F(LivePageOfAPartialRobot, LinksWithoutTheirGeometryAreTold) {
+TEST_F(LivePage, LinksWithoutTheirGeometryAreTold) {
   std::string urdf = live_urdf;
   urdf.insert(urdf.rfind("</robot>"), R"(
   <link name="cover"><collision><geometry><mesh filename="gone.stl"/></geometry></collision></link>

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <penumbra/base/image.hpp>
+
 namespace penumbra::test {
 
 /// A frame's packet, taken apart.
@@ -34,6 +36,26 @@ struct Packet {
     }
     EXPECT_EQ(at, bytes.size());
   }
+
+  /// The float at a byte of a part.
+  [[nodiscard]] float float_at(const std::string& part, std::size_t byte = 0) const {
+    float number = 0;
+    std::memcpy(&number, parts.at(part).data() + byte, sizeof number);
+    return number;
+  }
 };
+
+template <typename T>
+std::string bytes_of(ImageView<const T> image) {
+  std::string bytes;
+  for (int v = 0; v < image.height; ++v)
+    bytes.append(reinterpret_cast<const char*>(image.row(v)),
+                 sizeof(T) * static_cast<std::size_t>(image.width));
+  return bytes;
+}
+template <typename T>
+std::string bytes_of(const Image<T>& image) {
+  return bytes_of(image.view());
+}
 
 }  // namespace penumbra::test

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `penumbra run --report`, and what goes into its page.
-#include "../apps/program.hpp"
-#include "../apps/tiny_recording.hpp"
+#include "../apps/fixtures.hpp"
 #include "../support/page_json.hpp"
-
-#include <filesystem>
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <penumbra/pipeline/frame.hpp>
 
@@ -18,38 +12,33 @@
 namespace penumbra::test {
 namespace {
 
-using Ordered = nlohmann::ordered_json;
+using ReportPage = TinyTest;
 
-TEST(ReportPage, HoldsReportAndKeyFrames) {
-  const TemporaryFolder folder;
-  write_tiny_recording(folder.path());
-  const auto out = folder.path() / "out";
-  ASSERT_EQ(penumbra({"run", folder.path(), "-o", out, "--report"}).status, 0);
-  const std::string page = read_file(out / "report.html");
-  EXPECT_EQ(page_json(page, "penumbra-report"), Ordered::parse(read_file(out / "report.json")));
-  const Ordered frames = page_json(page, "penumbra-pictures");
+TEST_F(ReportPage, HoldsReportAndKeyFrames) {
+  succeed(run({"--report"}));
+  const std::string page = read_file(out("report.html"));
+  EXPECT_EQ(page_json(page, "penumbra-report"), report());
+  const Json frames = page_json(page, "penumbra-pictures");
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[0]["index"], 0);
   EXPECT_EQ(frames[1]["index"], 2);
   EXPECT_EQ(frames[0]["image"].get<std::string>().substr(0, 27), "data:image/jpeg;base64,/9j/");
 
   // The next run takes it away, and does not take another's.
-  ASSERT_EQ(penumbra({"run", folder.path(), "-o", out}).status, 0);
-  EXPECT_FALSE(std::filesystem::exists(out / "report.html"));
-  write_file(out / "report.html", "<!doctype html><p>mine");
-  ASSERT_EQ(penumbra({"run", folder.path(), "-o", out}).status, 0);
-  EXPECT_TRUE(std::filesystem::exists(out / "report.html"));
-  const Outcome refused = penumbra({"run", folder.path(), "-o", out, "--report"});
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_NE(refused.err.find("report.html"), std::string::npos) << refused.err;
+  succeed(run());
+  EXPECT_FALSE(fs::exists(out("report.html")));
+  write_file(out("report.html"), "<!doctype html><p>mine");
+  succeed(run());
+  EXPECT_TRUE(fs::exists(out("report.html")));
+  expect_failed(run({"--report"}), {"report.html"});
 }
 
-TEST(ReportPage, NamesCannotEndItsScripts) {
-  const Ordered report{{"input", "</script><script>alert(1)</script><!-- "}};
+TEST_F(ReportPage, NamesCannotEndItsScripts) {
+  const Json written{{"input", "</script><script>alert(1)</script><!-- "}};
   const std::vector<io::PagePicture> pictures = {{0, "data:", "</script>\xff"}};
-  const std::string page = io::report_page(report.dump(), pictures);
+  const std::string page = io::report_page(written.dump(), pictures);
   EXPECT_EQ(page.find("alert(1)</script>"), std::string::npos);
-  EXPECT_EQ(page_json(page, "penumbra-report"), report);
+  EXPECT_EQ(page_json(page, "penumbra-report"), written);
   EXPECT_EQ(page_json(page, "penumbra-pictures")[0]["caption"], "</script>\ufffd");
   EXPECT_TRUE(page.starts_with(io::page_begin));
 }

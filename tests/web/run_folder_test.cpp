@@ -10,15 +10,9 @@ using nlohmann::json;
 
 constexpr std::size_t tiny_frames = 3;
 
-class ViewRunTest : public TinyTest {
- protected:
-  static Packet packet(const ViewerProcess& viewer, std::size_t i) {
-    return Packet(viewer.client()
-                      .get("/api/frames/" + std::to_string(i) +
-                           "/packet?with=labels,links,vdi,depth,overlay,cloud")
-                      .body);
-  }
-};
+constexpr const char* all_parts = "labels,links,vdi,depth,overlay,cloud";
+
+using ViewRunTest = TinyTest;
 
 TEST_F(ViewRunTest, ShowsTheReport) {
   succeed(run({"--labels", "paper", "--frames", "1:3", "--save", "overlay,labels,links,vdi"}));
@@ -32,7 +26,7 @@ TEST_F(ViewRunTest, ShowsTheReport) {
   EXPECT_EQ(viewer.get_json("/api/report"), report);
   report["frames"].erase(0);
   EXPECT_EQ(viewer.get_json("/api/report?from=1"), report);
-  const Packet first = packet(viewer, 0);
+  const Packet first = viewer.packet(0, all_parts);
   EXPECT_EQ(first.json["frame"]["index"], 1);
   EXPECT_EQ(first.parts.size(), 4U);
   EXPECT_EQ(first.json["camera_pose"], nullptr);
@@ -44,7 +38,7 @@ TEST_F(ViewRunTest, SavedImagesAreShownAsTheyAre) {
   io::write_png(out("labels/000001.png"), std::as_const(painted).view());
   const ViewerProcess viewer({out("report.json")});
   EXPECT_EQ(viewer.complete_session()["frames"], tiny_frames);
-  EXPECT_EQ(packet(viewer, 1).parts.at("labels"), std::string(painted.size(), '\x04'));
+  EXPECT_EQ(viewer.packet(1, all_parts).parts.at("labels"), std::string(painted.size(), '\x04'));
 }
 
 TEST_F(ViewRunTest, ThePageSaysHowToGetTheRest) {
@@ -55,7 +49,7 @@ TEST_F(ViewRunTest, ThePageSaysHowToGetTheRest) {
   ASSERT_EQ(session["missing"].size(), 2U);
   expect_has(session["missing"][0], {"links, vdi", "--save overlay,labels,links,vdi"});
   expect_has(session["missing"][1], {"penumbra view " + path().string()});
-  EXPECT_EQ(packet(viewer, 2).parts.size(), 2U);
+  EXPECT_EQ(viewer.packet(2, all_parts).parts.size(), 2U);
 }
 
 TEST_F(ViewRunTest, ImagesBehindALinkAreNotShown) {

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The server alone: what it refuses, and what clients that behave badly cost the others.
+#include "../support/process_memory.hpp"
 #include "../support/run_length.hpp"
 #include "web_client.hpp"
 
 #include <atomic>
 #include <chrono>
-#include <fstream>
-#include <mutex>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <penumbra/base/error.hpp>
 
@@ -240,54 +238,46 @@ TEST(ServerToken, IsWantedWhereMoreThanTheLoopbackIsServed) {
   EXPECT_EQ(user.message()->payload, "you said still here");
 }
 
-std::size_t resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  std::size_t all = 0, resident = 0;
-  file >> all >> resident;
-  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
-
 class SlowClientsTest : public ServerTest {
  protected:
-  static constexpr std::size_t waiting_bytes = std::size_t{64} << 20U;
-  SlowClientsTest() : ServerTest({.max_waiting_bytes = waiting_bytes}) {}
+  static constexpr std::size_t waiting = 64;  // MiB
+  SlowClientsTest() : ServerTest({.max_waiting_bytes = waiting << 20U}) {}
+
+  /// `allowance`: MiB that the test may take.
+  void expect_memory_within(std::size_t allowance) const {
+    if (!sanitized) {
+      EXPECT_LT(memory_of().resident, before_ + static_cast<double>(allowance));
+    }
+  }
+
+  const double before_ = memory_of().resident;
+  std::vector<WebClient> slow_;
 };
 
 // Each asks for 8 MB and takes nothing: unbounded, that would be 1.6 GB.
 TEST_F(SlowClientsTest, CostNoMemoryAndHoldNobodyUp) {
   // Sanitizers make each answer slow to make.
   constexpr int count = sanitized ? 40 : 200;
-  // The waiting answers, those being made, and what the allocator keeps of both.
-  constexpr std::size_t allowance = 6 * waiting_bytes;
-  const std::size_t before = resident_bytes();
-  std::vector<WebClient> slow;
   for (int i = 0; i < count; ++i) {
-    slow.emplace_back(server_.port(), 4096);
-    slow.back().send("GET /large HTTP/1.1\r\n" + host() + "\r\n");
+    slow_.emplace_back(server_.port(), 4096);
+    slow_.back().send("GET /large HTTP/1.1\r\n" + host() + "\r\n");
   }
   WebClient good = client();
   for (int i = 0; i < 20; ++i) EXPECT_EQ(good.get("/a").body, "/a");
   EXPECT_EQ(good.get("/large").body.size(), large_bytes);
-  if (!sanitized) {
-    EXPECT_LT(resident_bytes(), before + allowance);
-  }
+  // The waiting answers, those being made, and what the allocator keeps of both.
+  expect_memory_within(6 * waiting);
 }
 
 // As answers: 40 messages of 8 MB that nobody takes.
 TEST_F(SlowClientsTest, MessagesCountAsAnswersDo) {
-  constexpr int count = 40;
-  constexpr std::size_t allowance = 3 * waiting_bytes;
-  const std::size_t before = resident_bytes();
-  std::vector<WebClient> slow;
-  for (int i = 0; i < count; ++i) {
-    slow.emplace_back(server_.port(), 4096);
-    ASSERT_EQ(slow.back().upgrade("/say").status, 101);
-    slow.back().send_text("large");
+  for (int i = 0; i < 40; ++i) {
+    slow_.emplace_back(server_.port(), 4096);
+    ASSERT_EQ(slow_.back().upgrade("/say").status, 101);
+    slow_.back().send_text("large");
   }
-  EXPECT_TRUE(slow.front().is_closed());
-  if (!sanitized) {
-    EXPECT_LT(resident_bytes(), before + allowance);
-  }
+  EXPECT_TRUE(slow_.front().is_closed());
+  expect_memory_within(3 * waiting);
   EXPECT_EQ(client().get("/a").body, "/a");
 }
 

@@ -1,77 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer_process.hpp"
 
-#include <array>
-#include <chrono>
-#include <csignal>
-#include <thread>
-
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace penumbra::test {
 namespace {
 
-constexpr int patience_ms = 120'000;
-
-[[noreturn]] void become_viewer(std::vector<std::string>& arguments, int out) {
-  ::dup2(out, STDOUT_FILENO);
-  ::signal(SIGINT, SIG_DFL);
-  std::vector<char*> texts;
-  texts.reserve(arguments.size() + 1);
-  for (std::string& argument : arguments) texts.push_back(argument.data());
-  texts.push_back(nullptr);
-  ::execv(texts.front(), texts.data());
-  ::_exit(127);
-}
-
-/// Returns what comes from `start` to the end of its line, or nothing if no line has it.
-std::string line_from(int descriptor, const std::string& start) {
-  std::string text;
-  std::array<char, 4096> buffer{};
-  while (true) {
-    const std::size_t at = text.find(start);
-    const std::size_t end = text.find('\n', at);
-    if (at != std::string::npos && end != std::string::npos) return text.substr(at, end - at);
-    pollfd ready{descriptor, POLLIN, 0};
-    if (::poll(&ready, 1, patience_ms) <= 0) return {};
-    const ssize_t got = ::read(descriptor, buffer.data(), buffer.size());
-    if (got <= 0) return {};
-    text.append(buffer.data(), static_cast<std::size_t>(got));
-  }
+std::vector<std::string> line_of(const std::string& command, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), command);
+  arguments.insert(arguments.end(), {"--port", "0"});
+  return arguments;
 }
 
 }  // namespace
 
-ViewerProcess::ViewerProcess(std::vector<std::string> arguments, const std::string& command) {
-  arguments.insert(arguments.begin(), {PENUMBRA_PROGRAM, command});
-  arguments.insert(arguments.end(), {"--port", "0"});
-  std::array<int, 2> pipe{};
-  EXPECT_EQ(::pipe2(pipe.data(), O_CLOEXEC), 0);
-  pid_ = ::fork();
-  if (pid_ == 0) become_viewer(arguments, pipe[1]);
-  ::close(pipe[1]);
-  out_ = pipe[0];
-  url_ = line_from(out_, "http://");
-  const auto colon = url_.rfind(':');
-  if (colon != std::string::npos)
-    port_ = static_cast<std::uint16_t>(std::stoi(url_.substr(colon + 1)));
-}
-
-ViewerProcess::~ViewerProcess() {
-  if (pid_ > 0) end();
-  ::close(out_);
-}
-
-int ViewerProcess::end() {
-  ::kill(pid_, SIGINT);
-  int status = 0;
-  ::waitpid(pid_, &status, 0);
-  pid_ = -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+ViewerProcess::ViewerProcess(std::vector<std::string> arguments, const std::string& command)
+    : program_(line_of(command, std::move(arguments)), folder_.path() / "log") {
+  std::string log;
+  EXPECT_TRUE(eventually([&] {
+    log = read_bytes(folder_.path() / "log");
+    const std::size_t url = log.find("http://"), end = log.find('\n', url);
+    if (url == std::string::npos || end == std::string::npos) return false;
+    port_ = static_cast<std::uint16_t>(std::stoi(log.substr(log.rfind(':', end) + 1)));
+    return true;
+  })) << log;
 }
 
 nlohmann::json ViewerProcess::get_json(const std::string& path) const {
@@ -80,14 +32,19 @@ nlohmann::json ViewerProcess::get_json(const std::string& path) const {
   return nlohmann::json::parse(reply.body);
 }
 
+Packet ViewerProcess::packet(std::size_t frame, const std::string& with) const {
+  const HttpReply reply =
+      client().get("/api/frames/" + std::to_string(frame) + "/packet?with=" + with);
+  EXPECT_EQ(reply.headers.at("content-type"), "application/octet-stream");
+  return Packet(reply.body);
+}
+
 nlohmann::json ViewerProcess::complete_session() const {
-  constexpr auto step = std::chrono::milliseconds(20);
-  nlohmann::json session = get_json("/api/session");
-  for (int waited = 0; session["complete"] == false && waited < patience_ms; waited += 20) {
-    std::this_thread::sleep_for(step);
+  nlohmann::json session;
+  EXPECT_TRUE(eventually([&] {
     session = get_json("/api/session");
-  }
-  EXPECT_EQ(session["complete"], true);
+    return session["complete"] == true;
+  }));
   return session;
 }
 

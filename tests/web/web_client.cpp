@@ -79,7 +79,7 @@ HttpReply WebClient::get(const std::string& target, const std::string& headers,
   return reply();
 }
 
-HttpReply WebClient::reply(bool with_body) {
+HttpReply WebClient::reply() {
   HttpReply reply;
   std::size_t end = 0;
   while ((end = received_.find("\r\n\r\n")) == std::string::npos)
@@ -95,11 +95,10 @@ HttpReply WebClient::reply(bool with_body) {
     line = next + 2;
   }
   const auto length = reply.headers.find("content-length");
-  if (with_body && length != reply.headers.end()) {
-    auto body = take(std::stoul(length->second));
-    if (!body) return {};
-    reply.body = std::move(*body);
-  }
+  if (length == reply.headers.end()) return reply;
+  const auto body = take(std::stoul(length->second));
+  if (!body) return {};
+  reply.body = *body;
   return reply;
 }
 

@@ -33,8 +33,8 @@ class WebClient {
   /// GET with this Host ("127.0.0.1:PORT" by default) and these header lines.
   HttpReply get(const std::string& target, const std::string& headers = "",
                 const std::string& host = "");
-  /// What comes of what was sent; of HEAD no body.
-  HttpReply reply(bool with_body = true);
+  /// What comes of what was sent.
+  HttpReply reply();
 
   /// A WebSocket handshake; the reply's status is 101 where it worked.
   HttpReply upgrade(const std::string& target, const std::string& headers = "");
@@ -51,7 +51,6 @@ class WebClient {
 
   /// Whether the other side closes within 60 s.
   bool is_closed();
-  [[nodiscard]] std::uint16_t port() const { return port_; }
 
  private:
   bool fill();

@@ -5,13 +5,24 @@
 
 #include <penumbra/mesh/triangle_mesh.hpp>
 
-/// Brute force over all triangles, in double.
+/// Sums and brute force over all triangles, in double.
 namespace penumbra::test {
 
 inline std::array<Vector3d, 3> corners(const TriangleMesh& mesh, std::size_t i) {
   const auto& t = mesh.triangles[i];
   return {mesh.vertices[t[0]].cast<double>(), mesh.vertices[t[1]].cast<double>(),
           mesh.vertices[t[2]].cast<double>()};
+}
+
+/// Returns the volume of closed meshes, cubic metres; positive if they are wound outwards.
+inline double signed_volume(const TriangleMesh& mesh) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Vector3d eye = mesh.vertices.front().cast<double>();
+    const auto [a, b, c] = corners(mesh, i);
+    sum += (a - eye).dot((b - eye).cross(c - eye));
+  }
+  return sum / 6.0;
 }
 
 inline double segment_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
