@@ -36,7 +36,7 @@ Json view_json(const std::vector<std::string>& cameras, const CameraView& view) 
           {"angle_rad", is_measured ? Json(view.angle) : Json(nullptr)}};
 }
 
-Json target_json(const std::vector<std::string>& cameras, const FusedTarget& target) {
+Json fused_json(const std::vector<std::string>& cameras, const FusedTarget& target) {
   const auto name = [&](std::size_t camera) { return cameras[camera]; };
   Json contradiction, views = Json::array();
   if (const auto& pair = target.contradiction)
@@ -120,7 +120,7 @@ std::string views_json(const CameraViews& views) {
   for (const FusedFrame& frame : views.frames) {
     Json targets = Json::array();
     for (const FusedTarget& target : frame.targets)
-      targets.push_back(target_json(views.cameras, target));
+      targets.push_back(fused_json(views.cameras, target));
     text += std::exchange(comma, ",\n");
     text += json_text({{"stamp_ns", frame.stamp}, {"targets", std::move(targets)}});
   }

@@ -24,7 +24,6 @@
 namespace penumbra::io {
 namespace {
 
-using nlohmann::json;
 constexpr std::uint64_t most_json_bytes = FileLimit::data / 4;  // it takes several times as much
 
 using ClassNames = std::map<std::int64_t, std::string>;
@@ -75,7 +74,7 @@ std::vector<std::uint32_t> runs_of(const std::string& text) {
   return counts;
 }
 
-Region coco_region(const json& entry, const Intrinsics& images) {
+Region coco_region(const nlohmann::json& entry, const Intrinsics& images) {
   if (const auto mask = entry.find("segmentation"); mask != entry.end() && mask->is_object()) {
     const auto& counts = mask->at("counts");
     const auto size = mask->at("size").get<std::vector<int>>();
@@ -92,7 +91,8 @@ Region coco_region(const json& entry, const Intrinsics& images) {
   return box_of(box[0], box[1], box[2], box[3]);
 }
 
-std::int64_t coco_frame(const json& id, const std::map<std::string, std::int64_t>& frames) {
+std::int64_t coco_frame(const nlohmann::json& id,
+                        const std::map<std::string, std::int64_t>& frames) {
   const std::string key = id.is_string() ? id.get<std::string>() : id.dump();
   if (const auto named = frames.find(key); named != frames.end()) return named->second;
   if (const auto number = last_number(key)) return *number;
@@ -101,18 +101,18 @@ std::int64_t coco_frame(const json& id, const std::map<std::string, std::int64_t
 
 Detections read_coco(const std::filesystem::path& file, const Intrinsics& images,
                      ClassNames names) {
-  const json root = json::parse(read_whole_file(file, most_json_bytes));
+  const auto root = nlohmann::json::parse(read_whole_file(file, most_json_bytes));
   std::map<std::string, std::int64_t> frames;  // by image_id
   if (root.is_object()) {                      // a data set
-    for (const json& category : root.value("categories", json::array()))
+    for (const nlohmann::json& category : root.value("categories", nlohmann::json::array()))
       names.emplace(category.at("id").get<std::int64_t>(), category.at("name").get<std::string>());
-    for (const json& image : root.at("images"))
+    for (const nlohmann::json& image : root.at("images"))
       if (const auto number = last_number(image.at("file_name").get<std::string>()))
         frames.emplace(image.at("id").dump(), *number);
   }
   Detections all;
   std::size_t number = 0;
-  for (const json& entry : root.is_object() ? root.at("annotations") : root) {
+  for (const nlohmann::json& entry : root.is_object() ? root.at("annotations") : root) {
     try {
       Detection& found = all[coco_frame(entry.at("image_id"), frames)].emplace_back(
           Detection{.category = name_of(entry.at("category_id").get<std::int64_t>(), names),
@@ -252,7 +252,7 @@ Detections read_any(const std::string& name, const std::filesystem::path& folder
         "YOLO (labels/%d.txt) are read");
   try {
     return read_coco(file, images, names);
-  } catch (const json::exception& error) {
+  } catch (const nlohmann::json::exception& error) {
     throw InputError(file.string() + ": is no JSON of COCO results: " + error.what());
   } catch (const InputError& error) {
     const std::string text = error.what();

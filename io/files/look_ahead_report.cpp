@@ -45,7 +45,7 @@ Json camera_json(const CameraForecast& forecast, const std::string& name) {
   return all;
 }
 
-Json target_json(const TargetForecast& forecast, std::span<const ForecastCamera> cameras) {
+Json forecast_json(const TargetForecast& forecast, std::span<const ForecastCamera> cameras) {
   Json of_cameras = Json::array();
   for (std::size_t c = 0; c < cameras.size(); ++c)
     of_cameras.push_back(camera_json(forecast.cameras[c], cameras[c].name));
@@ -74,7 +74,7 @@ std::string look_ahead_json(const LookAheadResult& result) {
   for (std::size_t i = 0; i < result.motions.size(); ++i) {
     Json targets = Json::array();
     for (const TargetForecast& forecast : result.forecasts[i])
-      targets.push_back(target_json(forecast, result.cameras));
+      targets.push_back(forecast_json(forecast, result.cameras));
     motions.push_back({{"name", result.motions[i].name},
                        {"duration_s", result.motions[i].trajectory.duration()},
                        {"targets", std::move(targets)}});

@@ -74,12 +74,16 @@ V paeth(V a, V b, V c) {
   return ((of_a <= of_b) & (of_a <= of_c)) ? a : of_both;
 }
 
-constexpr std::ptrdiff_t pixel = 2;  // bytes
+constexpr std::ptrdiff_t pixel_bytes = 2;
 
 /// Undoes the filter of one row. Returns false for an unknown one.
 bool unfilter(Byte filter, const Byte* from, const Byte* above, Byte* to, std::ptrdiff_t count) {
-  const auto left = [&](std::ptrdiff_t i) { return i < pixel ? 0 : int{to[i - pixel]}; };
-  const auto corner = [&](std::ptrdiff_t i) { return i < pixel ? 0 : int{above[i - pixel]}; };
+  const auto left = [&](std::ptrdiff_t i) {
+    return i < pixel_bytes ? 0 : int{to[i - pixel_bytes]};
+  };
+  const auto corner = [&](std::ptrdiff_t i) {
+    return i < pixel_bytes ? 0 : int{above[i - pixel_bytes]};
+  };
   const auto add = [&](const auto& predict) {
     for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = static_cast<Byte>(from[i] + predict(i));
     return true;
@@ -120,25 +124,25 @@ void unfilter_paeth(const Byte* from, std::ptrdiff_t from_step, const Byte* abov
     // Whole words: to read back what was written in parts is slow.
     const auto word_of = [](const Byte* p) {
       std::uint16_t two;
-      std::memcpy(&two, p, pixel);
+      std::memcpy(&two, p, pixel_bytes);
       return std::uint64_t{two};
     };
     const auto lanes_of = [](std::uint64_t bytes) {
       return __builtin_convertvector(std::bit_cast<LaneBytes>(bytes), Lanes);
     };
     std::uint64_t above_them = std::endian::native == std::endian::little ? word << 16 : word >> 16;
-    if (holds(t)) above_them |= word_of(above + t * pixel) << shift(0);
+    if (holds(t)) above_them |= word_of(above + t * pixel_bytes) << shift(0);
     const Lanes up = lanes_of(above_them);
     word = 0;
     for (int r = 0; r < rows_at_once; ++r)
-      if (holds(t - r)) word |= word_of(from + r * from_step + (t - r) * pixel) << shift(r);
+      if (holds(t - r)) word |= word_of(from + r * from_step + (t - r) * pixel_bytes) << shift(r);
     last = (lanes_of(word) + paeth(last, up, last_above)) & 255;
     last_above = up;
     word = std::bit_cast<std::uint64_t>(__builtin_convertvector(last, LaneBytes));
     for (int r = 0; r < rows_at_once; ++r) {
       if (!holds(t - r)) continue;
       const auto two = static_cast<std::uint16_t>(word >> shift(r));
-      std::memcpy(to + r * to_step + (t - r) * pixel, &two, pixel);
+      std::memcpy(to + r * to_step + (t - r) * pixel_bytes, &two, pixel_bytes);
     }
   };
   const std::ptrdiff_t inside = std::min<std::ptrdiff_t>(rows_at_once - 1, width);
@@ -155,7 +159,7 @@ bool decode_depth_png(std::span<const std::byte> file, Image<std::uint16_t>& ima
   PngParts parts;
   if (!split({reinterpret_cast<const Byte*>(file.data()), file.size()}, parts)) return false;
   if (wanted && (wanted->width != parts.width || wanted->height != parts.height)) return false;
-  const std::ptrdiff_t count = pixel * parts.width, step = count + 1;
+  const std::ptrdiff_t count = pixel_bytes * parts.width, step = count + 1;
   const auto size = static_cast<std::size_t>(step * parts.height);
   constexpr std::size_t most_expansion = 1032;  // of deflate
   if (size / most_expansion > parts.pixels.size()) return false;
@@ -185,7 +189,7 @@ bool decode_depth_png(std::span<const std::byte> file, Image<std::uint16_t>& ima
   }
   if constexpr (std::endian::native == std::endian::little)
     std::transform(
-        image.data(), image.data() + count / pixel * parts.height, image.data(),
+        image.data(), image.data() + count / pixel_bytes * parts.height, image.data(),
         [](std::uint16_t value) { return static_cast<std::uint16_t>(value << 8U | value >> 8U); });
   return true;
 }

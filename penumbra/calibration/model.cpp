@@ -61,7 +61,7 @@ Eigen::VectorXd Unknowns::values(const State& state) const {
 Eigen::VectorXd Unknowns::prior_sigmas() const {
   Eigen::VectorXd sigmas = Eigen::VectorXd::Constant(size(), 0.02);  // joints: rad or m
   constexpr double held = 1e-9;  // far below what any measurement tells
-  sigmas.head<6>().setConstant(holds_pose ? held : std::numeric_limits<double>::infinity());
+  sigmas.head<6>().setConstant(std::numeric_limits<double>::infinity());
   sigmas[depth_offset] = holds_depth ? held : 0.005;
   sigmas[depth_scale] = holds_depth ? held : 0.005;
   sigmas[outline] = 10.0;

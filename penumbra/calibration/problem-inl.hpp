@@ -53,7 +53,6 @@ struct Unknowns {
   int focal_count = 0;                      ///< 1: fx and fy by the same factor; 2: each by its own
   std::vector<std::size_t> variables = {};  ///< Robot::variables() whose offsets are estimated
   bool has_time = false;
-  bool holds_pose = false;   ///< the pose stays as it is
   bool holds_depth = false;  ///< depth offset and scale stay as they are: there may be no depth
 
   [[nodiscard]] int focal() const { return has_shift ? shift + 2 : shift; }

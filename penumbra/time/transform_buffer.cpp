@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -309,18 +308,6 @@ void TransformBuffer::explain_disputed(const FrameNode& frame, std::int64_t stam
        << stamp_text(found.stamp) << " by " << *sources[0];
   if (sources[0] != sources[1]) text << " and by " << *sources[1];
   answer.message = text.str();
-}
-
-std::optional<std::int64_t> TransformBuffer::complete_until(std::string_view target,
-                                                            std::string_view source) const {
-  const auto found = find_chain(without_slash(target), without_slash(source));
-  if (!found) return std::nullopt;
-  std::int64_t until = std::numeric_limits<std::int64_t>::max();
-  for (std::size_t frame : {found->source, found->target})
-    for (; frame != found->meeting; frame = frames_[frame].parent)
-      if (!frames_[frame].is_static)
-        until = std::min(until, frames_[frame].states.newest().value_or(until));
-  return until;
 }
 
 bool TransformBuffer::knows(std::string_view frame) const {

@@ -86,11 +86,6 @@ class TransformBuffer {
   void at(std::int64_t stamp, std::string_view target, std::string_view source,
           TransformAnswer& answer) const;
 
-  /// Returns the newest stamp at which every moving frame between the two is known, the largest
-  /// possible stamp if none moves, or null if at() would be missing.
-  [[nodiscard]] std::optional<std::int64_t> complete_until(std::string_view target,
-                                                           std::string_view source) const;
-
   /// Returns whether the frame was ever named.
   [[nodiscard]] bool knows(std::string_view frame) const;
 

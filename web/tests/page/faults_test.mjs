@@ -190,7 +190,8 @@ test('a wrong setup is said at once, with the frame that shows it', async () => 
   await cp(example, wrong, { recursive: true });
   const pose = path.join(wrong, 'camera_pose.csv');
   const rows = (await readFile(pose, 'utf8')).trim().split('\n');
-  const shifted = rows[0].split(',').with(3, String(Number(rows[0].split(',')[3]) + 0.06));
+  const shifted = rows[0].split(',');
+  shifted[3] = String(Number(shifted[3]) + 0.06);
   await writeFile(pose, `${[shifted.join(','), ...rows.slice(1)].join('\n')}\n`);
   const own = await serve(wrong);
   const { diagnosis } = (await (await fetch(new URL('/api/report', own.url))).json()).summary;
