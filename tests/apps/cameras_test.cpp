@@ -3,6 +3,8 @@
 #include "../support/page_json.hpp"
 #include "fixtures.hpp"
 
+#include <io/files/pending_file.hpp>
+
 namespace penumbra::test {
 namespace {
 
@@ -90,6 +92,16 @@ TEST_F(CamerasTest, FilesOfTheUserStay) {
     expect_refused(run({"--frames", "5:4"}), {"out"});
     EXPECT_EQ(read_file(out(file)), "mine");
     fs::remove(out(file));
+  }
+}
+
+TEST_F(CamerasTest, ASecondRunIntoTheFolderIsRefused) {
+  succeed(run({"--save", "labels"}));
+  for (const fs::path& folder : {out(), out("left")}) {
+    const io::FileLock lock(folder);
+    expect_refused(run({"--save", "labels"}), {"another program is writing it"});
+    EXPECT_TRUE(fs::exists(out("left/labels/000000.png")));
+    EXPECT_TRUE(fs::exists(out("views.json")));
   }
 }
 

@@ -4,11 +4,11 @@
 #include "../io/live_scene.hpp"
 #include "../io/ros_images.hpp"
 #include "../support/run_length.hpp"
+#include "../support/running_program.hpp"
 #include "../support/temporary_folder.hpp"
 #include "label_watch.hpp"
 #include "listening.hpp"
 #include "lone_domain.hpp"
-#include "running_program.hpp"
 #include "soak_publishers.hpp"
 
 #include <array>

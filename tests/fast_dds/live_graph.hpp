@@ -3,9 +3,9 @@
 
 #include "../apps/program.hpp"
 #include "../apps/tiny_bag.hpp"
+#include "../support/running_program.hpp"
 #include "listening.hpp"
 #include "lone_domain.hpp"
-#include "running_program.hpp"
 
 #include <memory>
 #include <string>

@@ -8,10 +8,10 @@
 #include "../support/process_memory.hpp"
 #include "../support/random.hpp"
 #include "../support/run_length.hpp"
+#include "../support/running_program.hpp"
 #include "../support/temporary_folder.hpp"
 #include "label_watch.hpp"
 #include "lone_domain.hpp"
-#include "running_program.hpp"
 #include "soak_publishers.hpp"
 
 #include <algorithm>

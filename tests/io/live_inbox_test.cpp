@@ -283,6 +283,12 @@ TEST_F(LiveInboxTest, WhatIsDetachedAndAttachedWithOldStampsHoldsFromNowOn) {
     attach(live_part(now + milliseconds, Object::remove));
     expect_shown(false, id);
   }
+  for (int i = 0; i < 3; ++i) {  // again and again, with the stamp at which the part was made
+    attach(live_part(start - 2 * seconds));
+    expect_shown(true, "sent again");
+    attach(live_part(start - 2 * seconds, Object::remove));
+    expect_shown(false, "removed again");
+  }
   // A scene that is late, as the answer to a question, says what was attached then.
   io::PlanningSceneMessage scene;
   scene.robot_state.joints.header.stamp = start;

@@ -12,6 +12,21 @@ namespace {
 
 constexpr std::int64_t patience = io::SceneQuestion::patience;
 
+TEST(SceneQuestion, IsAskedAgainIfTheAnswerIsLost) {
+  io::SceneQuestion question;
+  EXPECT_FALSE(question.waits(false)) << "there is no MoveIt";
+  question.follow(true, true, 0);
+  ASSERT_TRUE(question.is_due(0));
+  question.ask(0, start);
+  EXPECT_FALSE(question.is_due(patience - 1));
+  EXPECT_TRUE(question.is_due(patience));
+  question.ask(patience, start);
+  EXPECT_TRUE(question.waits(true));
+  ASSERT_TRUE(question.answer(start));
+  EXPECT_FALSE(question.waits(true));
+  EXPECT_FALSE(question.is_due(10 * patience));
+}
+
 TEST(SceneQuestion, NoImagePassesBeforeTheAnswer) {
   io::SceneQuestion question;
   question.follow(false, false, 0);
@@ -20,6 +35,13 @@ TEST(SceneQuestion, NoImagePassesBeforeTheAnswer) {
   EXPECT_TRUE(question.waits(false)) << "a publisher of scenes mostly has the service, too";
   question.follow(false, true, 1 + patience);
   EXPECT_FALSE(question.waits(false)) << "it is a bag";
+  question.follow(true, true, 2 + patience);
+  question.ask(2 + patience, start);
+  ASSERT_TRUE(question.answer(start));
+  question.follow(false, false, 3 + patience);
+  EXPECT_FALSE(question.waits(false)) << "MoveIt ended";
+  question.follow(true, true, 4 + patience);
+  EXPECT_TRUE(question.waits(true) && question.is_due(4 + patience)) << "it is back";
 }
 
 TEST(SceneQuestion, IsAskedAgainIfTheClockWasSetBack) {

@@ -91,6 +91,17 @@ TEST(TransformLimits, StatesAreBoundedInNumberAndTime) {
   EXPECT_EQ(status_at(9000), TransformStatus::ok);
 }
 
+TEST_F(Transforms, ClearForgetsWhatMovesAndKeepsWhatIsStatic) {
+  buffer_.insert(5, "a", "b", shift(1));
+  buffer_.insert_static("b", "c", shift(1));
+  buffer_.insert(5, "b", "b", shift(1));
+  buffer_.clear();
+  EXPECT_EQ(at(5, "a", "b").status, TransformStatus::missing);
+  EXPECT_EQ(at(5, "b", "c").status, TransformStatus::ok);
+  EXPECT_EQ(buffer_.refused(), 1U);
+  EXPECT_EQ(buffer_.insert(5, "z", "b", shift(1)), TransformInsert::taken) << "another parent";
+}
+
 TEST_F(Transforms, TwoPublishersOfOneFrameThatDifferAreDisputed) {
   for (std::int64_t t = 100; t < 500; t += 10) {
     buffer_.insert(t * ms, "base", "arm", shift(0.5), "publisher 1 of /tf");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "../fast_dds/running_program.hpp"
+#include "../support/running_program.hpp"
 #include "../support/temporary_folder.hpp"
 #include "packet.hpp"
 #include "web_client.hpp"
@@ -28,7 +28,7 @@ bool eventually(const IsSo& is_so) {
 /// A running `penumbra view`, or another command that serves its page. It ends with this.
 class ViewerProcess {
  public:
-  /// Waits up to 120 s until it prints its address. `--port 0` is added.
+  /// Waits up to 120 s until it prints its address or ends. `--port 0` is added.
   explicit ViewerProcess(std::vector<std::string> arguments, const std::string& command = "view");
 
   [[nodiscard]] std::uint16_t port() const { return port_; }  ///< 0: it did not start

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "../support/child_process.hpp"
+#include "child_process.hpp"
 
 #include <csignal>
 #include <filesystem>
@@ -31,6 +31,11 @@ class RunningProgram {
   }
 
   [[nodiscard]] pid_t pid() const { return pid_; }
+  [[nodiscard]] bool has_ended() const {
+    siginfo_t ended{};
+    waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT);
+    return ended.si_pid == pid_;
+  }
 
   /// Ends it by a signal, and returns its exit status.
   int end(int signal = SIGTERM) {
