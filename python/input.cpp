@@ -65,7 +65,8 @@ std::shared_ptr<Input> open_input(const std::filesystem::path& path, bool color,
                                   bool allow_missing_meshes,
                                   std::optional<std::pair<std::int64_t, std::int64_t>> frames,
                                   const std::optional<io::BagOptions>& bag,
-                                  const std::string& camera) {
+                                  const std::string& camera,
+                                  const std::map<std::string, double>& joints) {
   io::InputOptions options{.path = path,
                            .camera = camera,
                            .with_color = color,
@@ -74,6 +75,7 @@ std::shared_ptr<Input> open_input(const std::filesystem::path& path, bool color,
                            .allow_missing_meshes = allow_missing_meshes,
                            .extra = {},
                            .ignore_links = {},
+                           .joints = joints,
                            .frames = {},
                            .fps = {},
                            .bag = bag.value_or(io::BagOptions()),
@@ -92,6 +94,9 @@ void bind_bag_options(py::module_& m) {
       Field{"camera_info_topic", &B::camera_info_topic, "Their camera_info."},
       Field{"color_topic", &B::color_topic, "If given, depth is judged in its image."},
       Field{"joint_topics", &B::joint_topics, "Joint states."},
+      Field{"joint_names", &B::joint_names,
+            "Their names of the joints, if they differ: MESSAGE=JOINT with one * on each side, as "
+            "left/*=*."},
       Field{"no_depth", &B::no_depth,
             "The camera measures no depth: its colour images are judged by the model alone."},
       Field{"target_topics", &B::target_topics, "Detections, key points, poses."},
@@ -104,6 +109,8 @@ void bind_bag_options(py::module_& m) {
       Field{"camera_frame", &B::camera_frame, "In place of the images' frame_id."},
       Field{"parent", &B::parent, "Link that the camera sits on."},
       Field{"pose", &B::pose, "CSV file of the camera's pose in that link, in place of tf's."},
+      Field{"depth_scale", &B::depth_scale,
+            "Metres per unit of the depth images; None: 0.001 for integers, 1 for floats."},
       Field{"rectified", &B::rectified, "The images are free of distortion already."},
       Field{"first_publisher", &B::first_publisher,
             "Publishers of one joint are not compared: the first one is believed."},
@@ -168,10 +175,11 @@ void bind_input(py::module_& m) {
         py::arg("allow_missing_meshes") = defaults.allow_missing_meshes,
         py::arg("frames") = std::optional<std::pair<std::int64_t, std::int64_t>>(),
         py::arg("bag") = std::optional<io::BagOptions>(), py::arg("camera") = defaults.camera,
+        py::arg("joints") = std::map<std::string, double>(),
         "Opens what `penumbra run` takes, as its options of these names say. color: read colour "
         "images, too; frames: (first, end) of those wanted; bag: of bags alone; camera: which one, "
-        "of "
-        "a recording with several. Raises InputError that names the file.");
+        "of a recording with several; joints: positions at which joints are held, rad or m. "
+        "Raises InputError that names the file.");
 }
 
 }  // namespace penumbra::python

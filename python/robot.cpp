@@ -99,6 +99,8 @@ void bind_options(py::module_& m) {
       Field{"geometry_fallback", &O::geometry_fallback,
             "Take the other geometry for a link that lacks the chosen one."},
       Field{"ignore_links", &O::ignore_links, "Patterns of links that are not drawn."},
+      Field{"joints", &O::joints,
+            "Joint to the position at which it is held, rad or m: it does not move."},
       Field{"only_links", &O::only_links, "If not empty: patterns of the links drawn."},
       Field{"margins", &O::margins, "By pattern: surface offset, metres, -1 to 1."},
       Field{"extra", &O::extra, "Drawn with their links, whatever else is drawn of them."},

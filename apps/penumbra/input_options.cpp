@@ -106,6 +106,10 @@ void add_bag_robot(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
           help.poses,
       bag.poses,
       {{"joints", PoseSource::joints}, {"tf", PoseSource::transforms}, {"both", PoseSource::both}});
+  add_text(
+      app, "--joint-names",
+      "the joints' names in joint states, if they differ: 'left/*=*' if those begin with left/",
+      "MESSAGE=JOINT", bag.joint_names);
   add_text(app, "--robot", "the robot, in place of the robot_description", "URDF", bag.robot);
   add_list(app, "--robot-namespace",
            "one of several robots: topics NS/robot_description and NS/joint_states, frames NS/LINK "
@@ -161,6 +165,9 @@ void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
            "TOPIC", [&](const std::string& text) { bag.plan_topics.push_back(text); });
   add_text(app, "--camera-frame", "the images' frame in tf, in place of their frame_id", "FRAME",
            bag.camera_frame);
+  add_number(app, "--depth-scale",
+             "metres per unit of the depth images; default: 0.001 for integers, 1 for floats", "M",
+             bag.depth_scale, 1e-9, 1e3);
   app.add_flag("--rectified", bag.rectified,
                "the images are free of distortion already, as those called image_rect... are");
   add_bag_robot(app, bag, help);

@@ -47,6 +47,7 @@ io::CameraInputOptions camera_options(const LiveArguments& arguments) {
   options.mount = io::mount_options(topics);
   options.info_is_named = topics.camera_info_topic.has_value();
   options.is_rectified = topics.rectified;
+  options.depth_scale = topics.depth_scale;
   options.poses = topics.poses.value_or(PoseSource::joints);
   options.time_offset = topics.time_offset;
   options.max_frames = static_cast<std::size_t>(arguments.queue);

@@ -70,6 +70,7 @@ io::LiveOptions live_options(const LiveArguments& arguments, const io::NameResol
   options.robot.robot.packages = topics.packages;
   arguments.session.input.apply_to(options.robot.robot);
   options.robot.compare_sources = !topics.first_publisher;
+  options.robot.joint_names = topics.joint_names;
   if (topics.robot) options.robot.given = Robot::load(*topics.robot, options.robot.robot);
   options.poses = topics.poses.value_or(PoseSource::joints);
   options.description_topics = {names.resolve("robot_description")};

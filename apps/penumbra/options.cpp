@@ -73,6 +73,20 @@ void add_links(CLI::App& app, std::vector<ExtraMesh>& extra,
            });
 }
 
+void add_joints(CLI::App& app, std::map<std::string, double>& joints) {
+  const std::string wanted = "NAME=VALUE, in radians or metres";
+  add_list(app, "--joint",
+           "a joint that does not move, or whose position is not received; may be given several "
+           "times",
+           "NAME=VALUE", [&joints, wanted](const std::string& text) {
+             const auto [name, value] = to_pair("--joint", text, wanted);
+             const auto number = io::parse_number<double>(value);
+             if (!number) refuse_option("--joint", text, wanted);
+             if (!joints.emplace(name, *number).second)
+               throw InputError("--joint: '" + name + "' is given twice");
+           });
+}
+
 void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback) {
   app.add_flag("--allow-missing-meshes", allow_missing_meshes,
                "go on without meshes that cannot be read and links that have only the other "

@@ -10,6 +10,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -113,6 +114,8 @@ void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& p
 void add_renderer(CLI::App& app, Backend& backend, RendererOptions& renderer);
 void add_links(CLI::App& app, std::vector<ExtraMesh>& extra,
                std::vector<std::string>& ignore_links);
+/// Positions at which joints are held.
+void add_joints(CLI::App& app, std::map<std::string, double>& joints);
 void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback);
 void add_frames(CLI::App& app, io::FrameRange& frames);
 
@@ -124,6 +127,7 @@ void add_drawn(CLI::App& app, Drawn& drawn, const std::string& default_geometry)
                        {{"collision", Geometry::collision}, {"visual", Geometry::visual}});
   add_links(app, drawn.extra, drawn.ignore_links);
   add_leniency(app, drawn.allow_missing_meshes, drawn.geometry_fallback);
+  if constexpr (std::is_same_v<Drawn, io::InputOptions>) add_joints(app, drawn.joints);
 }
 
 void add_robot(CLI::App& app, RobotOptions& options);

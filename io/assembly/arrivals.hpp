@@ -54,4 +54,9 @@ class Arrivals {
   std::deque<std::int64_t> intervals_;
 };
 
+/// Notes the time from a stamp to its message's arrival, nanoseconds, if it is the least one.
+inline void note_lag(std::int64_t stamp, std::int64_t now, std::optional<std::int64_t>& least) {
+  if (stamp > 0) least = std::min(least.value_or(now - stamp), now - stamp);
+}
+
 }  // namespace penumbra::io

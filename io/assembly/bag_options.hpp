@@ -23,6 +23,7 @@ struct BagOptions {
   std::vector<std::string> cloud_topics;
   bool in_other_frame = false;  ///< the clouds' frame need not be their sensor's
   std::vector<std::string> joint_topics, target_topics, plan_topics;
+  std::string joint_names;                     ///< see RobotInputOptions
   std::optional<PoseSource> poses;             ///< nothing: joints, or tf where there are none
   std::optional<std::filesystem::path> robot;  ///< in place of /robot_description
   std::map<std::string, std::filesystem::path> packages;
@@ -33,8 +34,9 @@ struct BagOptions {
   std::optional<std::string> parent;          ///< link that the camera is on
   std::optional<std::filesystem::path> pose;  ///< of the camera in that link, in place of tf's
   bool rectified = false;
-  bool first_publisher = false;  ///< publishers of one joint are not compared
-  double time_offset = 0.0;      ///< FrameQueueOptions::time_offset
+  std::optional<double> depth_scale;  ///< JudgedCameras
+  bool first_publisher = false;       ///< publishers of one joint are not compared
+  double time_offset = 0.0;           ///< FrameQueueOptions::time_offset
 };
 
 }  // namespace penumbra::io

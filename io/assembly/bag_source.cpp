@@ -38,6 +38,7 @@ BagSource::BagSource(const std::filesystem::path& bag, const Robot& robot, BagSo
       name_(bag.string()),
       assembler_({.robot = {},
                   .given = robot,
+                  .joint_names = options_.joint_names,
                   .compare_sources = options_.compare_sources,
                   .static_transforms = options_.static_transforms},
                  {camera_options(options_)}),
@@ -132,8 +133,7 @@ const std::optional<std::size_t>& BagSource::input_of(std::size_t topic) {
 
 std::vector<std::string> BagSource::notes() const {
   std::vector<std::string> lines = bag_notes(name_, *bag_, assembler_.faults());
-  for (const std::string& refusal : assembler_.robot().posed()->refusals())
-    lines.push_back(name_ + ": " + refusal);
+  for (const std::string& line : assembler_.notes()) lines.push_back(name_ + ": " + line);
   const TargetInbox& targets = assembler_.camera(0).setup()->targets;
   if (targets.waiting() > 0)
     lines.push_back(name_ + ": " + std::to_string(targets.waiting()) +

@@ -23,6 +23,7 @@ struct BagSourceOptions {
   KnownCamera camera;
   std::vector<TransformMessage> static_transforms;  ///< see RobotInputOptions
   std::string frame_prefix = {};                    ///< PoseOptions::frame_prefix
+  std::string joint_names = {};                     ///< see RobotInputOptions
   bool compare_sources = true;  ///< see JointBufferOptions and TransformBufferOptions
   double time_offset = 0.0;     ///< see FrameQueueOptions::time_offset
   std::optional<std::int64_t> first, end = {};  ///< the range of frames to read

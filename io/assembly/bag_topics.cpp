@@ -340,6 +340,7 @@ std::optional<TopicRole> BagTopics::role_of(const BagTopic& topic) const {
   if (is_one_of(targets)) return TopicRole::targets;
   if (is_one_of(attached)) return TopicRole::attached;
   if (is_one_of(plans)) return TopicRole::plan;
+  if (topic.type == joints_type && !joints.empty()) return TopicRole::unused_joints;
   if (!is_one_of(transforms)) return std::nullopt;
   return topic.name.ends_with("static") ? TopicRole::static_transforms : TopicRole::transforms;
 }

@@ -194,6 +194,7 @@ JudgedCameras CameraInput::find_cameras() const {
         InfoOfImages{*color_info_, options_.color_info_topic, options_.color_topic});
   JudgedCameras cameras = judged_cameras(evidence);
   cameras.has_depth = options_.has_depth;
+  cameras.depth_scale = options_.depth_scale;
   return cameras;
 }
 

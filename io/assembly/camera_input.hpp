@@ -38,9 +38,10 @@ struct CameraInputOptions {
   std::string color_topic = {};       ///< empty: none
   std::string color_info_topic = {};  ///< empty: depth is judged in its own image
   MountOptions mount = {};
-  bool has_depth = true;       ///< false: `depth_topic` has colour images
-  bool info_is_named = false;  ///< CameraEvidence
-  bool is_rectified = false;   ///< likewise
+  bool has_depth = true;                   ///< false: `depth_topic` has colour images
+  std::optional<double> depth_scale = {};  ///< JudgedCameras
+  bool info_is_named = false;              ///< CameraEvidence
+  bool is_rectified = false;               ///< likewise
   PoseSource poses = PoseSource::joints;
   double time_offset = 0.0;    ///< see FrameQueueOptions
   double max_wait = 0.2;       ///< likewise

@@ -68,6 +68,16 @@ std::optional<CameraMount> find_mount(const Robot& robot, const MountOptions& op
   return std::nullopt;
 }
 
+std::string likely_prefix(const Robot& robot, const FrameTree& frames, const std::string& frame) {
+  for (const std::string& above : frames.chain(frame))
+    for (const std::string& link : robot.links()) {
+      if (above.size() <= link.size() || !above.ends_with(link)) continue;
+      std::string prefix = above.substr(0, above.size() - link.size());
+      if (frames.knows(prefix + robot.links().front())) return prefix;
+    }
+  return {};
+}
+
 CameraMount mount_by_root(const Robot& robot, const MountOptions& options,
                           const std::string& frame_of_images) {
   return {mounted_frame(options, frame_of_images), robot.links().front(),

@@ -54,6 +54,11 @@ struct CameraMount {
 [[nodiscard]] std::string mounted_frame(const MountOptions& options,
                                         const std::string& frame_of_images);
 
+/// Returns what TF has before the links' names, if that is not the options' prefix and a link is
+/// above the frame with it; else an empty text.
+[[nodiscard]] std::string likely_prefix(const Robot& robot, const FrameTree& frames,
+                                        const std::string& frame);
+
 /// Returns the mount of a camera that is not on the robot: TF must connect it to the root link.
 [[nodiscard]] CameraMount mount_by_root(const Robot& robot, const MountOptions& options,
                                         const std::string& frame_of_images);

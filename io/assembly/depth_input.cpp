@@ -4,6 +4,7 @@
 #include <variant>
 
 #include <io/assembly/depth_input.hpp>
+#include <io/files/depth_pixels-inl.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -14,7 +15,8 @@ std::string size_text(int width, int height) {
 
 }  // namespace
 
-DepthInput::DepthInput(const JudgedCameras& cameras) : has_depth_(cameras.has_depth) {
+DepthInput::DepthInput(const JudgedCameras& cameras)
+    : has_depth_(cameras.has_depth), scale_(cameras.depth_scale) {
   const Intrinsics& intrinsics = (cameras.depth ? *cameras.depth : cameras.judged).intrinsics;
   width_ = intrinsics.width();
   height_ = intrinsics.height();
@@ -42,6 +44,11 @@ std::string DepthInput::decode(const KeptImage& image, DepthView& depth) {
                                  : decode_depth(*image.compressed, decoded_);
   if (fault) return *fault;
   depth = decoded_.view;
+  if (scale_) {
+    scaled_ = std::visit(
+        [this](const auto& view) { return shared_depth_of(copy_of(view), scale_); }, depth);
+    depth = scaled_.view;
+  }
   std::visit([this](const auto& view) { empty_ = std::decay_t<decltype(view)>(); }, depth);
   return {};
 }

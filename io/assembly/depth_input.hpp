@@ -32,7 +32,9 @@ class DepthInput {
   bool has_depth_;
   int width_, height_;  // of the depth images
   std::optional<DepthRegistration> registration_;
+  std::optional<double> scale_;  // metres per unit
   DecodedDepth decoded_;
+  SharedDepth scaled_;
   DepthView empty_;  // of the images' pixel type
 };
 

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
 #include <type_traits>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/stamps.hpp>
 
 #include <io/assembly/frame_assembler.hpp>
 #include <io/files/printable.hpp>
@@ -85,6 +89,38 @@ void FrameAssembler::follow_robot() {
   for (const auto& cloud : clouds_) cloud->refresh();
 }
 
+void FrameAssembler::note_sensor(std::int64_t stamp, double time_offset, std::int64_t now) {
+  if (stamp > 0) note_lag(stamp_after(stamp, std::llround(1e9 * time_offset)), now, sensor_lag_);
+}
+
+/// Compares the clocks of the sensors and of the joint states by when their messages arrive.
+std::string FrameAssembler::describe_clocks() const {
+  constexpr double longest_latency = 1.0;  // seconds that a driver may take for an image
+  constexpr double largest_offset = 10.0;  // of --time-offset
+  const auto& joint_lag = robot_.joint_lag();
+  if (!sensor_lag_ || !joint_lag) return {};
+  const double offset =
+      1e-9 * (static_cast<double>(*sensor_lag_) - static_cast<double>(*joint_lag));
+  if (std::abs(offset) < longest_latency) return {};
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(1);  // the latencies of both are part of it
+  text << "the stamps of joint states are " << std::abs(offset) << " s "
+       << (offset > 0 ? "after" : "before") << " the sensor's, by when both arrive: ";
+  if (std::abs(offset) > largest_offset)
+    text << "one of them is of another clock, as that of a simulation (use_sim_time)";
+  else
+    text << "change time_offset by about " << offset;
+  return text.str();
+}
+
+std::vector<std::string> FrameAssembler::notes() const {
+  std::vector<std::string> lines;
+  if (robot_.posed()) lines = robot_.posed()->refusals();
+  for (std::string& line : robot_.unused_topics()) lines.push_back(std::move(line));
+  if (std::string clocks = describe_clocks(); !clocks.empty()) lines.push_back(std::move(clocks));
+  return lines;
+}
+
 void FrameAssembler::finish() {
   for (const auto& camera : cameras_) camera->finish();
   for (const auto& cloud : clouds_) cloud->finish();
@@ -102,6 +138,10 @@ MessageHandler FrameAssembler::handler(std::size_t topic, F take) const {
 MessageHandler FrameAssembler::handler_of(std::size_t topic) {
   const InputTopic& from = topics_[topic];
   switch (from.role) {
+    case TopicRole::unused_joints:
+      return handler<JointStateMessage>(topic, [this, topic](const auto& state, const auto&, auto) {
+        robot_.take_unused(state, topics_[topic].name);
+      });
     case TopicRole::description:
       return handler<StringMessage>(topic, [this, topic](const auto& text, const auto&, auto) {
         robot_.take(text, topics_[topic].robot);
@@ -156,6 +196,7 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
 template <typename M>
 MessageHandler FrameAssembler::handler_of_clouds(std::size_t topic) {
   return handler<M>(topic, [this, topic](M& cloud, const auto& message, std::int64_t now) {
+    note_sensor(cloud.header.stamp, clouds_[topics_[topic].camera]->options().time_offset, now);
     const std::string fault = clouds_[topics_[topic].camera]->take(std::move(cloud), message, now);
     if (!fault.empty()) add_fault(topics_[topic].name, now, fault);
   });
@@ -186,6 +227,7 @@ MessageHandler FrameAssembler::handler_of_images(std::size_t topic) {
 
 void FrameAssembler::take_image(std::size_t topic, KeptImage image, std::int64_t now) {
   CameraInput& camera = *cameras_[topics_[topic].camera];
+  note_sensor(image.header().stamp, camera.options().time_offset, now);
   if (topics_[topic].role == TopicRole::depth)
     camera.take_depth(std::move(image), now);
   else

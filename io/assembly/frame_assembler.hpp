@@ -95,6 +95,8 @@ class FrameAssembler {
   [[nodiscard]] std::size_t camera_count() const { return cameras_.size(); }
   [[nodiscard]] const CameraInput& camera(std::size_t i) const { return *cameras_[i]; }
   [[nodiscard]] const MessageFaults& faults() const { return faults_; }
+  /// Returns what is wrong with the robot's messages, one line each.
+  [[nodiscard]] std::vector<std::string> notes() const;
   /// Counts a message of a topic with a fault that was found later.
   void add_fault(const std::string& topic, std::int64_t time, const std::string& what) {
     faults_.add(topic, time, what);
@@ -120,6 +122,8 @@ class FrameAssembler {
   void take_image(std::size_t topic, KeptImage image, std::int64_t now);
   void take_info(std::size_t topic, const CameraInfoMessage& info, std::int64_t now);
   void follow_robot();
+  void note_sensor(std::int64_t stamp, double time_offset, std::int64_t now);
+  [[nodiscard]] std::string describe_clocks() const;
 
   RobotInput robot_;
   std::vector<std::unique_ptr<CameraInput>> cameras_;
@@ -129,6 +133,7 @@ class FrameAssembler {
   std::vector<std::size_t> received_;     // likewise
   MessageFaults faults_;
   MessageSources sources_;
+  std::optional<std::int64_t> sensor_lag_;  // least time from a stamp to its arrival, nanoseconds
 };
 
 }  // namespace penumbra::io

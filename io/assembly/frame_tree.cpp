@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <io/assembly/frame_tree.hpp>
 
 namespace penumbra::io {
@@ -10,6 +12,11 @@ std::string_view frame_name(std::string_view name) {
 bool FrameTree::add(std::string_view parent, std::string_view child) {
   if (parents_.size() >= max_frames) return false;
   return parents_.emplace(frame_name(child), frame_name(parent)).second;
+}
+
+bool FrameTree::knows(std::string_view frame) const {
+  return has_parent(frame) ||
+         std::ranges::any_of(parents_, [&](const auto& edge) { return edge.second == frame; });
 }
 
 std::vector<std::string> FrameTree::chain(std::string_view frame) const {

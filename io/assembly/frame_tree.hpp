@@ -21,6 +21,7 @@ class FrameTree {
   bool add(std::string_view parent, std::string_view child);
 
   [[nodiscard]] bool has_parent(std::string_view frame) const { return parents_.contains(frame); }
+  [[nodiscard]] bool knows(std::string_view frame) const;
   /// Returns the frame and the frames above it, nearest first.
   [[nodiscard]] std::vector<std::string> chain(std::string_view frame) const;
   /// Returns whether two frames are connected.

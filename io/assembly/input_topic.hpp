@@ -10,6 +10,7 @@ namespace penumbra::io {
 enum class TopicRole {
   description,
   joints,
+  unused_joints,  ///< joint states that are not used: read for the names that they have
   transforms,
   static_transforms,
   depth,

@@ -30,8 +30,9 @@ struct CameraEvidence {
 struct JudgedCameras {
   Camera judged;
   std::optional<Camera> depth;
-  CameraInfoMessage info = {};  ///< of `judged`, as received
-  bool has_depth = true;        ///< false: the images are colour images
+  CameraInfoMessage info = {};             ///< of `judged`, as received
+  bool has_depth = true;                   ///< false: the images are colour images
+  std::optional<double> depth_scale = {};  ///< metres per unit; default: as shared_depth_of()
 };
 
 /// Returns the cameras. Throws InputError that names the topic if camera_of refuses it, or if a

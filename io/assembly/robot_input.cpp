@@ -5,6 +5,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/stamps.hpp>
 
+#include <io/assembly/arrivals.hpp>
 #include <io/assembly/robot_input.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/recording.hpp>
@@ -67,6 +68,7 @@ Robot robot_of(std::span<const RobotDescription> descriptions,
     RobotOptions own = options;
     own.extra = extra_of(options.extra, name);
     own.ignore_links = patterns_of(options.ignore_links, name);
+    own.joints = joints_of(options.joints, name);
     const Robot robot = Robot::parse(text, folder, own);
     robots.push_back(
         {name, robot, mount_of(name + "/" + robot.links().front(), static_transforms)});
@@ -142,7 +144,8 @@ MadeRobot make_robot(const RobotLoadRequest& request) {
   }
 }
 
-RobotInput::RobotInput(RobotInputOptions options) : options_(std::move(options)) {
+RobotInput::RobotInput(RobotInputOptions options)
+    : options_(std::move(options)), joint_names_(options_.joint_names) {
   for (const TransformMessage& t : options_.static_transforms)
     static_transforms_.emplace(t.child_frame_id, t);
   if (options_.given)
@@ -197,12 +200,18 @@ void RobotInput::retry_with_new_transforms() {
 
 void RobotInput::take(const JointStateMessage& message, const std::string& robot,
                       std::string_view source, std::int64_t now) {
-  if (!robot.empty()) {
+  if (!robot.empty() || !joint_names_.are_same()) {
     JointStateMessage named = message;
-    for (std::string& name : named.names) name = robot + "/" + name;
-    return take(named, {}, source, now);
+    const std::string prefix = robot.empty() ? "" : robot + "/";
+    for (std::string& name : named.names) name = prefix + joint_names_.joint_of(name);
+    return use(named, source, now);
   }
+  use(message, source, now);
+}
+
+void RobotInput::use(const JointStateMessage& message, std::string_view source, std::int64_t now) {
   last_joints_ = now;
+  note_lag(message.header.stamp, now, joint_lag_);
   last_stamp_ = message.header.stamp;
   if (!posed_) return;
   if (posed_->history.add_joints(message.header.stamp, message.names, message.positions, source) >
@@ -210,6 +219,22 @@ void RobotInput::take(const JointStateMessage& message, const std::string& robot
     last_used_joints_ = now;
   else
     unused_joints_ = why_unused(message, posed_->robot);
+}
+
+void RobotInput::take_unused(const JointStateMessage& message, const std::string& topic) {
+  if (!posed_) return;
+  for (const std::string& name : message.names)
+    if (const std::string joint = joint_names_.joint_of(name); posed_->robot.find_variable(joint))
+      topics_of_joints_.emplace(joint, topic);
+}
+
+std::vector<std::string> RobotInput::unused_topics() const {
+  std::vector<std::string> lines;
+  for (const auto& [joint, topic] : topics_of_joints_)
+    if (posed_ && !posed_->history.joints().newest_of({&joint, 1}))
+      lines.push_back("joint '" + printable(joint) + "' was never seen, but " + printable(topic) +
+                      " has it: name all topics of joint states by --joint-topic");
+  return lines;
 }
 
 void RobotInput::take(const TfMessage& message, bool is_static, std::string_view source,

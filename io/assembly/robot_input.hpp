@@ -18,6 +18,7 @@
 
 #include <io/assembly/attached_input.hpp>
 #include <io/assembly/frame_tree.hpp>
+#include <io/assembly/joint_names.hpp>
 #include <io/assembly/plan_input.hpp>
 #include <io/ros/messages.hpp>
 
@@ -59,7 +60,9 @@ struct RobotInputOptions {
   std::vector<std::string> names = {""};  ///< of the robots that are received
   RobotOptions robot = {};                ///< for robots that are received
   std::optional<Robot> given = {};        ///< used in place of received descriptions
-  bool compare_sources = true;            ///< see JointBufferOptions and TransformBufferOptions
+  /// The names that joint states have for the joints, if they differ: see JointNames.
+  std::string joint_names = {};
+  bool compare_sources = true;  ///< see JointBufferOptions and TransformBufferOptions
   /// Known before their messages, as from a bag; of one child frame the first one.
   std::vector<TransformMessage> static_transforms = {};
 };
@@ -112,6 +115,8 @@ class RobotInput {
   /// the joints' names, if there are several robots.
   void take(const JointStateMessage& message, const std::string& robot, std::string_view source,
             std::int64_t now);
+  /// Notes the joints of a topic that is not used.
+  void take_unused(const JointStateMessage& message, const std::string& topic);
   void take(const TfMessage& message, bool is_static, std::string_view source, std::int64_t now);
   /// Receives what is attached (`M`: AttachedObjectMessage, PlanningSceneMessage). Returns what
   /// cannot be drawn, one line, or nothing. `robot`: its name among several.
@@ -153,16 +158,22 @@ class RobotInput {
   [[nodiscard]] std::int64_t last_stamp() const { return last_stamp_; }  ///< of its states
   /// Returns when the last joint state arrived that had a position of this robot.
   [[nodiscard]] std::optional<std::int64_t> last_used_joints() const { return last_used_joints_; }
+  /// Returns which topics have joints that were never seen, one line each.
+  [[nodiscard]] std::vector<std::string> unused_topics() const;
+  /// Returns the least time from a joint state's stamp to its arrival, nanoseconds.
+  [[nodiscard]] const std::optional<std::int64_t>& joint_lag() const { return joint_lag_; }
   /// Returns why the last unused joint state was not used.
   [[nodiscard]] const std::string& unused_joints() const { return unused_joints_; }
 
  private:
   void replace(std::shared_ptr<PosedRobot> robot);
+  void use(const JointStateMessage& message, std::string_view source, std::int64_t now);
   void request_load();
   /// The places of several robots are made of static transforms.
   void retry_with_new_transforms();
 
   RobotInputOptions options_;
+  JointNames joint_names_;
   std::shared_ptr<PosedRobot> posed_;
   std::map<std::string, std::string> descriptions_;  // the last received one of each robot
   std::unique_ptr<const RobotLoadRequest> request_;
@@ -180,6 +191,8 @@ class RobotInput {
   std::size_t robots_ = 0;
   std::optional<std::int64_t> last_joints_, last_transforms_, last_used_joints_;
   std::string unused_joints_;
+  std::map<std::string, std::string> topics_of_joints_;  // that are not used, of each joint
+  std::optional<std::int64_t> joint_lag_;
 };
 
 }  // namespace penumbra::io

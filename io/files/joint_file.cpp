@@ -14,10 +14,10 @@ namespace {
 
 void check_known(const Robot& robot, const FrameTable& table, std::string_view name) {
   const auto& joints = robot.joints();
-  const bool is_mimic = std::any_of(joints.begin(), joints.end(), [&](const Joint& joint) {
-    return joint.mimics && joint.name == name;
+  const bool needs_none = std::any_of(joints.begin(), joints.end(), [&](const Joint& joint) {
+    return (joint.mimics || joint.is_held) && joint.name == name;
   });
-  if (is_mimic || robot.find_variable(name) || name == "stamp") return;
+  if (needs_none || robot.find_variable(name) || name == "stamp") return;
   const std::vector<std::string_view> known(robot.variables().begin(), robot.variables().end());
   throw InputError(table.header_place() + "column '" + printable(name) +
                    "' is no joint of the robot that moves" + near_names(name, known) +
@@ -32,7 +32,9 @@ std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const R
     check_known(robot, table, table.header()[i]);
   std::vector<std::size_t> columns;  // of each variable
   for (const std::string& variable : robot.variables())
-    columns.push_back(table.at(variable, "every joint of the robot that moves must have one"));
+    columns.push_back(table.at(variable,
+                               "every joint of the robot that moves must have one, or a position "
+                               "in recording.yaml (robot: joints: {NAME: VALUE})"));
   const auto stamp = table.find("stamp");
 
   std::vector<JointRow> rows;

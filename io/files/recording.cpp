@@ -58,6 +58,9 @@ RobotOptions robot_options_of(const YamlNode& robot, const std::filesystem::path
   }
   if (const YamlNode* links = robot.find("ignore_links")) options.ignore_links = links->texts();
   if (const YamlNode* links = robot.find("only_links")) options.only_links = links->texts();
+  if (const YamlNode* joints = robot.find("joints"))
+    for (const YamlNode& joint : joints->entries())
+      options.joints.emplace(joint.key(), joint.number());
   if (const YamlNode* margins = robot.find("margins"))
     for (const YamlNode& link : margins->entries())
       options.margins.emplace(link.key(), link.number());
@@ -73,8 +76,8 @@ RobotOptions robot_options_of(const YamlNode& robot, const std::filesystem::path
 }
 
 RecordedRobot robot_of(const YamlNode& robot, const std::filesystem::path& folder) {
-  robot.allow_only(
-      {"urdf", "packages", "geometry", "ignore_links", "only_links", "margins", "extra", "pose"});
+  robot.allow_only({"urdf", "packages", "geometry", "ignore_links", "only_links", "margins",
+                    "joints", "extra", "pose"});
   return {.name = {},
           .urdf = file_of(robot.at("urdf"), folder),
           .options = robot_options_of(robot, folder)};
@@ -351,6 +354,15 @@ std::vector<ExtraMesh> extra_of(const std::vector<ExtraMesh>& extra, const std::
   return own;
 }
 
+std::map<std::string, double> joints_of(const std::map<std::string, double>& joints,
+                                        const std::string& robot) {
+  const std::string prefix = robot.empty() ? "" : robot + "/";
+  std::map<std::string, double> own;
+  for (const auto& [joint, position] : joints)
+    if (joint.starts_with(prefix)) own.emplace(joint.substr(prefix.size()), position);
+  return own;
+}
+
 Robot load_robot(const std::vector<RecordedRobot>& robots) {
   if (robots.size() == 1 && robots.front().name.empty())
     return Robot::load(robots.front().urdf, robots.front().options);
@@ -373,6 +385,7 @@ RobotOptions Recording::robot_options() const {
     for (const auto& [link, margin] : options.margins) all.margins.emplace(prefix + link, margin);
     for (const auto& link : options.ignore_links) all.ignore_links.push_back(prefix + link);
     for (const auto& link : options.only_links) all.only_links.push_back(prefix + link);
+    for (const auto& [joint, at] : options.joints) all.joints.emplace(prefix + joint, at);
     for (const auto& extra : options.extra) all.extra.push_back({prefix + extra.link, extra.mesh});
   }
   return all;

@@ -40,6 +40,9 @@ struct RecordedRobot {
 /// as PATTERN. Of the only robot, which has no name, that is all.
 [[nodiscard]] std::vector<std::string> patterns_of(const std::vector<std::string>& patterns,
                                                    const std::string& robot);
+/// Returns the joints of one robot of several, likewise.
+[[nodiscard]] std::map<std::string, double> joints_of(const std::map<std::string, double>& joints,
+                                                      const std::string& robot);
 [[nodiscard]] std::vector<ExtraMesh> extra_of(const std::vector<ExtraMesh>& extra,
                                               const std::string& robot);
 

@@ -131,6 +131,7 @@ Json settings_json(const UsedSettings& used) {
                {"margins", std::move(margins)},
                {"extra", std::move(extras)},
                {"ignore_links", list(used.robot.ignore_links)},
+               {"joints", used.robot.joints},
                {"only_links", list(used.robot.only_links)}});
   return json;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -37,8 +38,12 @@ Robot load_robot(const InputOptions& options, const BagSceneReader& reader,
 }
 
 [[noreturn]] void refuse_mount(const InputOptions& options, const BagSceneReader& reader,
-                               const std::string& frame) {
+                               const Robot& robot, const std::string& frame) {
   std::string known;
+  const std::string prefix = likely_prefix(robot, reader.scene().frames, frame);
+  if (!prefix.empty() && prefix != options.bag.frame_prefix)
+    throw InputError(options.path.string() + ": in tf '" + printable(prefix) +
+                     "' stands before the links' names: give --frame-prefix " + printable(prefix));
   if (reader.topics().transforms.empty())
     known = ": the bag has no tf";
   else if (!reader.scene().frames.has_parent(frame))
@@ -72,7 +77,7 @@ CameraMount mount_in_bag(const InputOptions& options, BagSceneReader& reader, co
   // The camera is not on the robot, but both are below one frame.
   const std::string frame = mounted_frame(wanted, frame_of_images);
   if (!reader.scene().frames.connects(frame, options.bag.frame_prefix + robot.links().front()))
-    refuse_mount(options, reader, frame);
+    refuse_mount(options, reader, robot, frame);
   return mount_by_root(robot, wanted, frame_of_images);
 }
 
@@ -89,6 +94,7 @@ JudgedCameras cameras_of(const InputOptions& options, const BagTopics& topics,
         InfoOfImages{*scene.color_info, topics.color_info->name, topics.color->name});
   JudgedCameras cameras = judged_cameras(evidence);
   cameras.has_depth = topics.has_depth;
+  cameras.depth_scale = options.bag.depth_scale;
   return cameras;
 }
 
@@ -162,12 +168,15 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
                                      .mount = mount},
                           .static_transforms = scene.static_transforms,
                           .frame_prefix = options.bag.frame_prefix,
+                          .joint_names = options.bag.joint_names,
                           .compare_sources = !options.bag.first_publisher,
                           .time_offset = options.bag.time_offset,
                           .first = options.frames.first,
                           .end = options.frames.end,
                           .with_color = options.with_color};
   UsedBag used = used_bag(options, reader.topics(), mount, cameras.judged.frame_id);
+  std::vector<std::int64_t> numbers(reader.topics().depth.messages.value_or(0));
+  std::iota(numbers.begin(), numbers.end(), 0);
   PipelineConfig config;
   config.has_depth = reader.topics().has_depth;
   config.camera_parent = mount.parent;
@@ -179,6 +188,7 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
           .config = std::move(config),
           .beyond = {},
           .targets = {},
+          .frame_numbers = std::move(numbers),
           .target_history = options.bag.target_topics.empty() ? 0.0 : topic_target_history,
           .bag = std::move(used),
           .made_files = {},

@@ -296,6 +296,7 @@ BagRun::BagRun(const CloudRunOptions& options, const BagClouds& clouds)
       clouds_(clouds),
       bag_(open_bag(options.input.path)),
       assembler_({.given = clouds.robot,
+                  .joint_names = options.input.bag.joint_names,
                   .compare_sources = !options.input.bag.first_publisher,
                   .static_transforms = clouds.static_transforms},
                  {}, cloud_inputs(options, clouds)) {
@@ -408,8 +409,8 @@ CloudRunResult BagRun::run(const std::function<bool()>& go_on) {
   assembler_.finish();
   write_ready(now);
   result_.notes = bag_notes(options_.input.path.string(), *bag_, assembler_.faults());
-  for (const std::string& refusal : assembler_.robot().posed()->refusals())
-    result_.notes.push_back(options_.input.path.string() + ": " + refusal);
+  for (const std::string& line : assembler_.notes())
+    result_.notes.push_back(options_.input.path.string() + ": " + line);
   for (const SensorTuner& one : tuners_) result_.tunings.push_back(one.tuner.result());
   if (!writer_) return std::move(result_);
   writer_->close();

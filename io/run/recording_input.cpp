@@ -111,7 +111,8 @@ RunInput open_recording_input(const InputOptions& options) {
   std::vector<std::size_t> selected = select_frames(options.frames, reader);
   check_links(recording, robot, options.extra);
   std::vector<std::int64_t> numbers;
-  for (const std::size_t i : selected) numbers.push_back(reader.index(i));
+  for (std::size_t i = 0; i < reader.size(); ++i) numbers.push_back(reader.index(i));
+  std::ranges::sort(numbers);
   return {.robot_options = recording.robot_options(),
           .robot = std::move(robot),
           .camera = recording.camera.camera,
@@ -180,6 +181,7 @@ void InputOptions::apply_to(RobotOptions& robot, const std::string& name) const 
   robot.extra.insert(robot.extra.end(), own.begin(), own.end());
   const std::vector<std::string> ignored = patterns_of(ignore_links, name);
   robot.ignore_links.insert(robot.ignore_links.end(), ignored.begin(), ignored.end());
+  for (const auto& [joint, position] : joints_of(joints, name)) robot.joints[joint] = position;
 }
 
 std::vector<std::string> cameras_of(const std::filesystem::path& input) {

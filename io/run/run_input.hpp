@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,7 @@ struct InputOptions {
   std::vector<ExtraMesh> extra;       ///< likewise
   /// Likewise; of several robots, ROBOT/PATTERN.
   std::vector<std::string> ignore_links;
+  std::map<std::string, double> joints = {};  ///< likewise, ROBOT/JOINT
   bool needs_camera_pose = true;  ///< false: it may be unknown, and is then the identity
   bool needs_depth = false;       ///< true: a recording without depth images is an error
   FrameRange frames;
@@ -57,7 +59,7 @@ struct RunInput {
   PipelineConfig config;  ///< with what the input gives: camera's pose if not by tf, tolerance
   std::optional<BeyondMeans> beyond;
   std::optional<std::filesystem::path> targets;  ///< the input's own
-  std::vector<std::int64_t> frame_numbers = {};  ///< of a recording; empty: not known
+  std::vector<std::int64_t> frame_numbers = {};  ///< all, ascending; empty: not known
   double target_history = 0.0;  ///< PipelineConfig's, for targets that come with the frames
   std::optional<UsedBag> bag;
   /// Those of its files that tune and calibrate make, too: the camera's pose, parts.

@@ -218,7 +218,7 @@ std::string text_of_depth(const Refined& fit) {
   if (text.empty()) return text;
   text += ", more than depth cameras are";
   if (is_beyond(fit.state.depth_scale, scale, usual_scale))
-    text += ": multiply camera.depth_scale by " + number(1.0 / (1.0 + fit.state.depth_scale), 3);
+    text += ": multiply depth_scale by " + number(1.0 / (1.0 + fit.state.depth_scale), 3);
   return text;
 }
 

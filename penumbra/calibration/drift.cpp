@@ -35,7 +35,7 @@ std::string Drift::message() const {
   const std::string apart = text.data();
   std::string line;
   if (clocks_differ) {
-    std::snprintf(text.data(), text.size(), ": use --time-offset %.3f", time_offset.value);
+    std::snprintf(text.data(), text.size(), ": set time_offset to %.3f", time_offset.value);
     line = apart + text.data();
   }
   if (has_moved || camera_or_clocks) {

@@ -58,7 +58,7 @@ class Mistakes {
         Unit{0.25, "depth is in units of 0.25 mm", "0.00025"},
         Unit{10.0, "depth is in centimetres", "0.01"}};
     for (const Unit& unit : units)
-      add(Cause::depth_unit, std::string(unit.is) + ": give camera.depth_scale: " + unit.metres)
+      add(Cause::depth_unit, std::string(unit.is) + ": set depth_scale to " + unit.metres)
           .depth_factor = unit.factor;
   }
 
@@ -248,8 +248,8 @@ class Mistakes {
           if (2 * used < setup.frames.size()) return hypothesis;
           hypothesis.cause = Cause::joint_time;
           hypothesis.message = "images and joint states are about " +
-                               number(1e3 * std::abs(by), 0) + " ms apart: use --time-offset " +
-                               number(by, 3);
+                               number(1e3 * std::abs(by), 0) +
+                               " ms apart: of a bag or topics, set time_offset to " + number(by, 3);
           return hypothesis;
         });
   }

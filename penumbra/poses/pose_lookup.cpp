@@ -115,16 +115,29 @@ void PoseLookup::find_joints(const PoseHistory& history, std::int64_t stamp, Rob
   history.joints().at(stamp, joints_);
   follows_from_joints_ = true;
   if (joints_.status != JointStatus::ok) judge_unknown_joints(history.joints(), stamp, pose);
+  const bool is_in_tf = joints_.status != JointStatus::ok && is_moved_by_tf(history.transforms());
   pose.status = status_of(joints_.status);
   pose.age = joints_.age;
   if (pose.status != FrameStatus::ok) {
     pose.message = describe(robot_, joints_);
+    if (is_in_tf) pose.message += "; tf has its pose: set poses tf";
     return;
   }
   const bool has_mounts = !robot_.parts().empty() && history.transforms().knows(frames_[0]);
   if (has_mounts || !follows_from_joints_ || options_.source == PoseSource::both)
     robot_.forward_kinematics(joints_.positions, T_root_link_);
   if (has_mounts) find_mounts(history.transforms(), stamp, pose);
+}
+
+/// Returns whether TF has the pose of a floating or planar joint that was never seen.
+bool PoseLookup::is_moved_by_tf(const TransformBuffer& transforms) const {
+  return std::ranges::any_of(joints_.gaps, [&](const JointGap& gap) {
+    return std::ranges::any_of(robot_.joints(), [&](const Joint& joint) {
+      return gap.why == JointStatus::missing && joint.variable == gap.variable &&
+             (joint.type == JointType::floating || joint.type == JointType::planar) &&
+             transforms.knows(frames_[joint.child]);
+    });
+  });
 }
 
 /// Makes the links uncertain that unknown joints move, and the whole robot if one is disputed. If
@@ -145,7 +158,7 @@ void PoseLookup::judge_unknown_joints(const JointBuffer& joints, std::int64_t st
     take(dispute.variable, moves_needed_[dispute.variable] ? disputed : unknown);
   if (add_uncertain_links(robot_, lost_joints(robot_, unknown, disputed), camera_parent_,
                           pose.uncertain_links)) {
-    pose.uncertain_reason = describe(robot_, joints_);
+    pose.uncertain_reason = describe(robot_, joints_) + remedy_of(robot_, joints_);
     for (const JointGap& gap : gaps) joints_.positions[gap.variable] = rest_[gap.variable];
     joints_.status = JointStatus::ok;
     return;

@@ -55,6 +55,7 @@ class PoseLookup {
 
  private:
   void find_joints(const PoseHistory& history, std::int64_t stamp, RobotPose& pose);
+  [[nodiscard]] bool is_moved_by_tf(const TransformBuffer& transforms) const;
   void judge_unknown_joints(const JointBuffer& joints, std::int64_t stamp, RobotPose& pose);
   void find_links(const TransformBuffer& transforms, std::int64_t stamp, RobotPose& pose);
   void find_camera(const TransformBuffer& transforms, std::int64_t stamp, RobotPose& pose);

@@ -4,6 +4,7 @@
 #include <span>
 #include <sstream>
 
+#include <penumbra/base/stamps.hpp>
 #include <penumbra/poses/robot_pose.hpp>
 
 namespace penumbra {
@@ -30,14 +31,71 @@ std::string describe_disputes(const Robot& robot, std::span<const JointDispute> 
   return text.str();
 }
 
+std::string milliseconds(std::int64_t from, std::int64_t to) {
+  return std::to_string(stamp_distance(from, to) / 1'000'000) + " ms";
+}
+
+/// Returns 'a', 'b' and 3 more.
+std::string some_of(std::span<const std::string> names) {
+  constexpr std::size_t most_named = 3;
+  std::string text;
+  for (const std::string& name : names.first(std::min(names.size(), most_named)))
+    text += (text.empty() ? "'" : ", '") + name + "'";
+  if (names.size() > most_named)
+    text += " and " + std::to_string(names.size() - most_named) + " more";
+  return text;
+}
+
+/// Returns the text before and after the joints' names in the names that were received, or, if
+/// `is_longer`, the reverse, as the setting joint_names has it; empty if they differ otherwise.
+std::string common_pattern(std::span<const std::string> wanted,
+                           std::span<const std::string> received, bool is_longer) {
+  for (const std::string& name : received) {
+    const std::string& outer = is_longer ? wanted.front() : name;
+    const std::string& inner = is_longer ? name : wanted.front();
+    const std::size_t at = outer.find(inner);
+    if (at == std::string::npos || inner.empty() || outer.size() == inner.size()) continue;
+    const std::string before = outer.substr(0, at), after = outer.substr(at + inner.size());
+    const auto is_received = [&](const std::string& joint) {
+      if (!is_longer) return std::ranges::find(received, before + joint + after) != received.end();
+      if (joint.size() <= before.size() + after.size()) return false;
+      return joint.starts_with(before) && joint.ends_with(after) &&
+             std::ranges::find(received, joint.substr(before.size(), joint.size() - before.size() -
+                                                                         after.size())) !=
+                 received.end();
+    };
+    const std::string pattern = before + "*" + after;
+    if (std::ranges::all_of(wanted, is_received))
+      return is_longer ? "*=" + pattern : pattern + "=*";
+  }
+  return {};
+}
+
+/// Says which names the joint states have in place of the joints that were never seen.
+std::string describe_names(const Robot& robot, const JointAnswer& joints) {
+  std::vector<std::string> wanted;
+  for (const JointGap& gap : joints.gaps)
+    if (gap.why == JointStatus::missing && !gap.is_refused)
+      wanted.push_back(robot.variables()[gap.variable]);
+  if (wanted.empty() || joints.other_names.empty()) return {};
+  std::string text = "; the joint states also name " + some_of(joints.other_names);
+  for (const bool is_longer : {false, true})
+    if (std::string pattern = common_pattern(wanted, joints.other_names, is_longer);
+        !pattern.empty())
+      return text + ": set joint_names '" + pattern + "'";
+  return text;
+}
+
 /// Returns why a joint's position at a stamp is not known.
 std::string reason_of(const JointGap& gap, std::int64_t stamp) {
   if (gap.jump)
     return "jumps by " + std::to_string(*gap.jump) + " next to the stamp, more than it can move";
+  if (gap.is_refused) return "its positions are not finite";
   if (gap.why != JointStatus::stale) return "never seen";
   std::string text = "no position near the stamp";
+  if (gap.last_seen) text += ", the last is " + milliseconds(*gap.last_seen, stamp) + " older";
+  if (gap.next_seen) text += ", the next is " + milliseconds(stamp, *gap.next_seen) + " newer";
   if (!gap.last_seen) return text;
-  text += ", the last is " + std::to_string((stamp - *gap.last_seen) / 1'000'000) + " ms older";
   if (!gap.source.empty()) text += ", by " + gap.source + std::string(others_unused);
   return text;
 }
@@ -71,7 +129,7 @@ RobotPose pose_of(const Robot& robot, const JointAnswer& joints) {
   for (const JointGap& gap : joints.gaps) unknown.push_back(gap.variable);
   if (!joints.disputes.empty() || unknown.empty() || !leave_out(unknown, robot, 0, pose))
     return {.status = status_of(joints.status), .message = describe(robot, joints)};
-  pose.uncertain_reason = describe(robot, joints);
+  pose.uncertain_reason = describe(robot, joints) + remedy_of(robot, joints);
   return pose;
 }
 
@@ -153,16 +211,28 @@ std::string describe(const Robot& robot, const JointAnswer& joints) {
     const auto end = std::find_if(first, joints.gaps.end(), [&](const JointGap& gap) {
       return reason_of(gap, joints.stamp) != reason;
     });
-    constexpr std::ptrdiff_t most_named = 3;
-    text += (text.empty() ? "" : "; ") + std::string(end - first > 1 ? "joints" : "joint");
-    for (auto gap = first; gap < std::min(end, first + most_named); ++gap)
-      text += (gap == first ? " '" : ", '") + robot.variables()[gap->variable] + "'";
-    if (end - first > most_named)
-      text += " and " + std::to_string(end - first - most_named) + " more";
-    text += ": " + reason;
+    std::vector<std::string> names;
+    for (auto gap = first; gap < end; ++gap) names.push_back(robot.variables()[gap->variable]);
+    text += (text.empty() ? "joint" : "; joint") + std::string(names.size() > 1 ? "s " : " ") +
+            some_of(names) + ": " + reason;
     first = end;
   }
-  return text;
+  return text + describe_names(robot, joints);
+}
+
+std::string remedy_of(const Robot& robot, const JointAnswer& joints) {
+  std::vector<std::size_t> missing;
+  for (const JointGap& gap : joints.gaps)
+    if (gap.why == JointStatus::missing) missing.push_back(gap.variable);
+  if (missing.empty()) return {};
+  std::vector<bool> is_moved = lost_joints(robot, missing);
+  std::string links;
+  for (std::size_t link = 1; link < is_moved.size(); ++link) {
+    if (is_moved[robot.joints()[link - 1].parent]) is_moved[link] = true;
+    if (is_moved[link] && robot.report()[link].drawn)
+      links += (links.empty() ? "" : ",") + robot.links()[link];
+  }
+  return "; set joint " + robot.variables()[missing.front()] + "=VALUE, or ignore_links " + links;
 }
 
 }  // namespace penumbra

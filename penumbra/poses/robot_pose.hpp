@@ -98,6 +98,9 @@ struct RobotPose {
 /// Returns one line about missing, stale or disputed joints.
 [[nodiscard]] std::string describe(const Robot& robot, const JointAnswer& joints);
 
+/// Returns which settings do without joints that were never seen; empty if there are none.
+[[nodiscard]] std::string remedy_of(const Robot& robot, const JointAnswer& joints);
+
 /// Returns a pose by joint states. Links below missing or stale joints are uncertain; it is
 /// unknown, with the reason, if all joints are, or one is disputed.
 [[nodiscard]] RobotPose pose_of(const Robot& robot, const JointAnswer& joints);

@@ -9,6 +9,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
+#include <penumbra/base/text-inl.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/link_geometry-inl.hpp>
 #include <penumbra/robot/robot.hpp>
@@ -54,6 +55,50 @@ Isometry3d motion(const Joint& joint, std::span<const double> positions) {
   if (joint.type == JointType::prismatic)
     return pose_of(Matrix3d::Identity(), joint.axis * position);
   return pose_of(Eigen::AngleAxisd(position, joint.axis).toRotationMatrix(), Vector3d::Zero());
+}
+
+/// Returns the joint that an option holds at a position.
+const Joint& find_held(const std::string& file, const std::string& name, double position,
+                       const std::vector<Joint>& joints) {
+  constexpr double slack = 0.1;  // rad or m beyond a limit: positions in another unit are farther
+  const std::string what = file + ": joints: '" + name + "' ";
+  const auto found = std::ranges::find(joints, name, &Joint::name);
+  if (found == joints.end())
+    throw InputError(what + "is no joint of the robot; 'penumbra inspect' lists the joints");
+  const bool has_one = found->variable && !found->mimics && found->type != JointType::planar &&
+                       found->type != JointType::floating;
+  if (!has_one) throw InputError(what + "has no single position of its own");
+  const bool is_limited = found->lower && found->upper && *found->lower < *found->upper;
+  if (!std::isfinite(position) || std::abs(position) > 1e9 ||
+      (is_limited && (position < *found->lower - slack || position > *found->upper + slack)))
+    throw InputError(what + "is held at " + detail::printed(position) +
+                     (is_limited ? ", beyond its limits " + detail::printed(*found->lower) +
+                                       " to " + detail::printed(*found->upper)
+                                 : "") +
+                     "; expected radians or metres");
+  return *found;
+}
+
+/// Fixes joints, and those that mimic them, at given positions.
+void hold_joints(const std::string& file, const std::map<std::string, double>& positions,
+                 detail::RobotTree& tree) {
+  for (const auto& [name, position] : positions) {
+    const std::size_t variable = *find_held(file, name, position, tree.joints).variable;
+    std::vector<double> all(tree.variables.size());
+    all[variable] = position;
+    for (Joint& joint : tree.joints) {
+      if (joint.variable == variable) {
+        joint.origin = joint.origin * motion(joint, all);
+        joint.type = JointType::fixed;
+        joint.variable.reset();
+        joint.mimics = false;
+        joint.is_held = true;
+      } else if (joint.variable > variable) {
+        --*joint.variable;
+      }
+    }
+    tree.variables.erase(tree.variables.begin() + static_cast<std::ptrdiff_t>(variable));
+  }
 }
 
 void check_positions(const Robot& robot, std::span<const double> positions, std::size_t poses) {
@@ -148,6 +193,7 @@ std::unique_ptr<Robot::Model> Robot::make_model(std::string_view xml, const std:
                                                 const RobotOptions& options) {
   const detail::Urdf urdf = detail::read_urdf(xml, file);
   detail::RobotTree tree = detail::build_tree(urdf);
+  hold_joints(file, options.joints, tree);
   const auto choices = detail::choose_links(urdf, options);
   detail::GeometryLoader loader(folder, options);
 

@@ -38,6 +38,9 @@ struct RobotOptions {
   std::map<std::string, double> margins = {};  ///< pattern -> surface offset, metres, -1 to 1
   std::vector<ExtraMesh> extra = {};           ///< drawn even if their links are not
 
+  /// Joint -> position at which it is held, rad or m: it and the joints that mimic it do not move.
+  std::map<std::string, double> joints = {};
+
   /// Continue without meshes that cannot be read and links that have only the other geometry: these
   /// links are missing, in the report and in every frame.
   bool allow_missing_meshes = false;
@@ -80,6 +83,7 @@ struct Joint {
   double multiplier = 1.0;
   double offset = 0.0;
   bool mimics = false;
+  bool is_held = false;  ///< fixed by RobotOptions::joints, although it moves by the URDF
 };
 
 /// Returns the axes of a planar joint, in the joint's frame: x, y and the unit normal of the plane.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/stamps.hpp>
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double kLargestValue = 1e9;    // as forward_kinematics has it
 constexpr double kUnitTolerance = 0.01;  // of a quaternion's length
+constexpr std::size_t kMostOtherNames = 100;
 
 double shorter_turn(double from, double to) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -39,11 +41,14 @@ JointBuffer::JointBuffer(const Robot& robot, JointBufferOptions options)
       history_(span_nanoseconds(options.history, "joint buffer: history")),
       max_states_(options.max_states),
       rules_(robot.variables().size()),
-      rotation_of_(robot.variables().size()) {
+      rotation_of_(robot.variables().size()),
+      is_refused_(robot.variables().size()),
+      last_state_(robot.variables().size()) {
   if (max_states_ == 0) throw InputError("joint buffer: max_states is 0; expected at least 1");
   using Kind = JointRule::Kind;
   for (std::size_t i = 0; i < rules_.size(); ++i) index_.emplace(robot.variables()[i], i);
   for (const Joint& joint : robot.joints()) {
+    if (!joint.variable || joint.mimics) other_joints_.insert(joint.name);
     if (!joint.variable || joint.mimics) continue;
     JointRule& rule = rules_[*joint.variable];
     if (joint.velocity && joint.type != JointType::planar && joint.type != JointType::floating)
@@ -63,17 +68,26 @@ JointBuffer::JointBuffer(const Robot& robot, JointBufferOptions options)
 std::size_t JointBuffer::insert(std::int64_t stamp, std::span<const std::string> names,
                                 std::span<const double> positions, std::string_view source) {
   std::size_t taken = 0;
+  ++states_;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto at = index_.find(names[i]);
-    if (at == index_.end()) continue;
-    if (i >= positions.size() || !(std::abs(positions[i]) <= kLargestValue)) {
-      ++refused_values_;
+    if (at == index_.end()) {
+      note_other(names[i]);
       continue;
     }
     const std::size_t variable = at->second;
+    if (i >= positions.size() || !(std::abs(positions[i]) <= kLargestValue)) {
+      ++refused_values_;
+      is_refused_[variable] = true;
+      continue;
+    }
     ++taken;
+    const bool is_second = std::exchange(last_state_[variable], states_) == states_;
     if (!rotation_of_[variable]) {
-      tracks_[variable].put({stamp, positions[i]}, source);
+      if (is_second)
+        tracks_[variable].put({stamp, positions[i]}, std::string(source) + " in the same message");
+      else
+        tracks_[variable].put({stamp, positions[i]}, source);
       continue;
     }
     Rotation& rotation = rotations_[*rotation_of_[variable]];
@@ -85,6 +99,12 @@ std::size_t JointBuffer::insert(std::int64_t stamp, std::span<const std::string>
   newest_ = std::max(newest_.value_or(stamp), stamp);
   prune();
   return taken - std::min(taken, refused);
+}
+
+void JointBuffer::note_other(const std::string& name) {
+  if (other_names_.size() < kMostOtherNames && !other_joints_.contains(name) &&
+      std::ranges::find(other_names_, name) == other_names_.end())
+    other_names_.push_back(name);
 }
 
 void JointBuffer::set_part(Rotation& rotation, std::size_t part, std::int64_t stamp,
@@ -122,6 +142,7 @@ void JointBuffer::at(std::int64_t stamp, JointAnswer& answer) const {
   answer.disputes.clear();
   answer.age = 0;
   answer.stamp = stamp;
+  answer.other_names = {};
   answer.positions.resize(tracks_.size());
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (rotation_of_[i] || interpolate(i, stamp, answer)) continue;
@@ -138,8 +159,12 @@ void JointBuffer::at(std::int64_t stamp, JointAnswer& answer) const {
   add_disputes(stamp, answer);
   answer.status = answer.disputes.empty() ? JointStatus::ok : JointStatus::disputed;
   if (!answer.gaps.empty()) answer.status = JointStatus::stale;
-  for (const JointGap& gap : answer.gaps)
-    if (gap.why == JointStatus::missing) answer.status = JointStatus::missing;
+  for (JointGap& gap : answer.gaps) {
+    if (gap.why != JointStatus::missing) continue;
+    answer.status = JointStatus::missing;
+    answer.other_names = other_names_;
+    gap.is_refused = is_refused_[gap.variable];
+  }
 }
 
 bool JointBuffer::interpolate(std::size_t variable, std::int64_t stamp, JointAnswer& answer) const {
@@ -177,8 +202,10 @@ JointGap JointBuffer::gap_of(const AnyTrack& track, const Rule& rule, std::int64
     gap.jump = rule.distance(around.before->value, around.after->value);
   const auto* const believed = track.believed_at(stamp);
   if (believed == nullptr) return gap;
-  if (const auto before = believed->track.up_to(stamp); !before.empty())
-    gap.last_seen = before.back().stamp;
+  const auto before = believed->track.up_to(stamp);
+  const auto all = believed->track.states();
+  if (!before.empty()) gap.last_seen = before.back().stamp;
+  if (before.size() < all.size()) gap.next_seen = all[before.size()].stamp;
   if (track.has_several_sources()) gap.source = *believed->name;
   return gap;
 }

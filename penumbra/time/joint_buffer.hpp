@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,8 +36,10 @@ struct JointGap {
   std::size_t variable = 0;                ///< index into Robot::variables()
   JointStatus why = JointStatus::missing;  ///< missing: never seen; stale: no state near the stamp
   std::optional<std::int64_t> last_seen;   ///< stamp of its last state up to the stamp, nanoseconds
+  std::optional<std::int64_t> next_seen;   ///< of its first state after the stamp
   std::optional<double> jump;  ///< rad or m between the neighbouring states, if too large
   std::string source;          ///< the believed source, if there are several
+  bool is_refused = false;     ///< never seen, but for values that are not finite or too large
 };
 
 /// A variable for which two sources published different values near the requested stamp.
@@ -56,6 +59,9 @@ struct JointAnswer {
   std::vector<JointGap> gaps;          ///< empty if status is ok or disputed
   std::vector<JointDispute> disputes;  ///< empty if status is ok
   std::int64_t stamp = 0;              ///< for which it is, nanoseconds
+  /// Names in the states that are no joints of the robot, some of them; the buffer's, valid until
+  /// its next insert(). Empty if no variable is missing.
+  std::span<const std::string> other_names = {};
 };
 
 /// How a joint buffer compares and interpolates a variable's values.
@@ -118,7 +124,8 @@ class JointBuffer {
   /// Adds one joint state and returns the number of accepted values. Skips names that are not
   /// variables of the robot (mimic joints, other devices). Refuses and counts names without a
   /// position, values that are not finite or beyond +-1e9, and quaternions whose length differs
-  /// from 1 by more than 1 %. A second value of one source, joint and stamp replaces the first.
+  /// from 1 by more than 1 %. A second value of one source, joint and stamp replaces the first, but
+  /// one in the same state disputes it.
   /// `source`: a name of the publisher, the same for all its states.
   std::size_t insert(std::int64_t stamp, std::span<const std::string> names,
                      std::span<const double> positions, std::string_view source = {});
@@ -154,6 +161,7 @@ class JointBuffer {
     Eigen::Vector4d xyzw = Eigen::Vector4d::Zero();
   };
 
+  void note_other(const std::string& name);
   void set_part(Rotation& rotation, std::size_t part, std::int64_t stamp, std::string_view source,
                 double value);
   [[nodiscard]] std::size_t take_rotations(std::int64_t stamp, std::string_view source);
@@ -178,6 +186,11 @@ class JointBuffer {
   std::vector<std::optional<std::size_t>> rotation_of_;  // of each variable that is a part of one
   std::optional<std::int64_t> newest_;
   std::size_t refused_values_ = 0;
+  std::vector<bool> is_refused_;           // of each variable: a value of it was refused
+  std::vector<std::uint64_t> last_state_;  // of each variable: number of the state that had it
+  std::uint64_t states_ = 0;
+  std::set<std::string, std::less<>> other_joints_;  // of the robot: without a variable
+  std::vector<std::string> other_names_;             // of no joint
 };
 
 }  // namespace penumbra

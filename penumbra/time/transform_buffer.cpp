@@ -202,7 +202,14 @@ std::string TransformBuffer::no_chain(std::string_view target, std::string_view 
     return frames_[frame];
   };
   for (const std::string_view name : {source, target})
-    if (!find(name)) return which + frame_quoted(name) + " was never seen";
+    if (!find(name)) {
+      const auto has_prefix = [&](const FrameNode& frame) { return frame.name.ends_with(name); };
+      const auto other = std::ranges::find_if(frames_, has_prefix);
+      return which + frame_quoted(name) + " was never seen" +
+             (other == frames_.end() ? ""
+                                     : ", but " + frame_quoted(other->name) +
+                                           " was: set frame_prefix, or camera_frame");
+    }
   const FrameNode& above = root_of(source);
   const FrameNode& other = root_of(target);
   if (&above == &other)

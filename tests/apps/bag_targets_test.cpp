@@ -54,7 +54,7 @@ TEST_F(BagNamesTest, FramesOfARobotMayHaveAPrefix) {
   rename_frames([](const std::string& frame) {
     return frame == "base" || frame == "board" ? "left/" + frame : frame;
   });
-  expect_failed(run({"--poses", "tf"}), {"'optical'"});
+  expect_refused(run({"--poses", "tf"}), {"--frame-prefix left/"});
   for (const char* const prefix : {"left/", "/left/"})
     for (const char* const poses : {"joints", "tf", "both"}) {
       expect_has(succeed(run({"--poses", poses, "--frame-prefix", prefix})).out,

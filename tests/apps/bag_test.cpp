@@ -55,6 +55,64 @@ TEST_F(BagTest, AddsTheTimeOffsetToStamps) {
   EXPECT_EQ(report()["frames"][0]["stamp_ns"], tiny_stamp(0) - 400'000'000);
 }
 
+TEST_F(BagTest, NamesOfJointsThatDifferAreNamed) {
+  for (const auto& [name, pattern] : std::vector<std::pair<std::string, std::string>>{
+           {"left/slide", "left/*=*"}, {"slide_position", "*_position=*"}, {"lid", "*=s*e"}}) {
+    bag_.edit<io::JointStateMessage>("/joint_states",
+                                     [&](auto& state) { state.names.back() = name; });
+    const Outcome outcome = run();
+    if (name == "lid")
+      expect_failed(outcome, {"'slide'", "'lid'", "set joint_names '*=s*e'"});
+    else
+      expect_failed(outcome, {"'slide'", name, "set joint_names '" + pattern + "'"});
+    EXPECT_EQ(succeed(run({"--joint-names", pattern})).err, "");
+    expect_recorded_labels();
+  }
+  expect_refused(run({"--joint-names", "left"}), {"joint_names 'left'"});
+}
+
+TEST_F(BagTest, TopicsThatHaveAJointAreNamed) {
+  bag_.rename("/joint_states", "/arm/joint_states");
+  bag_.copy("/arm/joint_states", "/joint_states");
+  bag_.edit<io::JointStateMessage>("/joint_states", [](auto& state) {
+    state.names.assign(1, "lift"), state.positions.resize(1);
+  });
+  bag_.sort();
+  expect_failed(run(), {"'slide'", "'lift'", "/arm/joint_states has it", "--joint-topic"});
+  EXPECT_EQ(succeed(run({"--joint-topic", "/arm/joint_states"})).err, "");
+  expect_recorded_labels();
+}
+
+TEST_F(BagTest, ClocksThatDifferAreNamed) {
+  const auto shift = [&](std::int64_t by) {
+    bag_.edit<io::JointStateMessage>("/joint_states",
+                                     [&](auto& state) { state.header.stamp += by; });
+  };
+  shift(2'000'000'000);
+  expect_failed(run(), {"ms newer", "sensor's", "change time_offset by about 2.0"});
+  EXPECT_EQ(succeed(run({"--time-offset", "2"})).err, "");
+  shift(-4'000'000'000);
+  expect_failed(run(), {"ms older", "before", "change time_offset by about -2.0"});
+  shift(1'700'000'000'000'000'000);
+  expect_failed(run(), {"use_sim_time"});
+}
+
+TEST_F(BagTest, TheScaleOfDepthIsAnOption) {
+  std::vector<std::vector<std::byte>> scaled;
+  bag_.edit<io::ImageMessage>("/camera/depth/image_rect_raw", [&](auto& image) {
+    scaled.emplace_back(image.data.begin(), image.data.end());
+    for (std::size_t i = 0; i + 1 < scaled.back().size(); i += 2) {
+      const unsigned value = 10U * (std::to_integer<unsigned>(scaled.back()[i]) +
+                                    256U * std::to_integer<unsigned>(scaled.back()[i + 1]));
+      scaled.back()[i] = std::byte(value % 256U);
+      scaled.back()[i + 1] = std::byte(value / 256U);
+    }
+    image.data = scaled.back();
+  });
+  EXPECT_EQ(succeed(run({"--depth-scale", "0.0001"})).err, "");
+  expect_recorded_labels();
+}
+
 TEST_F(BagTest, FramesWithoutPoseAreFrames) {
   std::erase_if(bag_.messages, [](const auto& message) {
     return message.topic == "/joint_states" && message.log_time > tiny_stamp(1) - 200'000'000 &&

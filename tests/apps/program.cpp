@@ -7,6 +7,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <regex>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -58,6 +61,53 @@ Words operator+(Words first, const Words& second) {
   return first;
 }
 
+namespace {
+
+/// Returns the options of a command: all, or those that an input takes. A recording folder takes
+/// no options of bags.
+std::set<std::string> options_of(const std::string& command, bool is_folder) {
+  static std::map<std::string, std::string> helps;
+  auto help = helps.find(command);
+  if (help == helps.end()) {
+    helps[command];  // the call below asks for no help
+    helps[command] = penumbra({command, "--help"}).out;
+    help = helps.find(command);
+  }
+  const std::size_t bags = help->second.find("\nOf bags:");
+  std::set<std::string> options;
+  const std::regex option("\n  (?:-[a-zA-Z],)?(--[a-z0-9-]+)");
+  for (std::sregex_iterator found(help->second.begin(), help->second.end(), option), end;
+       found != end; ++found)
+    if (!is_folder || static_cast<std::size_t>(found->position()) < bags)
+      options.insert((*found)[1]);
+  return options;
+}
+
+/// Fails the test if stderr names an option ("--frame-prefix", or "set frame_prefix") that the
+/// command does not have. Options of others follow their names: 'penumbra calibrate --search'.
+void expect_remedies_exist(const Words& arguments, const std::string& err) {
+  if (arguments.size() < 2 || arguments[0].starts_with('-')) return;
+  const bool is_folder =
+      fs::is_directory(arguments[1]) && fs::exists(fs::path(arguments[1]) / "recording.yaml");
+  const std::regex remedy(
+      "penumbra ([a-z-]+)|(--[a-z][a-z0-9-]+)|\\b(?:set|change|multiply) ([a-z]+_[a-z_]+)");
+  std::string command = arguments[0];
+  for (std::sregex_iterator found(err.begin(), err.end(), remedy), end; found != end; ++found) {
+    if ((*found)[1].matched) {
+      command = (*found)[1];
+      continue;
+    }
+    std::string option = (*found)[2].matched ? (*found)[2].str() : "--" + (*found)[3].str();
+    std::ranges::replace(option, '_', '-');
+    const auto is_given = [&](const std::string& word) { return word.starts_with(option); };
+    if (std::ranges::any_of(arguments, is_given)) continue;
+    EXPECT_TRUE(options_of(command, is_folder && command == arguments[0]).contains(option))
+        << "penumbra " << command << " has no " << option << ": " << err;
+  }
+}
+
+}  // namespace
+
 Outcome penumbra(const Words& arguments, const Words& environment, const fs::path& program) {
   const TemporaryFolder folder;
   std::string command = "env";
@@ -67,8 +117,9 @@ Outcome penumbra(const Words& arguments, const Words& environment, const fs::pat
   command +=
       " </dev/null >" + quoted(folder.path() / "out") + " 2>" + quoted(folder.path() / "err");
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder.path() / "out"),
-          read_file(folder.path() / "err")};
+  const std::string err = read_file(folder.path() / "err");
+  if (program == PENUMBRA_PROGRAM) expect_remedies_exist(arguments, err);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder.path() / "out"), err};
 }
 
 double peak_memory_mb(const Words& arguments) {

@@ -210,6 +210,7 @@ TEST_F(RunTest, TheReportSaysByWhichRuleItWasMade) {
                   {"margins", Json::object()},
                   {"extra", Json::array()},
                   {"ignore_links", Json::array()},
+                  {"joints", Json::object()},
                   {"only_links", Json::array()}}));
 
   edit_file(path("recording.yaml"), "  parent:",

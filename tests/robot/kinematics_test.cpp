@@ -62,6 +62,43 @@ TEST(Kinematics, WhatIsNotGivenFollowsTheSpecification) {
   EXPECT_FALSE(one_joint("revolute", "").joints()[0].lower);
 }
 
+TEST(Kinematics, HeldJointsStandWhereTheyWouldMove) {
+  Random random = seeded_random(5);
+  std::size_t held = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    const std::string text =
+        urdf_text(random, random_robot(random, 2 + below(random, 20), kAllTypes));
+    const Robot free = parse(text);
+    std::vector<double> positions = free.rest_positions(), rest;
+    RobotOptions options;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const std::string& name = free.variables()[i];
+      const bool has_one = name.find('/') == std::string::npos;
+      if (has_one) positions[i] = uniform(random, -0.1, 0.1);
+      if (has_one && below(random, 2) == 0)
+        options.joints[name] = positions[i];
+      else
+        rest.push_back(positions[i]);
+    }
+    const Robot robot = Robot::parse(text, "", options);
+    held += options.joints.size();
+    ASSERT_EQ(robot.variables().size(), rest.size());
+    const auto moved = pose(free, positions), stands = pose(robot, rest);
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      EXPECT_TRUE(stands[i].isApprox(moved[i], kPoseTolerance)) << text;
+  }
+  EXPECT_GT(held, 100u);
+  const auto hold = [](const std::string& joint, double position) {
+    return Robot::parse(
+        robot_xml(link_xml("a") + link_xml("b") +
+                  joint_xml("j", "prismatic", "a", "b", "<limit lower=\"0\" upper=\"0.04\"/>")),
+        "", {.joints = {{joint, position}}});
+  };
+  EXPECT_TRUE(hold("j", 0.04).variables().empty());
+  expect_refused([&] { hold("j", 40.0); }, {"'j'", "40", "0.04"});
+  expect_refused([&] { hold("k", 0.0); }, {"'k'"});
+}
+
 TEST(Kinematics, ChainOf20000LinksNeedsNoStack) {
   constexpr std::size_t kLinks = 20000;
   std::string body = link_xml("l0");

@@ -294,11 +294,14 @@ class Fuzz {
     const auto states = oracle_.states.find(oracle_.names[i]);
     const bool missing = states == oracle_.states.end();
     EXPECT_EQ(gap->why, missing ? JointStatus::missing : JointStatus::stale);
-    std::optional<std::int64_t> last;
+    std::optional<std::int64_t> last, next;
     if (!missing)
-      for (const auto& [s, value] : states->second)
+      for (const auto& [s, value] : states->second) {
         if (s <= stamp) last = s;
+        if (s > stamp && !next) next = s;
+      }
     EXPECT_EQ(gap->last_seen, last);
+    EXPECT_EQ(gap->next_seen, next);
     return missing;
   }
 
@@ -308,6 +311,33 @@ class Fuzz {
   Oracle oracle_;
   std::size_t& answered_;
 };
+
+TEST(JointBuffer, ANameTwiceInOneStateIsDisputed) {
+  const Robot robot = every_kind();
+  for (const double second : {0.1, 0.5}) {
+    JointBuffer buffer(robot);
+    const std::vector<std::string> names{"j0", "j0"};
+    const std::vector<double> positions{0.1, second};
+    buffer.insert(kMaxGap, names, positions);
+    JointAnswer answer;
+    buffer.at(kMaxGap, answer);
+    EXPECT_EQ(answer.disputes.size(), second == 0.1 ? 0U : 1U);
+  }
+}
+
+TEST(JointBuffer, SaysWhatWasSeenInPlaceOfAJoint) {
+  const Robot robot = every_kind();
+  JointBuffer buffer(robot);
+  const std::vector<std::string> names{"left/j0", "j1"};
+  const std::vector<double> positions{0.1, std::nan("")};
+  buffer.insert(kMaxGap, names, positions);
+  JointAnswer answer;
+  buffer.at(kMaxGap, answer);
+  ASSERT_EQ(answer.other_names.size(), 1U);
+  EXPECT_EQ(answer.other_names[0], "left/j0");
+  for (const JointGap& gap : answer.gaps)
+    EXPECT_EQ(gap.is_refused, robot.variables()[gap.variable] == "j1");
+}
 
 TEST(JointBufferOracle, AgreesOnRandomStates) {
   Random random = seeded_random(7);

@@ -146,6 +146,11 @@ penumbra::RobotOptions declare_robot(Declaration& declare) {
   robot.ignore_links =
       declare("ignore_links", Texts{},
               "patterns of links that are not drawn; of several robots ROBOT/PATTERN");
+  for (const auto& [joint, position] :
+       declare.pairs("joints",
+                     "NAME=VALUE: joints that do not move, or whose position is not "
+                     "received, rad or m; of several robots ROBOT/NAME"))
+    robot.joints[joint] = to_number("joints", position);
   robot.only_links = declare("only_links", Texts{}, "if not empty: patterns of the links drawn");
   for (const auto& [link, metres] :
        declare.pairs("margins", "LINK=METRES: by how much links are drawn larger; patterns"))
@@ -167,6 +172,10 @@ penumbra::io::CameraInputOptions declare_poses(Declaration& declare,
       "where the poses of the links come from");
   live.robot.compare_sources = !declare(
       "first_publisher", false, "do not compare several publishers of one joint or transform");
+  live.robot.joint_names =
+      declare("joint_names", std::string(),
+              "the joints' names in joint states, if they differ: left/*=* if those begin with "
+              "left/");
   common.mount.frame_prefix =
       declare("frame_prefix", std::string(), "before link names in TF, as robot_state_publisher's");
   using penumbra::io::HiddenTargets;
@@ -258,6 +267,11 @@ bool declare_camera(rclcpp_lifecycle::LifecycleNode& node, Declaration& declare,
     if (info.empty()) camera.info_topic = camera.color_info_topic;
     camera.color_topic.clear();
   }
+  if (const double scale = declare.number(
+          "depth_scale", 0.0, 0.0, 1000.0,
+          "metres per unit of the depth images; 0: 0.001 for integers, 1 for floats");
+      scale > 0.0)
+    camera.depth_scale = scale;
   camera.is_rectified = declare(
       "rectified", false, "the images have no lens distortion, as those called image_rect...");
   return !camera.depth_topic.empty();
