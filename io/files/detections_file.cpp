@@ -7,8 +7,10 @@
 #include <exception>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include <nlohmann/json.hpp>
 
@@ -25,6 +27,7 @@ namespace penumbra::io {
 namespace {
 
 constexpr std::uint64_t most_json_bytes = FileLimit::data / 4;  // it takes several times as much
+constexpr std::size_t most_in_frame = 4096;
 
 using ClassNames = std::map<std::int64_t, std::string>;
 
@@ -36,6 +39,14 @@ std::string name_of(std::int64_t number, const ClassNames& names) {
 /// Detectors count from the edge of the first pixel, regions from its centre.
 PixelBox box_of(double x, double y, double width, double height) {
   return {x - 0.5, y - 0.5, width, height};
+}
+
+std::optional<double> score_of(double number) {
+  return number == -1.0 ? std::nullopt : std::optional(number);  // -1: none, as in MOT's files
+}
+
+std::string track_of(std::string_view text) {
+  return text == "-1" || text == "null" ? "" : std::string(text);
 }
 
 /// Returns the last number in a text: of "frame_000012.png" 12.
@@ -91,10 +102,34 @@ Region coco_region(const nlohmann::json& entry, const Intrinsics& images) {
   return box_of(box[0], box[1], box[2], box[3]);
 }
 
-std::int64_t coco_frame(const nlohmann::json& id,
-                        const std::map<std::string, std::int64_t>& frames) {
+/// An image of a data set.
+struct CocoImage {
+  std::int64_t frame = 0;
+  std::array<std::int64_t, 2> size{};  // width and height; 0: not known
+};
+using CocoImages = std::map<std::string, CocoImage>;  // by image_id
+
+CocoImages coco_images(const nlohmann::json& list) {
+  CocoImages images;
+  for (const nlohmann::json& image : list)
+    if (const auto number = last_number(image.at("file_name").get<std::string>()))
+      images.emplace(image.at("id").dump(), CocoImage{*number,
+                                                      {image.value("width", std::int64_t{0}),
+                                                       image.value("height", std::int64_t{0})}});
+  return images;
+}
+
+std::int64_t coco_frame(const nlohmann::json& id, const CocoImages& images,
+                        const Intrinsics& camera) {
   const std::string key = id.is_string() ? id.get<std::string>() : id.dump();
-  if (const auto named = frames.find(key); named != frames.end()) return named->second;
+  if (const auto named = images.find(key); named != images.end()) {
+    const auto [width, height] = named->second.size;
+    if (width > 0 && height > 0 && (width != camera.width() || height != camera.height()))
+      throw InputError("is of an image of " + std::to_string(width) + " x " +
+                       std::to_string(height) + "; expected boxes in the camera's image of " +
+                       std::to_string(camera.width()) + " x " + std::to_string(camera.height()));
+    return named->second.frame;
+  }
   if (const auto number = last_number(key)) return *number;
   throw InputError("has the image_id " + key + ", which holds no frame's number");
 }
@@ -102,25 +137,23 @@ std::int64_t coco_frame(const nlohmann::json& id,
 Detections read_coco(const std::filesystem::path& file, const Intrinsics& images,
                      ClassNames names) {
   const auto root = nlohmann::json::parse(read_whole_file(file, most_json_bytes));
-  std::map<std::string, std::int64_t> frames;  // by image_id
-  if (root.is_object()) {                      // a data set
+  CocoImages frames;
+  if (root.is_object()) {  // a data set
     for (const nlohmann::json& category : root.value("categories", nlohmann::json::array()))
       names.emplace(category.at("id").get<std::int64_t>(), category.at("name").get<std::string>());
-    for (const nlohmann::json& image : root.at("images"))
-      if (const auto number = last_number(image.at("file_name").get<std::string>()))
-        frames.emplace(image.at("id").dump(), *number);
+    frames = coco_images(root.at("images"));
   }
   Detections all;
   std::size_t number = 0;
   for (const nlohmann::json& entry : root.is_object() ? root.at("annotations") : root) {
     try {
-      Detection& found = all[coco_frame(entry.at("image_id"), frames)].emplace_back(
+      Detection& found = all[coco_frame(entry.at("image_id"), frames, images)].emplace_back(
           Detection{.category = name_of(entry.at("category_id").get<std::int64_t>(), names),
                     .track = {},
                     .region = coco_region(entry, images),
-                    .score = entry.value("score", 1.0)});
+                    .score = score_of(entry.value("score", -1.0))});
       if (const auto track = entry.find("track_id"); track != entry.end())
-        found.track = track->is_string() ? track->get<std::string>() : track->dump();
+        found.track = track_of(track->is_string() ? track->get<std::string>() : track->dump());
     } catch (const std::exception& error) {
       throw InputError("detection " + std::to_string(number) + " " + error.what());
     }
@@ -152,10 +185,10 @@ Detections read_table(const std::filesystem::path& file, const ClassNames& names
       if (category) found.category = row.cells[*category];
       if (const auto number = parse_number<std::int64_t>(found.category))
         found.category = name_of(*number, names);
-      if (track) found.track = row.cells[*track];
+      if (track) found.track = track_of(row.cells[*track]);
       if (name) found.track = row.cells[*name];
       if (name && !category) found.category = found.track;
-      if (score) found.score = table.number<double>(row, *score);
+      if (score) found.score = score_of(table.number<double>(row, *score));
       all[row.frame].push_back(std::move(found));
     } catch (const InputError& fault) {
       throw InputError(table.place(row.line) + fault.what());
@@ -194,7 +227,8 @@ std::int64_t whole(double number) {
   return static_cast<std::int64_t>(number);
 }
 
-Detections read_mot(const std::filesystem::path& file, const ClassNames& names) {
+Detections read_mot(const std::filesystem::path& file, const ClassNames& names,
+                    double first_frame) {
   Detections all;
   for_each_line(file, [&](const std::vector<double>& n) {
     if (n.size() < 6 || n.size() > 10)
@@ -202,40 +236,53 @@ Detections read_mot(const std::filesystem::path& file, const ClassNames& names) 
           "has " + std::to_string(n.size()) +
           " numbers; expected MOT's frame, track, x, y, width, height[, score[, class, "
           "...]]");
-    if (n[0] < 1) throw InputError("has the frame 0; the first frame of MOT is 1: add 1 to all");
+    if (n[0] < first_frame)
+      throw InputError(
+          "has the frame 0; the first frame of MOT is 1: add 1 to all, or write "
+          "first_frame: 0 in a targets.yaml");
     Detection found{.category = "object", .track = {}, .region = box_of(n[2], n[3], n[4], n[5])};
     if (n[1] >= 0) found.track = std::to_string(whole(n[1]));
-    if (n.size() > 6) found.score = n[6];
+    if (n.size() > 6) found.score = score_of(n[6]);
     // Files of ground truth and of several classes have the class here, others -1 or a position.
     if (n.size() > 7 && n.size() < 10) found.category = name_of(whole(n[7]), names);
-    all[whole(n[0]) - 1].push_back(std::move(found));  // the first frame is 1
+    all[whole(n[0])].push_back(std::move(found));
   });
   return all;
 }
 
+/// The sixth number is the score or, where scores were not saved, the track: a whole number from 1.
 Detections read_yolo(const FramePattern& files, const Intrinsics& images, const ClassNames& names) {
   Detections all;
+  double most = 1.0;
+  bool are_whole = true;
   for (const std::int64_t index : files.existing())
     for_each_line(files.file(index), [&](const std::vector<double>& n) {
       if (n.size() < 5 || n.size() > 7)
         throw InputError("has " + std::to_string(n.size()) +
                          " numbers; expected YOLO's class, x, y, width, height[, score[, track]]");
-      if (n[1] < 0 || n[1] > 1 || n[2] < 0 || n[2] > 1)
-        throw InputError("has a centre outside of 0 to 1; YOLO's boxes are in shares of the image");
+      if (std::any_of(n.begin() + 1, n.begin() + 5, [](double x) { return x < 0 || x > 1; }))
+        throw InputError("has a box outside of 0 to 1; YOLO's boxes are in fractions of the image");
       const double width = n[3] * images.width(), height = n[4] * images.height();
       Detection found{.category = name_of(whole(n[0]), names),
                       .track = {},
                       .region = box_of(n[1] * images.width() - 0.5 * width,
                                        n[2] * images.height() - 0.5 * height, width, height)};
-      if (n.size() > 5) found.score = n[5];
+      if (n.size() > 5) found.score = score_of(n[5]);
       if (n.size() > 6) found.track = std::to_string(whole(n[6]));
+      if (n.size() == 6) most = std::max(most, n[5]);
+      if (n.size() != 5 && (n.size() == 7 || n[5] != std::floor(n[5]))) are_whole = false;
       all[index].push_back(std::move(found));
     });
+  if (!are_whole || most == 1.0) return all;
+  for (auto& [index, found] : all)
+    for (Detection& detection : found)
+      if (const auto track = std::exchange(detection.score, {}))
+        detection.track = std::to_string(whole(*track));
   return all;
 }
 
 Detections read_any(const std::string& name, const std::filesystem::path& folder,
-                    const Intrinsics& images, const ClassNames& names) {
+                    const Intrinsics& images, const ClassNames& names, double first_frame) {
   if (name.find('%') != std::string::npos) {
     const FramePattern files(name, folder);
     if (files.existing().empty()) throw InputError(name + ": no file of that name for any frame");
@@ -244,7 +291,7 @@ Detections read_any(const std::string& name, const std::filesystem::path& folder
   const std::filesystem::path file = folder / name;
   const std::string ending = file.extension().string();
   if (ending == ".csv") return read_table(file, names);
-  if (ending == ".txt") return read_mot(file, names);
+  if (ending == ".txt") return read_mot(file, names, first_frame);
   if (ending != ".json")
     throw InputError(
         file.string() +
@@ -260,19 +307,75 @@ Detections read_any(const std::string& name, const std::filesystem::path& folder
   }
 }
 
+/// Refuses what no detector means.
+void check(const std::string& file, const Detections& all) {
+  bool is_fraction = true;
+  for (const auto& [index, found] : all) {
+    const std::string frame = file + ": frame " + std::to_string(index) + " ";
+    if (found.size() > most_in_frame)
+      throw InputError(frame + "has " + std::to_string(found.size()) +
+                       " detections; at most 4096 are read: raise the detector's least score");
+    std::set<std::pair<std::string_view, std::string_view>> tracks;
+    for (const Detection& one : found) {
+      if (!one.category.empty()) check_name(one.category);
+      if (!one.track.empty()) check_name(one.track);
+      if (!one.track.empty() && !tracks.emplace(one.category, one.track).second)
+        throw InputError(frame + "has the track '" + one.track +
+                         "' twice; expected one box of each track "
+                         "(a table's column of classes is called class)");
+      const auto* const box = std::get_if<PixelBox>(&one.region);
+      is_fraction = is_fraction && box != nullptr && box->u + box->width <= 0.5 &&
+                    box->v + box->height <= 0.5;
+    }
+  }
+  if (is_fraction)
+    throw InputError(file +
+                     ": all boxes lie within the first pixel: they are in fractions of the "
+                     "image; expected pixels");
+}
+
 }  // namespace
 
 Detections read_detections(const std::string& file_or_pattern, const std::filesystem::path& folder,
                            const Intrinsics& images,
-                           const std::map<std::int64_t, std::string>& names) {
-  Detections all = read_any(file_or_pattern, folder, images, names);
-  if (all.empty()) throw InputError(file_or_pattern + ": holds no detection");
-  for (const auto& [index, found] : all)
-    for (const Detection& detection : found) {
-      if (!detection.category.empty()) check_name(detection.category);
-      if (!detection.track.empty()) check_name(detection.track);
-    }
+                           const std::map<std::int64_t, std::string>& names,
+                           std::int64_t first_frame) {
+  Detections read =
+      read_any(file_or_pattern, folder, images, names, static_cast<double>(first_frame));
+  if (read.empty()) throw InputError(file_or_pattern + ": holds no detection");
+  check(file_or_pattern, read);
+  if (first_frame == 0) return read;
+  Detections all;
+  for (auto& [index, found] : read) all.emplace(index - first_frame, std::move(found));
   return all;
+}
+
+std::int64_t usual_first_frame(const std::string& file_or_pattern) {
+  return file_or_pattern.ends_with(".txt") && file_or_pattern.find('%') == std::string::npos ? 1
+                                                                                             : 0;
+}
+
+std::string doubt_of(const Detections& all, const Intrinsics& images) {
+  constexpr double much =
+      0.1;  // of the image; boxes that are predicted whole may end a bit outside
+  const double width = images.width(), height = images.height();
+  std::size_t boxes = 0, outside = 0, corners = 0;
+  for (const auto& [index, found] : all)
+    for (const Detection& one : found) {
+      const auto* const box = std::get_if<PixelBox>(&one.region);
+      if (box == nullptr) continue;
+      const double right = box->u + box->width, bottom = box->v + box->height;
+      ++boxes;
+      outside += box->u < -much * width || box->v < -much * height || right > (1 + much) * width ||
+                 bottom > (1 + much) * height;
+      corners += box->width > box->u && box->height > box->v && box->width <= width &&
+                 box->height <= height;
+    }
+  if (outside == 0 || (2 * outside <= boxes && corners < boxes)) return {};
+  return std::to_string(outside) + " of " + std::to_string(boxes) +
+         " boxes end outside of the image of " + std::to_string(images.width()) + " x " +
+         std::to_string(images.height()) + ": are they of another size of the image" +
+         (corners == boxes ? ", or x0, y0, x1, y1 in place of x, y, width, height?" : "?");
 }
 
 bool is_detections_name(const std::filesystem::path& file) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <unordered_map>
@@ -31,7 +32,11 @@ struct TargetSource {
 struct DetectedClass {
   RegionTarget region = {.region = {}, .extent = Extent::modal};
   Target settings = {};
-  double min_score = 0.0;
+  std::optional<double> min_score = {};
+
+  [[nodiscard]] bool takes(const Detection& detection) const {
+    return !min_score || !detection.score || *detection.score >= *min_score;
+  }
 };
 
 namespace {
@@ -157,6 +162,39 @@ DetectedClass class_of(const YamlNode& node, const TargetsContext& context) {
   return found;
 }
 
+const DetectedClass* class_of(const Detection& detection,
+                              const std::map<std::string, DetectedClass>& classes) {
+  auto found = classes.find(detection.category);
+  if (found == classes.end()) found = classes.find("*");
+  return found == classes.end() ? nullptr : &found->second;
+}
+
+/// Says where the least score decides nothing, or too much.
+void check_scores(const YamlNode& node, const Detections& detections,
+                  const std::map<std::string, DetectedClass>& classes,
+                  std::vector<std::string>& notes) {
+  std::size_t limited = 0, unscored = 0, taken = 0;
+  double most = 0.0, limit = 0.0;
+  for (const auto& [index, found] : detections)
+    for (const Detection& detection : found) {
+      const DetectedClass* const settings = class_of(detection, classes);
+      if (settings == nullptr) continue;
+      taken += settings->takes(detection);
+      if (!settings->min_score) continue;
+      ++limited;
+      unscored += !detection.score;
+      limit = std::max(limit, *settings->min_score);
+      most = std::max(most, detection.score.value_or(0.0));
+    }
+  if (taken == 0) node.fail("no detection has the score that its class wants (min_score)");
+  if (unscored > 0)
+    notes.push_back(std::to_string(unscored) + " of " + std::to_string(limited) +
+                    " detections have no score: min_score leaves none of them out");
+  if (most > 1.0 && limit <= 1.0 && limit > 0.0)
+    notes.push_back("scores reach " + std::to_string(most) +
+                    ", and min_score is at most 1: are they percentages?");
+}
+
 /// Refuses classes without a detection: their names may be missing in `names`.
 void check_classes(const YamlNode& node, const Detections& detections,
                    const std::map<std::string, DetectedClass>& classes) {
@@ -206,7 +244,19 @@ struct TargetsFile::State {
   std::vector<TargetSource> sources;
   Detections detections;
   std::map<std::string, DetectedClass> classes;  // "*": all others
+  std::int64_t first_frame = 0;                  // of the detections
+  bool is_first_given = false;
+  std::vector<std::string> notes;
   double history = 0.0;
+
+  void read_detections_of(const std::string& name, const std::filesystem::path& folder,
+                          const TargetsContext& context,
+                          const std::map<std::int64_t, std::string>& names) {
+    if (!is_first_given) first_frame = usual_first_frame(name);
+    detections = read_detections(name, folder, context.images, names, first_frame);
+    if (std::string doubt = doubt_of(detections, context.images); !doubt.empty())
+      notes.push_back(name + ": " + doubt);
+  }
 };
 
 TargetsFile::TargetsFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -218,19 +268,22 @@ TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsCo
   auto state = std::make_unique<State>();
   state->file = file;
   if (is_detections_name(file)) {
-    state->detections = read_detections(file, {}, context.images, {});
+    state->read_detections_of(file, {}, context, {});
     state->classes.emplace("*", class_of({}, context));
     return TargetsFile(std::move(state));
   }
   const YamlNode root = YamlNode::read(file);
-  root.allow_only({"image", "history", "targets", "detections", "names", "classes"});
+  root.allow_only({"image", "history", "targets", "detections", "first_frame", "names", "classes"});
   check_image(root, context);
   if (const YamlNode* detections = root.find("detections")) {
     std::map<std::int64_t, std::string> names;
     if (const YamlNode* given = root.find("names")) names = class_names_of(*given);
-    state->detections = detections->with_context([&] {
-      return read_detections(detections->text(), file.parent_path(), context.images, names);
-    });
+    if (const YamlNode* first = root.find("first_frame")) {
+      state->first_frame = first->integer();
+      state->is_first_given = true;
+    }
+    detections->with_context(
+        [&] { state->read_detections_of(detections->text(), file.parent_path(), context, names); });
     const YamlNode* const classes = root.find("classes");
     if (classes == nullptr)
       state->classes.emplace("*", class_of({}, context));
@@ -238,8 +291,9 @@ TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsCo
       for (const YamlNode& node : classes->entries())
         state->classes.emplace(node.key(), class_of(node, context));
     check_classes(*detections, state->detections, state->classes);
+    check_scores(*detections, state->detections, state->classes, state->notes);
   } else {
-    for (const char* const key : {"names", "classes"})
+    for (const char* const key : {"first_frame", "names", "classes"})
       if (const YamlNode* found = root.find(key)) found->fail("is for detections; name their file");
   }
   ValueTables tables;
@@ -271,27 +325,48 @@ std::vector<Target> TargetsFile::of_frame(std::int64_t index) const {
   if (found == state_->detections.end()) return targets;
   std::map<std::string, std::size_t> numbers;  // by class
   for (const Detection& detection : found->second) {
-    auto settings = state_->classes.find(detection.category);
-    if (settings == state_->classes.end()) settings = state_->classes.find("*");
-    if (settings == state_->classes.end() || !(detection.score >= settings->second.min_score))
-      continue;
-    targets.push_back(target_of(settings->second, detection, ++numbers[detection.category]));
+    const DetectedClass* const settings = class_of(detection, state_->classes);
+    if (settings != nullptr && settings->takes(detection))
+      targets.push_back(target_of(*settings, detection, ++numbers[detection.category]));
   }
   return targets;
 }
 
-void TargetsFile::check_frames(std::span<const std::int64_t> frames) const {
-  const auto has_detections = [&](std::int64_t frame) {
-    return state_->detections.contains(frame);
+void TargetsFile::check_frames(std::span<const std::int64_t> frames) {
+  if (state_->detections.empty()) return;
+  const auto lacking = [&](std::int64_t shift) {
+    std::size_t count = 0;
+    for (const auto& [index, found] : state_->detections)
+      if (!std::ranges::binary_search(frames, index + shift)) count += found.size();
+    return count;
   };
-  if (state_->detections.empty() || std::ranges::any_of(frames, has_detections)) return;
+  const std::size_t missing = lacking(0);
+  if (missing == 0) return;
   const auto by_number = [](const auto& a, const auto& b) { return a.first < b.first; };
   const auto [first, last] = std::ranges::minmax_element(state_->detections, by_number);
-  throw InputError(state_->file.string() + ": has detections in the frames " +
-                   std::to_string(first->first) + " to " + std::to_string(last->first) +
-                   ", and none in a frame of this recording; are they of other images?");
+  const auto span = [](std::int64_t a, std::int64_t b) {
+    return std::to_string(a) + " to " + std::to_string(b);
+  };
+  const std::string file = state_->file.string() + ": ";
+  const std::string has = "has detections in the frames " + span(first->first, last->first);
+  const std::string recording =
+      ", the recording has the frames " + span(frames.front(), frames.back());
+  for (const std::int64_t by : {-1, 1})
+    if (!state_->is_first_given && lacking(by) == 0)
+      throw InputError(file + has + recording +
+                       ": write a targets.yaml with detections: FILE and " +
+                       "first_frame: " + std::to_string(state_->first_frame - by) +
+                       ", the file's number of frame 0 (or " + std::to_string(state_->first_frame) +
+                       ", if they are right as they are)");
+  if (std::ranges::none_of(state_->detections, [&](const auto& of) {
+        return std::ranges::binary_search(frames, of.first);
+      }))
+    throw InputError(file + has + recording + "; are they of other images?");
+  state_->notes.push_back(file + std::to_string(missing) +
+                          " detections are of frames that do not exist: it " + has + recording);
 }
 
+const std::vector<std::string>& TargetsFile::notes() const { return state_->notes; }
 const std::filesystem::path& TargetsFile::file() const { return state_->file; }
 std::size_t TargetsFile::size() const { return state_->sources.size(); }
 double TargetsFile::history() const { return state_->history; }

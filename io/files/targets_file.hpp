@@ -41,8 +41,12 @@ class TargetsFile {
   TargetsFile(TargetsFile&&) noexcept;
   TargetsFile& operator=(TargetsFile&&) noexcept;
 
-  /// Throws InputError if the file has detections, but none in these frames.
-  void check_frames(std::span<const std::int64_t> frames) const;
+  /// Compares the detections' frames with those of the recording, ascending. Throws InputError if
+  /// none is of these frames, or all are only if they are numbered from another frame.
+  void check_frames(std::span<const std::int64_t> frames);
+
+  /// Returns what is doubtful about the detections, one line each.
+  [[nodiscard]] const std::vector<std::string>& notes() const;
 
   /// Returns all targets in the file's order, then those of the frame's detections. A target
   /// without a valid value in this frame has a fault and no shape.

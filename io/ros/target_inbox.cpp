@@ -32,8 +32,9 @@ TargetHandling handling_of(const TargetShape& shape, HiddenTargets hidden) {
   return PointTrackerConfig{.motion = PointMotion::constant_velocity};
 }
 
+/// Detectors count from the edge of the first pixel, regions from its centre.
 Region region_of(const BoundingBox2D& box) {
-  const Eigen::Vector2d& centre = box.centre.position;
+  const Eigen::Vector2d centre = box.centre.position - Eigen::Vector2d(0.5, 0.5);
   const Eigen::Vector2d half(box.size_x / 2, box.size_y / 2);
   if (box.centre.theta == 0)
     return PixelBox{centre.x() - half.x(), centre.y() - half.y(), box.size_x, box.size_y};
@@ -121,6 +122,11 @@ void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& m
     auto& shape = all[i]->shape.emplace<RegionTarget>();
     shape.region = region_of(message.detections[i].bbox);
     shape.extent = Extent::modal;
+    const BoundingBox2D& box = message.detections[i].bbox;
+    if (box.centre.position.maxCoeff() <= 1 && std::max(box.size_x, box.size_y) <= 1)
+      all[i]->fault =
+          "its box lies within the first pixel: is it in fractions of the image? "
+          "Expected pixels";
   }
 }
 

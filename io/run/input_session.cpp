@@ -75,6 +75,7 @@ RunResult InputSession::run(RunOutput& output, const std::function<bool()>& go_o
   RunResult result;
   judge_frames(output, go_on, result);
   append(result.notes, source_->notes());
+  if (targets_) append(result.notes, targets_->notes());
   append(result.notes, session_.warnings());
   if (!result.device_fault.empty()) result.notes.push_back(result.device_fault);
   append(result.notes, output.notes());

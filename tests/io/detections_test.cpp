@@ -19,7 +19,8 @@ using test::expect_refused;
 class DetectionsTest : public testing::Test {
  protected:
   [[nodiscard]] Detections read(const std::string& name) const {
-    return read_detections(name, folder_.path(), images(), {{39, "bottle"}});
+    return read_detections(name, folder_.path(), images(), {{39, "bottle"}},
+                           usual_first_frame(name));
   }
   [[nodiscard]] Detections read(const std::string& name, const std::string& text) const {
     folder_.write(name, text);
@@ -122,7 +123,7 @@ TEST_F(DetectionsTest, ClassesSayHowTheyAreJudged) {
                 "detections: d.csv\nnames: {39: bottle}\nclasses:\n"
                 "  bottle: {height: 0.25, thickness: 0.07, min_score: 0.5, handling: {point: {}}}\n"
                 "  cup:\n");
-  const TargetsFile file = open("t.yaml");
+  TargetsFile file = open("t.yaml");
   const std::vector<Target> targets = file.of_frame(0);
   ASSERT_EQ(targets.size(), 2U) << "no person, and no score of 0.2";
   EXPECT_EQ(targets[0].name, "bottle_7");
@@ -137,9 +138,127 @@ TEST_F(DetectionsTest, ClassesSayHowTheyAreJudged) {
   EXPECT_EQ(file.of_frame(2).size(), 1U);
   EXPECT_EQ(open("d.csv").of_frame(0).size(), 4U) << "a detector's file alone";
 
-  const std::int64_t known[] = {1, 2}, others[] = {7};
-  file.check_frames(known);
+  EXPECT_TRUE(file.notes().empty());
+  const std::int64_t others[] = {7};
   expect_refused([&] { file.check_frames(others); }, {"t.yaml", "0 to 2"});
+}
+
+TEST_F(DetectionsTest, BoxesOfAnotherImageAreRefused) {
+  const auto coco = [](const std::string& size, const std::string& box) {
+    return R"({"images": [{"id": 1, "file_name": "4.png")" + size +
+           R"(}], "categories": [], "annotations": [{"image_id": 1, "category_id": 1, "bbox": )" +
+           box + "}]}";
+  };
+  EXPECT_EQ(read("a.json", coco(R"(, "width": 70, "height": 50)", "[10, 20, 14, 15]")).size(), 1U);
+  EXPECT_EQ(read("a.json", coco("", "[10, 20, 14, 15]")).size(), 1U);
+  for (const std::string size :
+       {R"(, "width": 140, "height": 100)", R"(, "width": 64, "height": 64)"})
+    expect_refused([&] { static_cast<void>(read("a.json", coco(size, "[10, 20, 14, 15]"))); },
+                   {"a.json", "70 x 50"});
+  for (const auto& [name, text] : std::initializer_list<std::array<std::string, 2>>{
+           {"a.json", coco("", "[0.1, 0.2, 0.14, 0.15]")},
+           {"a.csv", "frame,x0,y0,x1,y1\n0,0.1,0.2,0.24,0.35\n1,0.5,0.5,1,1\n"},
+           {"a.txt", "1,-1,0.1,0.2,0.14,0.15\n"}})
+    expect_refused([&] { static_cast<void>(read(name, text)); }, {name, "fractions"});
+  // Degenerate boxes of single frames are those frames' matter.
+  EXPECT_EQ(read("a.csv", "frame,x0,y0,x1,y1\n0,0,0,0,0\n1,5,5,9,9\n").size(), 2U);
+}
+
+TEST_F(DetectionsTest, BoxesOutsideOfTheImageAreNoted) {
+  const auto doubt = [&](const std::string& rows) {
+    return doubt_of(read("a.csv", "frame,x0,y0,x1,y1\n" + rows), images());
+  };
+  EXPECT_EQ(doubt("0,10,20,24,35\n1,-9,20,24,35\n"), "") << "partly outside, as amodal boxes are";
+  EXPECT_NE(doubt("0,100,20,124,35\n1,10,20,150,90\n").find("2 of 2"), std::string::npos);
+  // Corners in place of width and height: [30, 20, 60, 45].
+  EXPECT_NE(doubt("0,30,20,90,65\n1,5,5,15,16\n2,6,5,16,17\n").find("x0, y0, x1, y1"),
+            std::string::npos);
+}
+
+TEST_F(DetectionsTest, AScoreOfMinusOneIsNone) {
+  for (const auto& [name, text] : std::initializer_list<std::array<std::string, 2>>{
+           {"d.txt", "1,7,10,20,14,15,-1,-1,-1,-1\n"},
+           {"d.csv", "frame,track,x0,y0,x1,y1,score\n0,7,10,20,24,35,-1\n"},
+           {"d.json",
+            R"([{"image_id": 0, "category_id": 1, "bbox": [10, 20, 14, 15], "score": -1,
+                 "track_id": null}])"}}) {
+    EXPECT_FALSE(read(name, text).at(0).front().score) << name;
+    EXPECT_EQ(open(name).of_frame(0).size(), 1U) << name;
+  }
+  EXPECT_EQ(read("d.json").at(0).front().track, "");
+}
+
+TEST_F(DetectionsTest, LeastScoresThatDecideNothingAreNoted) {
+  const auto opened = [&](const std::string& scores, const std::string& least) {
+    folder_.write("d.csv", "frame,class,x0,y0,x1,y1,score\n" + scores);
+    folder_.write("t.yaml", "detections: d.csv\nclasses: {a: {min_score: " + least + "}}\n");
+    return open("t.yaml").notes();
+  };
+  const std::string box = "0,a,10,20,24,35,";
+  EXPECT_TRUE(opened(box + "0.9\n" + box + "0.2\n", "0.5").empty());
+  EXPECT_TRUE(opened(box + "-3.5\n" + box + "7\n", "2").empty()) << "other scales are right, too";
+  EXPECT_EQ(opened(box + "-1\n" + box + "0.9\n", "0.5").size(), 1U);
+  EXPECT_EQ(opened(box + "90\n", "0.5").size(), 1U) << "percent";
+  expect_refused([&] { static_cast<void>(opened(box + "0.3\n", "50")); },
+                 {"t.yaml:1", "min_score"});
+}
+
+TEST_F(DetectionsTest, YolosSixthNumberMayBeTheTrack) {
+  const auto yolo = [&](const std::string& sixth, const std::string& of_next) {
+    folder_.write("labels/0.txt", "0 0.5 0.5 0.2 0.3 " + sixth + "\n");
+    folder_.write("labels/1.txt", "0 0.5 0.5 0.2 0.3 " + of_next + "\n");
+    return read("labels/%d.txt").at(0).front();
+  };
+  EXPECT_EQ(yolo("1", "12").track, "1");
+  EXPECT_FALSE(yolo("1", "12").score);
+  EXPECT_EQ(yolo("1", "0.9").track, "") << "a score";
+  EXPECT_EQ(yolo("1", "0.9").score, 1.0);
+}
+
+TEST_F(DetectionsTest, FramesNumberedFromAnotherAreNamed) {
+  const std::int64_t frames[] = {0, 1, 2, 3};
+  const auto boxes = [&](const std::vector<int>& numbers) {
+    std::string rows = "frame,x0,y0,x1,y1\n";
+    for (const int number : numbers) rows += std::to_string(number) + ",10,20,24,35\n";
+    folder_.write("d.csv", rows);
+    folder_.write("t.yaml", "detections: d.csv\nfirst_frame: 1\n");
+  };
+  boxes({1, 2, 3, 4});
+  expect_refused(
+      [&] {
+        TargetsFile file = open("d.csv");
+        file.check_frames(frames);
+      },
+      {"d.csv", "1 to 4", "first_frame: 1"});
+  TargetsFile moved = open("t.yaml");
+  moved.check_frames(frames);
+  EXPECT_TRUE(moved.notes().empty());
+  EXPECT_EQ(moved.of_frame(0).size(), 1U);
+  boxes({0, 1, 7});
+  TargetsFile more = open("d.csv");
+  more.check_frames(frames);
+  ASSERT_EQ(more.notes().size(), 1U) << "frame 7 does not exist";
+  boxes({1, 2, 3});
+  TargetsFile some = open("d.csv");
+  some.check_frames(frames);
+  EXPECT_TRUE(some.notes().empty()) << "nothing was found in frame 0";
+  folder_.write("d.txt", "2,1,10,20,14,15\n5,1,10,20,14,15\n");
+  expect_refused(
+      [&] {
+        TargetsFile file = open("d.txt");
+        file.check_frames(frames);
+      },
+      {"first_frame: 2"});
+}
+
+TEST_F(DetectionsTest, ATrackTwiceInAFrameAndTooManyBoxesAreRefused) {
+  const std::string header = "frame,track,x0,y0,x1,y1\n";
+  expect_refused([&] { static_cast<void>(read("a.csv", header + "3,7,1,2,9,9\n3,7,20,2,29,9\n")); },
+                 {"a.csv", "frame 3", "7"});
+  EXPECT_EQ(read("a.csv", header + "3,-1,1,2,9,9\n3,-1,20,2,29,9\n").at(3).size(), 2U);
+  std::string many = header;
+  for (int i = 0; i < 5000; ++i) many += "3,,1,2,9,9\n";
+  expect_refused([&] { static_cast<void>(read("a.csv", many)); }, {"a.csv", "frame 3", "5000"});
 }
 
 TEST_F(DetectionsTest, WrongClassesNameTheirLine) {
