@@ -26,6 +26,9 @@ void bind_joint_answers(py::module_& m) {
       Field{"why", &JointGap::why, "missing: never seen; stale: no state near the stamp."},
       Field{"last_seen", &JointGap::last_seen,
             "Stamp of its latest state at or before, nanoseconds, or None."},
+      Field{"next_seen", &JointGap::next_seen, "Stamp of its first state after it, or None."},
+      Field{"is_refused", &JointGap::is_refused,
+            "Never seen, but for values that are not finite or too large."},
       Field{"jump", &JointGap::jump,
             "Rad or m between two states next to the stamp, more than the joint can move."},
       Field{"source", &JointGap::source, "The publisher that is believed, if there are several."});
@@ -48,7 +51,9 @@ void bind_joint_answers(py::module_& m) {
             "disputed."},
       Field{"age", &A::age, "Nanoseconds from the stamp to the farthest used state."},
       Field{"gaps", &A::gaps, "Empty if status is ok or disputed."},
-      Field{"disputes", &A::disputes, "Empty if status is ok."});
+      Field{"disputes", &A::disputes, "Empty if status is ok."},
+      Field{"other_names", &A::other_names,
+            "Names in the states that are no joints of the robot, if a variable is missing."});
 }
 
 }  // namespace

@@ -72,22 +72,23 @@ std::string since(const std::optional<std::int64_t>& last, std::int64_t now) {
   return last ? " for " + seconds(stamp_distance(*last, now)) : " yet";
 }
 
-/// Returns the joints that move drawn links and had no state yet.
-std::vector<std::string> joints_never_seen(const PosedRobot& posed) {
+/// Returns the joints that move drawn links and had no state yet, and what was received in their
+/// place.
+JointAnswer joints_never_seen(const PosedRobot& posed) {
   const Robot& robot = posed.robot;
-  std::vector<bool> carries(robot.links().size());
-  std::vector<std::string> names;
+  std::vector<bool> carries(robot.links().size()), is_needed(robot.variables().size());
   for (std::size_t link = robot.links().size(); link-- > 1;) {  // children come after parents
     const Joint& joint = robot.joints()[link - 1];
     carries[link] = carries[link] || robot.report()[link].drawn;
     carries[joint.parent] = carries[joint.parent] || carries[link];
-    if (!carries[link] || !joint.variable) continue;
-    const std::string& name = robot.variables()[*joint.variable];
-    if (!posed.history.joints().newest_of({&name, 1}) && std::ranges::count(names, name) == 0)
-      names.push_back(name);
+    if (carries[link] && joint.variable) is_needed[*joint.variable] = true;
   }
-  std::ranges::reverse(names);
-  return names;
+  JointAnswer answer;
+  posed.history.joints().at(0, answer);
+  std::erase_if(answer.gaps, [&](const JointGap& gap) {
+    return gap.why != JointStatus::missing || !is_needed[gap.variable];
+  });
+  return answer;
 }
 
 /// Returns what is wrong with the stamps of joint states that arrive, or nothing. `stamp`: of the
@@ -151,11 +152,10 @@ LiveFault robot_fault(const LiveInbox& inbox, std::span<const LiveLink> links, s
     return {Status::error, "no joint states of the robot" + since(used, now) + ": " +
                                (robot.unused_joints().empty() ? "none came since the robot is known"
                                                               : robot.unused_joints())};
-  if (const auto names = joints_never_seen(*robot.posed()); by_joints && !names.empty()) {
-    std::string why = "joint states that arrive lack:";
-    for (const std::string& name : names) why += " '" + printable(name) + "'";
-    return {Status::error, why};
-  }
+  if (const JointAnswer lacking = joints_never_seen(*robot.posed());
+      by_joints && !lacking.gaps.empty())
+    return {Status::error, "joint states arrive, but " + describe(robot.posed()->robot, lacking) +
+                               remedy_of(robot.posed()->robot, lacking)};
   return {};
 }
 

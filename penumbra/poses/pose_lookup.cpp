@@ -120,7 +120,7 @@ void PoseLookup::find_joints(const PoseHistory& history, std::int64_t stamp, Rob
   pose.age = joints_.age;
   if (pose.status != FrameStatus::ok) {
     pose.message = describe(robot_, joints_);
-    if (is_in_tf) pose.message += "; tf has its pose: set poses tf";
+    if (is_in_tf) pose.message += "; tf has its pose: set poses to tf";
     return;
   }
   const bool has_mounts = !robot_.parts().empty() && history.transforms().knows(frames_[0]);

@@ -232,6 +232,7 @@ std::string remedy_of(const Robot& robot, const JointAnswer& joints) {
     if (is_moved[link] && robot.report()[link].drawn)
       links += (links.empty() ? "" : ",") + robot.links()[link];
   }
+  if (links.empty()) return {};
   return "; set joint " + robot.variables()[missing.front()] + "=VALUE, or ignore_links " + links;
 }
 

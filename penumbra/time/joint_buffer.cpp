@@ -142,7 +142,7 @@ void JointBuffer::at(std::int64_t stamp, JointAnswer& answer) const {
   answer.disputes.clear();
   answer.age = 0;
   answer.stamp = stamp;
-  answer.other_names = {};
+  answer.other_names.clear();
   answer.positions.resize(tracks_.size());
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (rotation_of_[i] || interpolate(i, stamp, answer)) continue;

@@ -35,11 +35,12 @@ enum class JointStatus { ok, missing, stale, disputed };
 struct JointGap {
   std::size_t variable = 0;                ///< index into Robot::variables()
   JointStatus why = JointStatus::missing;  ///< missing: never seen; stale: no state near the stamp
-  std::optional<std::int64_t> last_seen;   ///< stamp of its last state up to the stamp, nanoseconds
-  std::optional<std::int64_t> next_seen;   ///< of its first state after the stamp
-  std::optional<double> jump;  ///< rad or m between the neighbouring states, if too large
-  std::string source;          ///< the believed source, if there are several
-  bool is_refused = false;     ///< never seen, but for values that are not finite or too large
+  std::optional<std::int64_t> last_seen =
+      {};  ///< stamp of its last state up to the stamp, nanoseconds
+  std::optional<std::int64_t> next_seen = {};  ///< of its first state after the stamp
+  std::optional<double> jump = {};  ///< rad or m between the neighbouring states, if too large
+  std::string source = {};          ///< the believed source, if there are several
+  bool is_refused = false;          ///< never seen, but for values that are not finite or too large
 };
 
 /// A variable for which two sources published different values near the requested stamp.
@@ -59,9 +60,9 @@ struct JointAnswer {
   std::vector<JointGap> gaps;          ///< empty if status is ok or disputed
   std::vector<JointDispute> disputes;  ///< empty if status is ok
   std::int64_t stamp = 0;              ///< for which it is, nanoseconds
-  /// Names in the states that are no joints of the robot, some of them; the buffer's, valid until
-  /// its next insert(). Empty if no variable is missing.
-  std::span<const std::string> other_names = {};
+  /// Names in the states that are no joints of the robot, at most 100. Empty if no variable is
+  /// missing.
+  std::vector<std::string> other_names = {};
 };
 
 /// How a joint buffer compares and interpolates a variable's values.

@@ -96,6 +96,17 @@ TEST_F(PoseLookupTest, ByBothWhereTheyAgree) {
                "'slab' 6.2 mm apart, more than 5 mm");
 }
 
+TEST(FloatingBase, ItsPoseInTfIsNamed) {
+  const Robot robot = parse(robot_xml(link_xml("world") + link_xml("base", box_xml("1 1 1")) +
+                                      joint_xml("float", "floating", "world", "base")));
+  PoseHistory history(robot);
+  expect_fault(look_up(robot, history, 10 * ms), FrameStatus::missing_joints, "never seen");
+  history.add_transform(10 * ms, "world", "base", at(0, 0, 1));
+  expect_fault(look_up(robot, history, 10 * ms), FrameStatus::missing_joints, "set poses to tf");
+  EXPECT_EQ(look_up(robot, history, 10 * ms, {.source = PoseSource::transforms}).status,
+            FrameStatus::ok);
+}
+
 /// Nothing of the link `frame` is drawn.
 class BoxAndFrame : public testing::Test {
  protected:
