@@ -116,8 +116,8 @@ class Scene {
     change(numbers);
     std::string changed;
     for (const double number : numbers) changed += (changed.empty() ? "" : ", ") + exact(number);
-    write_file(path("camera_info.yaml"), found.prefix().str() + "\n" + key + ": [" + changed +
-                                             "]" + found.suffix().str());
+    write_file(path("camera_info.yaml"),
+               found.prefix().str() + "\n" + key + ": [" + changed + "]" + found.suffix().str());
   }
   [[nodiscard]] fs::path depth(std::size_t frame) const {
     return path((name_ == "example" ? "depth/" : "depth_") + std::to_string(frame) + ".png");
@@ -180,8 +180,8 @@ std::string table(const std::vector<Box>& boxes) {
   std::string rows = "frame,class,track,x0,y0,x1,y1,score\n";
   for (const Box& box : boxes)
     rows += std::to_string(box.frame) + ",part," + std::to_string(box.track) + "," + exact(box.x) +
-            "," + exact(box.y) + "," + exact(box.x + box.width) + "," +
-            exact(box.y + box.height) + "," + exact(box.score) + "\n";
+            "," + exact(box.y) + "," + exact(box.x + box.width) + "," + exact(box.y + box.height) +
+            "," + exact(box.score) + "\n";
   return rows;
 }
 
@@ -238,8 +238,8 @@ Words bag_of(const Scene& scene, const EditBag& edit) {
   const Words package =
       scene.name() == "example"
           ? example_package
-          : Words{"--package", "xarm_description=" +
-                                   (data_folder() / "robots/xarm7/xarm_description").string()};
+          : Words{"--package",
+                  "xarm_description=" + (data_folder() / "robots/xarm7/xarm_description").string()};
   return Words{scene.path("scene.mcap")} + package;
 }
 
@@ -351,7 +351,8 @@ const std::vector<Kind> wrong_kinds = {
      }},
     {"another focal length",
      [](Random& random, const Scene& scene) {
-       const double by = below(random, 2) == 0 ? between(random, 0.6, 0.85) : between(random, 1.2, 1.6);
+       const double by =
+           below(random, 2) == 0 ? between(random, 0.6, 0.85) : between(random, 1.2, 1.6);
        scene.info("k", [&](auto& k) { k[0] *= by, k[4] *= by; });
        return no_options();
      }},
@@ -479,7 +480,8 @@ const std::vector<Kind> wrong_kinds = {
        const std::string at = exact(between(random, 200, 900)) + ", " +
                               exact(between(random, 200, 900)) + ", " +
                               exact(between(random, 50, 900));
-       const std::string link = scene.joints().header.back() == "joint7" ? "link_base" : "base_link";
+       const std::string link =
+           scene.joints().header.back() == "joint7" ? "link_base" : "base_link";
        const std::string target =
            below(random, 2) == 0
                ? "point: [" + at + "]\n    radius: " + exact(between(random, 10, 100))
@@ -491,11 +493,11 @@ const std::vector<Kind> wrong_kinds = {
     {"joint states without a joint",
      [](Random& random, const Scene& scene) {
        const std::size_t joint = below(random, 6);
-       return bag_of(scene, joint_states([&](io::JointStateMessage& state) {
-                       state.names.erase(state.names.begin() + static_cast<std::ptrdiff_t>(joint));
-                       state.positions.erase(state.positions.begin() +
-                                             static_cast<std::ptrdiff_t>(joint));
-                     }));
+       return bag_of(
+           scene, joint_states([&](io::JointStateMessage& state) {
+             state.names.erase(state.names.begin() + static_cast<std::ptrdiff_t>(joint));
+             state.positions.erase(state.positions.begin() + static_cast<std::ptrdiff_t>(joint));
+           }));
      }},
     {"joint states with other names",
      [](Random& random, const Scene& scene) {
@@ -508,9 +510,8 @@ const std::vector<Kind> wrong_kinds = {
     {"clocks that differ",
      [](Random& random, const Scene& scene) {
        const auto by = static_cast<std::int64_t>(1e9 * off(random, 1.3, 30.0));
-       return bag_of(scene, joint_states([&](io::JointStateMessage& state) {
-                       state.header.stamp += by;
-                     }));
+       return bag_of(scene,
+                     joint_states([&](io::JointStateMessage& state) { state.header.stamp += by; }));
      }},
     {"a joint twice in a message",
      [](Random& random, const Scene& scene) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A detector's files.
 #include "../support/errors.hpp"
+#include "../support/random.hpp"
 #include "files.hpp"
 #include "robots.hpp"
 
@@ -112,6 +113,53 @@ TEST_F(DetectionsTest, FaultsNameFileAndLine) {
                    {name, says});
   }
   expect_refused([&] { static_cast<void>(read("none/%d.txt")); }, {"none/%d.txt"});
+}
+
+TEST_F(DetectionsTest, DamagedFilesAreReadOrRefused) {
+  std::mt19937_64 random = test::seeded_random(58);
+  const std::vector<std::array<std::string, 2>> files{
+      {"a.json", R"({"images": [{"id": 9, "file_name": "4.png", "width": 70, "height": 50}],
+          "categories": [{"id": 1, "name": "cup"}], "annotations": [{"image_id": 9, "score": 0.5,
+          "category_id": 1, "track_id": 7, "bbox": [10, 20, 14, 15]}, {"image_id": 9,
+          "category_id": 1, "segmentation": {"size": [50, 70], "counts": [10, 20, 3470]}}]})"},
+      {"a.csv",
+       "frame,class,track,score,x0,y0,x1,y1\n4,39,7,0.75,10,20,24,35\n5,39,7,-1,1,2,3,4\n"},
+      {"a.txt", "5,7,10,20,14,15,0.75,39,1\n6,-1,10,20,14,15,-1,-1,-1,-1\n"},
+      {"labels/4.txt", "39 0.24 0.55 0.2 0.3 0.75 7\n39 0.5 0.5 0.2 0.3 12\n"},
+      {"t.yaml",
+       "detections: a.csv\nfirst_frame: 1\nnames: {39: cup}\nclasses:\n"
+       "  cup: {height: 0.25, min_score: 0.5, handling: {point: {motion: hold}}}\n"}};
+  std::size_t read_count = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const auto& [name, whole] = files[random() % files.size()];
+    std::string text = whole;
+    for (std::size_t n = 1 + random() % 4; n > 0; --n) {
+      const std::size_t at = random() % text.size();
+      const std::string pieces[] = {"-", "1e308", "nan", "\x1b[31m", "99999999999999999999", ","};
+      if (random() % 4 == 0) text.resize(at + 1);
+      text.replace(std::min(at, text.size() - 1), random() % 3,
+                   random() % 2 == 0 ? std::string(1, static_cast<char>(random()))
+                                     : pieces[random() % std::size(pieces)]);
+    }
+    folder_.write("a.csv", files[1][1]);
+    folder_.write(name, text);
+    try {
+      if (name == "labels/4.txt") {
+        static_cast<void>(read("labels/%d.txt"));
+      } else {
+        TargetsFile file = open(name);
+        const std::int64_t frames[] = {4, 5};
+        file.check_frames(frames);
+        for (const std::int64_t frame : frames) static_cast<void>(file.of_frame(frame));
+      }
+      ++read_count;
+    } catch (const InputError& fault) {
+      const std::string message = fault.what();
+      EXPECT_EQ(message.find('\x1b'), std::string::npos) << message;
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+  }
+  EXPECT_GT(read_count, 50U);
 }
 
 TEST_F(DetectionsTest, ClassesSayHowTheyAreJudged) {
