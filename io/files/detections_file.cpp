@@ -103,7 +103,11 @@ Detections read_coco(const std::filesystem::path& file, const Intrinsics& images
                      ClassNames names) {
   const auto root = nlohmann::json::parse(read_whole_file(file, most_json_bytes));
   std::map<std::string, std::int64_t> frames;  // by image_id
-  if (root.is_object()) {                      // a data set
+  if (root.is_object() && root.contains("shapes") && !root.contains("annotations"))
+    throw InputError(
+        "is LabelMe's file of one image, which is not read; export COCO, or write a table with "
+        "the header frame,class,x0,y0,x1,y1");
+  if (root.is_object()) {  // a data set
     for (const nlohmann::json& category : root.value("categories", nlohmann::json::array()))
       names.emplace(category.at("id").get<std::int64_t>(), category.at("name").get<std::string>());
     for (const nlohmann::json& image : root.at("images"))
@@ -235,9 +239,10 @@ Detections read_yolo(const FramePattern& files, const Intrinsics& images, const 
 }
 
 Detections read_any(const std::string& name, const std::filesystem::path& folder,
-                    const Intrinsics& images, const ClassNames& names) {
+                    const Intrinsics& images, const ClassNames& names,
+                    const std::optional<FrameStamps>& stamps) {
   if (name.find('%') != std::string::npos) {
-    const FramePattern files(name, folder);
+    const FramePattern files(name, folder, stamps);
     if (files.existing().empty()) throw InputError(name + ": no file of that name for any frame");
     return read_yolo(files, images, names);
   }
@@ -264,8 +269,9 @@ Detections read_any(const std::string& name, const std::filesystem::path& folder
 
 Detections read_detections(const std::string& file_or_pattern, const std::filesystem::path& folder,
                            const Intrinsics& images,
-                           const std::map<std::int64_t, std::string>& names) {
-  Detections all = read_any(file_or_pattern, folder, images, names);
+                           const std::map<std::int64_t, std::string>& names,
+                           const std::optional<FrameStamps>& stamps) {
+  Detections all = read_any(file_or_pattern, folder, images, names, stamps);
   if (all.empty()) throw InputError(file_or_pattern + ": holds no detection");
   for (const auto& [index, found] : all)
     for (const Detection& detection : found) {

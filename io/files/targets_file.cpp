@@ -218,7 +218,7 @@ TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsCo
   auto state = std::make_unique<State>();
   state->file = file;
   if (is_detections_name(file)) {
-    state->detections = read_detections(file, {}, context.images, {});
+    state->detections = read_detections(file, {}, context.images, {}, context.stamps);
     state->classes.emplace("*", class_of({}, context));
     return TargetsFile(std::move(state));
   }
@@ -229,7 +229,8 @@ TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsCo
     std::map<std::int64_t, std::string> names;
     if (const YamlNode* given = root.find("names")) names = class_names_of(*given);
     state->detections = detections->with_context([&] {
-      return read_detections(detections->text(), file.parent_path(), context.images, names);
+      return read_detections(detections->text(), file.parent_path(), context.images, names,
+                             context.stamps);
     });
     const YamlNode* const classes = root.find("classes");
     if (classes == nullptr)
