@@ -94,40 +94,31 @@ const std::vector<std::vector<std::string_view>> bin_forms{{"x", "y", "z", "inte
                                                            {"x", "y", "z", "f3", "f4", "f5"},
                                                            {"x", "y", "z"}};
 
-/// Returns whether no number behind x, y and z is negative, and a coordinate is: then the points
-/// have this many numbers, because otherwise coordinates would stand there.
-bool is_bin_of(std::span<const float> numbers, std::size_t count) {
-  bool is_any_negative = false;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!(numbers[i] < 0.0F)) continue;
-    if (i % count > 2) return false;
-    is_any_negative = true;
-  }
-  return is_any_negative;
-}
-
-/// Returns the only form that a .bin can have.
+/// Returns the only form that a .bin can have. Numbers behind x, y and z are not negative; if a
+/// coordinate is, a wrong form would have it there.
 const std::vector<std::string_view>& bin_fields(std::span<const std::byte> bytes) {
   std::vector<float> numbers(bytes.size() / sizeof(float));
   std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
-  std::vector<const std::vector<std::string_view>*> by_size, by_values;
+  std::vector<const std::vector<std::string_view>*> possible, shown;
+  std::size_t fitting = 0;  // by size
+  const bool is_any_negative = std::ranges::any_of(numbers, [](float n) { return n < 0.0F; });
   for (const auto& form : bin_forms) {
     if (bytes.size() % (sizeof(float) * form.size()) != 0) continue;
-    by_size.push_back(&form);
-    if (form.size() > 3 && is_bin_of(numbers, form.size())) by_values.push_back(&form);
+    ++fitting;
+    bool is_possible = true;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      is_possible &= !(numbers[i] < 0.0F) || i % form.size() <= 2;
+    if (!is_possible) continue;
+    possible.push_back(&form);
+    if (is_any_negative && form.size() > 3) shown.push_back(&form);
   }
-  if (by_size.empty())
+  if (fitting == 0)
     cloud_formats::damaged(std::to_string(bytes.size()) +
                            " bytes are no points of 4 float32 (KITTI), nor of 3, 5 or 6");
-  if (numbers.empty() || by_size.size() == 1) return *by_size.front();
-  if (by_values.size() == 1) return *by_values.front();
-  // Points of 6 numbers may have negative ones, as normals: x, y and z alone need another size.
-  const bool can_be_6 = numbers.size() % 6 == 0;
-  const bool is_negative = std::ranges::any_of(numbers, [](float n) { return n < 0.0F; });
-  if (by_values.empty() && is_negative && !can_be_6 && numbers.size() % 3 == 0)
-    return bin_forms.back();
+  if (numbers.empty() || (fitting == 1 && possible.size() == 1)) return *possible.front();
+  if (shown.size() == 1) return *shown.front();
   throw InputError(
-      "it may have 3, 4 (KITTI), 5 or 6 numbers a point; write .npy, which says so: "
+      "it may have 3, 4 (KITTI), 5, 6 or more numbers a point; write .npy, which says so: "
       "numpy.save(\"x.npy\", numpy.fromfile(\"x.bin\", \"float32\").reshape(-1, N))");
 }
 
