@@ -116,15 +116,17 @@ void bind_camera_class(py::module_& m) {
 }
 
 void bind_files(py::module_& m) {
-  m.def(
-      "read_camera_info", &io::read_camera_info, py::arg("file"), py::kw_only(),
-      py::arg("rectified"), WithoutGil(),
-      "Reads a ROS camera_info YAML file: a dump of sensor_msgs/CameraInfo or camera_calibration's "
-      "file. rectified: the images are free of distortion already; then p is used, else k and d. "
-      "Raises InputError with file, line and key.");
+  m.def("read_camera_info", &io::read_camera_info, py::arg("file"), py::kw_only(),
+        py::arg("rectified"), WithoutGil(),
+        "Reads a camera's intrinsics: ROS's camera_info (a dump or camera_calibration's file), "
+        "OpenCV's "
+        "YAML, kalibr's camchain or RealSense's JSON. rectified: the images are free of distortion "
+        "already; then p is used, else k and d. "
+        "Raises InputError with file, line and key.");
   m.def("read_pose_csv", &io::read_pose_csv, py::arg("file"), WithoutGil(),
-        "Reads a pose: four rows of four comma-separated numbers, metres. Raises InputError for "
-        "anything that is no rigid transform.");
+        "Reads a pose, metres: 4 x 4 or 3 x 4 numbers or x y z qx qy qz qw (text or .npy), or YAML "
+        "of "
+        "easy_handeye. Raises InputError for anything that is no rigid transform.");
 }
 
 void bind_rectification(py::module_& m) {

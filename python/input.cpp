@@ -108,7 +108,7 @@ void bind_bag_options(py::module_& m) {
       Field{"frame_prefix", &B::frame_prefix, "Before link names in tf, without a leading /."},
       Field{"camera_frame", &B::camera_frame, "In place of the images' frame_id."},
       Field{"parent", &B::parent, "Link that the camera sits on."},
-      Field{"pose", &B::pose, "CSV file of the camera's pose in that link, in place of tf's."},
+      Field{"pose", &B::pose, "File of the camera's pose in that link, in place of tf's."},
       Field{"depth_scale", &B::depth_scale,
             "Metres per unit of the depth images; None: 0.001 for integers, 1 for floats."},
       Field{"rectified", &B::rectified, "The images are free of distortion already."},

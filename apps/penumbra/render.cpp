@@ -183,7 +183,9 @@ void add_options(CLI::App& app, RenderArguments& render) {
   app.footer(render_examples);
   add_text(app, "--robot", "the robot", "URDF", render.robot)->required();
   add_robot(app, render.options);
-  add_text(app, "--camera", "ROS camera_info YAML", "FILE", render.camera_info)->required();
+  add_text(app, "--camera", "camera_info YAML, or of OpenCV, kalibr, RealSense", "FILE",
+           render.camera_info)
+      ->required();
   app.add_flag("--rectified", render.rectified,
                "the images are free of distortion already: take the camera's p, not its k and d");
   add_text(app, "--pose", "4x4 pose of the optical frame in the parent link, metres", "FILE",

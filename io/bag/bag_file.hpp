@@ -18,6 +18,13 @@ namespace penumbra::io {
 [[nodiscard]] std::unique_ptr<BagReader> open_mcap_bag(const std::filesystem::path& file);
 [[nodiscard]] std::unique_ptr<BagReader> open_sqlite_bag(const std::filesystem::path& file);
 
+/// Returns whether a file is compressed by zstd, by its name: rosbag2 writes *.zstd, zstd *.zst.
+[[nodiscard]] bool is_zstd_file(const std::filesystem::path& file);
+
+/// Opens a compressed NAME.mcap.zstd or NAME.db3.zstd, which it decompresses into the folder for
+/// temporary files.
+[[nodiscard]] std::unique_ptr<BagReader> open_zstd_bag(const std::filesystem::path& file);
+
 /// Opens a bag by the file's extension. Throws InputError for other extensions.
 [[nodiscard]] std::unique_ptr<BagReader> open_bag_file(const std::filesystem::path& file);
 

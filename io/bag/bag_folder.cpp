@@ -36,17 +36,14 @@ void refuse_compression(const YamlNode& information) {
   if (mode == nullptr || mode->is_null()) return;
   const std::string& name = mode->text_or_empty();
   if (name.empty() || name == "NONE" || name == "none") return;
-  if (name == "FILE" || name == "file")
-    mode->fail(
-        "files that are compressed as a whole are not read; 'zstd -d' on each, and an empty "
-        "text here with their new names in relative_file_paths, make them readable");
+  if (name == "FILE" || name == "file") return;  // each is a *.zstd
   mode->fail("'" + name +
              "' is not read; 'ros2 bag convert' makes a bag without it, or with "
              "compressed chunks of MCAP");
 }
 
 // Reads a metadata.yaml of any version. Throws InputError with file and line for missing or invalid
-// entries, for recordings without files, and for recordings with compressed files or messages.
+// entries, for recordings without files, and for recordings with compressed messages.
 BagMetadata read_bag_metadata(const std::filesystem::path& file) {
   const YamlNode root = YamlNode::read(file);
   const YamlNode& information = root.at("rosbag2_bagfile_information");

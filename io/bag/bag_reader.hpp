@@ -73,8 +73,9 @@ class BagReader {
 /// recording.yaml, which marks a recording folder.
 [[nodiscard]] bool is_bag_folder(const std::filesystem::path& folder);
 
-/// Opens *.mcap, *.db3 or the folder of a recording: the files of its metadata.yaml or, without
-/// one, all bags in it. Throws InputError that names the file if nothing can be read.
+/// Opens *.mcap, *.db3, one of these compressed as a whole (*.mcap.zstd) or the folder of a
+/// recording: the files of its metadata.yaml or, without one, all bags in it. Throws InputError
+/// that names the file if nothing can be read.
 [[nodiscard]] std::unique_ptr<BagReader> open_bag(const std::filesystem::path& path);
 
 }  // namespace penumbra::io

@@ -4,6 +4,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/bag/bag_file.hpp>
+#include <io/files/disk_file.hpp>
 #include <io/ros/message_definition.hpp>
 
 namespace penumbra::io {
@@ -30,21 +31,40 @@ OfferedQos read_or_unreadable(const F& read) {
   }
 }
 
+/// Throws InputError for a bag of ROS 1.
+void refuse_ros1(const std::filesystem::path& file) {
+  constexpr std::size_t most = std::size_t{1} << 20U;  // topics stand at the begin or the end
+  InputFile input;
+  if (!input.open(file).ok()) return;
+  std::string text(std::min<std::uint64_t>(input.size(), most), '\0');
+  text.resize(input.read(text.data(), text.size()));
+  if (!text.starts_with("#ROSBAG V")) return;
+  std::string end(text.size(), '\0');
+  end.resize(input.read_at(input.size() - text.size(), end.data(), end.size()));
+  if (text.find("/device_0/") == std::string::npos && end.find("/device_0/") == std::string::npos)
+    throw InputError(file.string() +
+                     ": is a bag of ROS 1, which is not read; convert it: rosbags-convert --src " +
+                     file.filename().string() + " --dst bag_of_ros2");
+  throw InputError(file.string() +
+                   ": is a recording of RealSense's SDK, which is not read; play it with "
+                   "realsense2_camera (rosbag_filename:=FILE) and record its topics with ros2 bag");
+}
+
 }  // namespace
 
 std::unique_ptr<BagReader> open_bag_file(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_empty(file, error))
     throw InputError(file.string() + ": is empty: nothing was recorded");
+  refuse_ros1(file);
   if (file.extension() == ".mcap") return open_mcap_bag(file);
   if (file.extension() == ".db3") return open_sqlite_bag(file);
-  if (file.extension() == ".zstd")
-    throw InputError(file.string() +
-                     ": is compressed as a whole; 'zstd -d --rm' makes it readable");
+  if (is_bag_file(file) && is_zstd_file(file)) return open_zstd_bag(file);
   if (!std::filesystem::exists(file, error))
     throw InputError(file.string() + ": cannot be read: No such file or directory");
   throw InputError(file.string() +
-                   ": is not a bag; *.mcap, *.db3 and folders with a metadata.yaml are");
+                   ": is not a bag; *.mcap, *.db3, these with .zstd behind, and folders with a "
+                   "metadata.yaml are");
 }
 
 std::unique_ptr<BagReader> open_bag(const std::filesystem::path& path) {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cstring>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -86,6 +88,40 @@ void check_cloud_layout(const PointCloud2Message& cloud) {
     throw InputError("the cloud has fewer data than its width, height and steps say");
 }
 
+/// The fields of a .bin, which has no header: of KITTI, nuScenes and others.
+const std::vector<std::vector<std::string_view>> bin_forms{{"x", "y", "z", "intensity"},
+                                                           {"x", "y", "z", "intensity", "ring"},
+                                                           {"x", "y", "z", "f3", "f4", "f5"},
+                                                           {"x", "y", "z"}};
+
+/// Returns the only form that a .bin can have. Numbers behind x, y and z are not negative; if a
+/// coordinate is, a wrong form would have it there.
+const std::vector<std::string_view>& bin_fields(std::span<const std::byte> bytes) {
+  std::vector<float> numbers(bytes.size() / sizeof(float));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
+  std::vector<const std::vector<std::string_view>*> possible, shown;
+  std::size_t fitting = 0;  // by size
+  const bool is_any_negative = std::ranges::any_of(numbers, [](float n) { return n < 0.0F; });
+  for (const auto& form : bin_forms) {
+    if (bytes.size() % (sizeof(float) * form.size()) != 0) continue;
+    ++fitting;
+    bool is_possible = true;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      is_possible &= !(numbers[i] < 0.0F) || i % form.size() <= 2;
+    if (!is_possible) continue;
+    possible.push_back(&form);
+    if (is_any_negative && form.size() > 3) shown.push_back(&form);
+  }
+  if (fitting == 0)
+    cloud_formats::damaged(std::to_string(bytes.size()) +
+                           " bytes are no points of 4 float32 (KITTI), nor of 3, 5 or 6");
+  if (numbers.empty() || (fitting == 1 && possible.size() == 1)) return *possible.front();
+  if (shown.size() == 1) return *shown.front();
+  throw InputError(
+      "it may have 3, 4 (KITTI), 5, 6 or more numbers a point; write .npy, which says so: "
+      "numpy.save(\"x.npy\", numpy.fromfile(\"x.bin\", \"float32\").reshape(-1, N))");
+}
+
 /// Puts the file's name before the message of an InputError.
 template <typename F>
 auto with_cloud_name(const std::filesystem::path& file, const F& call) {
@@ -100,24 +136,27 @@ auto with_cloud_name(const std::filesystem::path& file, const F& call) {
 
 StoredCloud cloud_formats::parse_kitti(Bytes bytes) {
   PointCloud2Message cloud;
-  for (const char* name : {"x", "y", "z", "intensity"})
-    add_field(cloud, name, PointFieldMessage::float32);
-  if (bytes.size() % cloud.point_step != 0)
-    damaged("KITTI: " + std::to_string(bytes.size()) + " bytes are no multiple of 16");
+  for (const std::string_view name : bin_fields(bytes))
+    add_field(cloud, std::string(name), PointFieldMessage::float32);
   set_size(cloud, bytes.size() / cloud.point_step);
   return take_binary(std::move(cloud), std::move(bytes), 0);
 }
 
 std::string cloud_formats::format_kitti(const PointCloud2Message& cloud) {
   std::vector<Piece> pieces;
-  std::string names;
-  for (const Column& column : columns_of(cloud)) {
+  std::vector<std::string_view> names;
+  std::string all;
+  bool are_floats = true;
+  const std::vector<Column> columns = columns_of(cloud);
+  for (const Column& column : columns) {
     const bool is_float = column.datatype == PointFieldMessage::float32;
-    names += " " + column.name + (is_float ? "" : " (not float32)");
+    are_floats &= is_float;
+    names.push_back(column.name);
+    all += " " + column.name + (is_float ? "" : " (not float32)");
     pieces.push_back({column.offset, number_types[column.datatype].size});
   }
-  if (names != " x y z intensity")
-    throw InputError(".bin holds exactly x y z intensity as float32, and the cloud has" + names +
+  if (!are_floats || std::ranges::find(bin_forms, names) == bin_forms.end())
+    throw InputError(".bin holds x y z intensity, as float32, and the cloud has" + all +
                      "; write .pcd");
   std::string file;
   append_pieces(cloud, pieces, file);

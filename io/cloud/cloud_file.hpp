@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include <io/ros/messages.hpp>
 
 namespace penumbra::io {
+
+/// The limit of points of a cloud, in files and messages.
+inline constexpr std::uint64_t most_cloud_points = 16'000'000;
 
 /// A point cloud that owns its points: little-endian, without gaps between rows.
 struct StoredCloud {
@@ -31,10 +35,14 @@ struct StoredCloud {
 /// times its size (compressed files: what they decompress to).
 ///
 /// - .pcd: ascii, binary and binary_compressed. Padding is a field "_". VIEWPOINT is dropped.
+///   64-bit integers, here and in .ply, are fields of the types 9 and 10, which ROS does not have.
 /// - .ply: ascii and binary. The scalar properties of the element vertex; other elements are
 ///   skipped.
 /// - .npy: N x C float32 or float64 with the fields x, y, z, f3, f4 and so on.
-/// - .bin: KITTI's x, y, z, intensity, float32.
+/// - .bin: float32: KITTI's x, y, z, intensity; nuScenes' with ring, too; or 3 or 6 numbers a
+/// point.
+///   Throws unless the size and the values, of which intensity and ring are not negative, leave no
+///   other choice.
 [[nodiscard]] StoredCloud read_cloud(const std::filesystem::path& file);
 
 /// Writes a point cloud in the format that the extension names. Throws InputError that names the
@@ -44,7 +52,7 @@ struct StoredCloud {
 /// - .pcd: binary, also where the points come from an ascii or a compressed file.
 /// - .ply: little-endian binary; a packed field "rgb" becomes red, green and blue.
 /// - .npy: N x C float32 if all fields are float32, else float64; the first fields are x, y, z.
-/// - .bin: only a cloud of x, y, z, intensity, each float32.
+/// - .bin: only a cloud of the fields that are read from it, each float32.
 ///
 /// Field "_" and bytes of a point outside its fields are written to .pcd only (the field) or not at
 /// all (the bytes). Only .pcd keeps the rows of an organised cloud. Elements of a field become one

@@ -36,16 +36,19 @@ struct NumberType {
   std::string_view ply, ply_sized;
 };
 
-/// The types of numbers by their value in PointField; the first is none.
-inline constexpr std::array<NumberType, 9> number_types{{{},
-                                                         {'I', 1, "char", "int8"},
-                                                         {'U', 1, "uchar", "uint8"},
-                                                         {'I', 2, "short", "int16"},
-                                                         {'U', 2, "ushort", "uint16"},
-                                                         {'I', 4, "int", "int32"},
-                                                         {'U', 4, "uint", "uint32"},
-                                                         {'F', 4, "float", "float32"},
-                                                         {'F', 8, "double", "float64"}}};
+/// The types of numbers by their value in PointField; the first is none. PointField does not have
+/// the last two, which files have.
+inline constexpr std::array<NumberType, 11> number_types{{{},
+                                                          {'I', 1, "char", "int8"},
+                                                          {'U', 1, "uchar", "uint8"},
+                                                          {'I', 2, "short", "int16"},
+                                                          {'U', 2, "ushort", "uint16"},
+                                                          {'I', 4, "int", "int32"},
+                                                          {'U', 4, "uint", "uint32"},
+                                                          {'F', 4, "float", "float32"},
+                                                          {'F', 8, "double", "float64"},
+                                                          {'I', 8, "int64", "int64"},
+                                                          {'U', 8, "uint64", "uint64"}}};
 
 /// Calls f(T{}) with the type of a valid value of PointField.
 template <typename F>
@@ -65,6 +68,10 @@ auto with_type(std::uint8_t datatype, const F& f) {
       return f(std::uint32_t{});
     case 7:
       return f(float{});
+    case 9:
+      return f(std::int64_t{});
+    case 10:
+      return f(std::uint64_t{});
     default:
       return f(double{});
   }
@@ -86,7 +93,7 @@ inline std::string_view text_of(const Bytes& bytes) {
 void add_field(PointCloud2Message& cloud, std::string name, std::uint8_t datatype,
                std::uint64_t count = 1);
 
-/// Sets the size of a cloud whose fields are complete.
+/// Sets the size of a cloud whose fields are complete. Throws above most_cloud_points.
 void set_size(PointCloud2Message& cloud, std::uint64_t width, std::uint64_t height = 1);
 
 /// Returns what all points take.

@@ -48,12 +48,8 @@ std::uint8_t datatype_of(char kind, std::uint64_t size, std::string_view field) 
   for (std::size_t i = 1; i < number_types.size(); ++i)
     if (number_types[i].kind == kind && number_types[i].size == size)
       return static_cast<std::uint8_t>(i);
-  if (size == 8 && (kind == 'I' || kind == 'U'))
-    throw InputError(
-        "field " + in_quotes(field) +
-        " has 64-bit integers, which PointCloud2 cannot hold; convert them to float64");
   throw InputError("field " + in_quotes(field) + " has an unknown type of " + std::to_string(size) +
-                   " bytes; use integers of 1, 2 or 4, or floats of 4 or 8");
+                   " bytes; use integers of 1, 2, 4 or 8, or floats of 4 or 8");
 }
 
 void add_field(PointCloud2Message& cloud, std::string name, std::uint8_t datatype,
@@ -70,6 +66,10 @@ void add_field(PointCloud2Message& cloud, std::string name, std::uint8_t datatyp
 
 void set_size(PointCloud2Message& cloud, std::uint64_t width, std::uint64_t height) {
   if (cloud.fields.empty()) throw InputError("its points have no fields");
+  if (height > 0 && width > most_cloud_points / height)
+    throw InputError("it has " + std::to_string(width) + " x " + std::to_string(height) +
+                     " points, and the limit is " + std::to_string(most_cloud_points) +
+                     "; split it or leave points out");
   if (width > most_row_bytes / cloud.point_step || height > most_row_bytes)
     throw InputError("the header names " + std::to_string(width) + " x " + std::to_string(height) +
                      " points of " + std::to_string(cloud.point_step) +

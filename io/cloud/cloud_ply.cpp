@@ -31,8 +31,7 @@ std::uint8_t ply_datatype(std::string_view name) {
     if (number_types[i].ply == name || number_types[i].ply_sized == name)
       return static_cast<std::uint8_t>(i);
   throw InputError("PLY: " + in_quotes(name) +
-                   " is no type that PointCloud2 holds; use integers of up to 32 bits, float or "
-                   "double");
+                   " is no type that is known; use char to uint, int64, uint64, float or double");
 }
 
 PlyProperty parse_ply_property(std::string_view line) {

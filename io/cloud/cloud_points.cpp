@@ -27,6 +27,16 @@ std::size_t size_of(const PointFieldMessage& field) {
              : 0;
 }
 
+bool is_float(const PointFieldMessage& field) {
+  return size_of(field) != 0 && cloud_formats::number_types[field.datatype].kind == 'F';
+}
+
+std::string fault_of_count(std::size_t points) {
+  if (points <= most_cloud_points) return {};
+  return "it has " + std::to_string(points) + " points, and the limit is " +
+         std::to_string(most_cloud_points);
+}
+
 /// Reads a number of one of PointField's types.
 double number_at(const std::byte* at, std::uint8_t type, bool is_swapped) {
   return cloud_formats::with_type(type, [&]<typename T>(T value) {
@@ -41,11 +51,19 @@ double number_at(const std::byte* at, std::uint8_t type, bool is_swapped) {
 /// The places of a cloud's points and fields.
 class PointTable {
  public:
-  explicit PointTable(const PointCloud2Message& cloud) : cloud_(cloud) {}
+  explicit PointTable(const PointCloud2Message& cloud)
+      : cloud_(cloud),
+        is_swapped_(cloud.is_bigendian != (std::endian::native == std::endian::big)) {
+    if (fault().empty() && share_of_lengths(is_swapped_) < 0.5 &&
+        share_of_lengths(!is_swapped_) > 0.95)
+      is_swapped_ = !is_swapped_;
+  }
 
   [[nodiscard]] std::size_t count() const { return std::size_t{cloud_.width} * cloud_.height; }
-  [[nodiscard]] bool is_swapped() const {
-    return cloud_.is_bigendian != (std::endian::native == std::endian::big);
+  /// By the numbers if is_bigendian is wrong.
+  [[nodiscard]] bool is_swapped() const { return is_swapped_; }
+  [[nodiscard]] bool is_order_wrong() const {
+    return is_swapped_ == (cloud_.is_bigendian == (std::endian::native == std::endian::big));
   }
   [[nodiscard]] bool has_gaps() const {
     return cloud_.height > 1 && cloud_.row_step != std::size_t{cloud_.width} * cloud_.point_step;
@@ -56,8 +74,7 @@ class PointTable {
                : point / cloud_.width * cloud_.row_step + point % cloud_.width * cloud_.point_step;
   }
   [[nodiscard]] double at(std::size_t point, const PointFieldMessage& field) const {
-    return number_at(cloud_.data.data() + offset(point) + field.offset, field.datatype,
-                     is_swapped());
+    return at(point, field, is_swapped_);
   }
   [[nodiscard]] const PointFieldMessage* find(std::string_view name) const {
     for (const PointFieldMessage& field : cloud_.fields)
@@ -75,9 +92,11 @@ class PointTable {
              std::to_string(cloud_.point_step) + " bytes, in rows of " +
              std::to_string(cloud_.row_step) + " bytes, do not fit into " +
              std::to_string(cloud_.data.size()) + " bytes";
-    for (const PointFieldMessage& field : cloud_.fields)
-      if (size_of(field) == 0 || field.offset > cloud_.point_step ||
-          size_of(field) * std::max<std::size_t>(1, field.count) > cloud_.point_step - field.offset)
+    if (std::string many = fault_of_count(count()); !many.empty()) return many;
+    for (const PointFieldMessage& field : cloud_.fields)  // those of unknown types are not read
+      if (size_of(field) != 0 && (field.offset > cloud_.point_step ||
+                                  size_of(field) * std::max<std::size_t>(1, field.count) >
+                                      cloud_.point_step - field.offset))
         return "field '" + printable(field.name) + "' of type " + std::to_string(field.datatype) +
                " at byte " + std::to_string(field.offset) + " is not within a point of " +
                std::to_string(cloud_.point_step) + " bytes";
@@ -85,7 +104,31 @@ class PointTable {
   }
 
  private:
+  [[nodiscard]] double at(std::size_t point, const PointFieldMessage& field, bool swapped) const {
+    return number_at(cloud_.data.data() + offset(point) + field.offset, field.datatype, swapped);
+  }
+
+  /// Returns how many of the coordinates are lengths in this byte order, of those that are finite
+  /// and not 0; 1 without any. In the other order a float's lowest byte becomes its exponent.
+  [[nodiscard]] double share_of_lengths(bool swapped) const {
+    constexpr double least = 1e-6, most = 1e6;
+    constexpr std::size_t samples = 256;
+    std::size_t all = 0, lengths = 0;
+    for (const char* const axis : {"x", "y", "z"}) {
+      const PointFieldMessage* const field = find(axis);
+      if (field == nullptr || !is_float(*field)) continue;
+      for (std::size_t i = 0; i < count(); i += 1 + count() / samples) {
+        const double value = std::abs(at(i, *field, swapped));
+        if (!std::isfinite(value) || value == 0.0) continue;
+        ++all;
+        lengths += value > least && value < most ? 1 : 0;
+      }
+    }
+    return all == 0 ? 1.0 : static_cast<double>(lengths) / static_cast<double>(all);
+  }
+
   const PointCloud2Message& cloud_;
+  bool is_swapped_;
 };
 
 /// Finds what the numbers of a field mean, and sets the times. Returns why they are of no scan.
@@ -128,6 +171,9 @@ std::string read_times(const PointTable& table, std::int64_t stamp, CloudPoints&
   for (const char* const name : {"t", "time", "timestamp", "time_stamp", "offset_time"}) {
     const PointFieldMessage* const field = table.find(name);
     if (field == nullptr) continue;
+    if (size_of(*field) == 0)
+      return "field '" + std::string(name) + "' is of the unknown type " +
+             std::to_string(field->datatype) + "; --ignore-times leaves it unread";
     std::vector<double> values(table.count());
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = table.at(i, *field);
     return set_times(name, values, stamp, out);
@@ -161,7 +207,7 @@ std::string read_points(const PointCloud2Message& cloud, bool use_times, CloudPo
     const std::string name(1, "xyz"[i]);
     axes[i] = table.find(name);
     if (axes[i] == nullptr) return "the cloud has no field '" + name + "'";
-    if (axes[i]->datatype < PointFieldMessage::float32)
+    if (!is_float(*axes[i]))
       return "field '" + name + "' is of type " + std::to_string(axes[i]->datatype) +
              "; expected float32 (7) or float64 (8)";
   }
@@ -179,13 +225,19 @@ std::string read_points(const PointCloud2Message& cloud, bool use_times, CloudPo
         out.copied.push_back(static_cast<float>(table.at(i, *axis)));
     view_copied(out);
   }
-  return use_times ? read_times(table, cloud.header.stamp, out) : std::string();
+  std::string fault = use_times ? read_times(table, cloud.header.stamp, out) : std::string();
+  if (table.is_order_wrong())
+    out.time_note = std::string("is_bigendian is ") + (cloud.is_bigendian ? "true" : "false") +
+                    ", and the numbers are in the other byte order: they are read in that order" +
+                    (out.time_note.empty() ? "" : "; " + out.time_note);
+  return fault;
 }
 
 std::string read_points(const LaserScanMessage& scan, bool use_times, CloudPoints& out) {
   out.copied.clear();
   out.times.clear();
   out.time_note.clear();
+  if (std::string fault = fault_of_count(scan.ranges.size()); !fault.empty()) return fault;
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const float range = scan.ranges[i];
     const float angle = scan.angle_min + static_cast<float>(i) * scan.angle_increment;
@@ -206,6 +258,7 @@ std::string read_points(const LivoxMessage& cloud, bool use_times, CloudPoints& 
   out.points = {reinterpret_cast<const std::byte*>(cloud.points.data()) + offsetof(LivoxPoint, x),
                 cloud.points.size(), sizeof(LivoxPoint)};
   out.times.clear();
+  if (std::string fault = fault_of_count(cloud.points.size()); !fault.empty()) return fault;
   if (!use_times) return {};
   for (const LivoxPoint& point : cloud.points) {
     if (point.offset_time * nanosecond > longest)

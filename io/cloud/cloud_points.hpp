@@ -18,7 +18,7 @@ struct CloudPoints {
   PointsView points;                ///< refers to the message or to `copied`
   std::vector<float> copied;        ///< x, y, z of each point
   std::vector<std::int32_t> times;  ///< as Scan::times
-  std::string time_note;            ///< how the field of times was understood
+  std::string time_note;            ///< how the field of times, or the byte order, was understood
 
   CloudPoints() = default;
   CloudPoints(CloudPoints&&) = default;
@@ -28,7 +28,9 @@ struct CloudPoints {
 /// Finds the points of a message. `out` keeps its memory, and refers to the message's. Returns why
 /// it cannot be used, one line, or nothing.
 ///
-/// PointCloud2: x, y and z of float32 or float64 in any order, aligned or not. The first field
+/// Clouds above most_cloud_points cannot. PointCloud2: x, y and z of float32 or float64 in any
+/// order, aligned or not; other fields may be of unknown types. If is_bigendian is wrong, which
+/// lengths show, the other byte order is used, and time_note says so. The first field
 /// called t, time, timestamp, time_stamp or offset_time has the points' times. A scan lasts between
 /// a millisecond and a second, which says whether its numbers are seconds, milliseconds,
 /// microseconds or nanoseconds. If the first is within a second of the header's stamp they are of

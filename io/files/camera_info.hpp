@@ -33,13 +33,15 @@ struct CameraInfoFields {
 /// Returns the camera of the images as they come (read_camera_info).
 [[nodiscard]] Camera camera_of(const CameraInfoFields& info, bool rectified);
 
-/// Reads a ROS camera_info YAML file: a dump of sensor_msgs/CameraInfo (keys k, d, r, p or K, D, R,
-/// P; several documents must all be of the same camera) or the file that camera_calibration writes
-/// (camera_matrix, distortion_coefficients, ...).
+/// Reads a camera's intrinsics from YAML or JSON: a dump of sensor_msgs/CameraInfo (keys k, d, r, p
+/// or K, D, R, P; several documents must all be of the same camera), the file that
+/// camera_calibration or OpenCV writes (camera_matrix, distortion_coefficients, ...), kalibr's
+/// camchain of one camera, or RealSense's fx, fy, ppx, ppy, model and coeffs.
 ///
 /// `rectified`: the images are free of distortion already. Then p is used without distortion, and r
 /// must be the identity. Otherwise k and d are used. binning and roi are applied, so that the
-/// camera fits the images as they come. Throws InputError that names file, line and key.
+/// camera fits the images as they come. Without p, k is used for images without distortion. Throws
+/// InputError that names file, line and key.
 [[nodiscard]] Camera read_camera_info(const std::filesystem::path& file, bool rectified);
 
 /// The same from text; `file` is for messages.

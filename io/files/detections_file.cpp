@@ -138,6 +138,10 @@ Detections read_coco(const std::filesystem::path& file, const Intrinsics& images
                      ClassNames names) {
   const auto root = nlohmann::json::parse(read_whole_file(file, most_json_bytes));
   CocoImages frames;
+  if (root.is_object() && root.contains("shapes") && !root.contains("annotations"))
+    throw InputError(
+        "is LabelMe's file of one image, which is not read; export COCO, or write a table with "
+        "the header frame,class,x0,y0,x1,y1");
   if (root.is_object()) {  // a data set
     for (const nlohmann::json& category : root.value("categories", nlohmann::json::array()))
       names.emplace(category.at("id").get<std::int64_t>(), category.at("name").get<std::string>());
@@ -282,9 +286,10 @@ Detections read_yolo(const FramePattern& files, const Intrinsics& images, const 
 }
 
 Detections read_any(const std::string& name, const std::filesystem::path& folder,
-                    const Intrinsics& images, const ClassNames& names, double first_frame) {
+                    const Intrinsics& images, const ClassNames& names, double first_frame,
+                    const std::optional<FrameStamps>& stamps) {
   if (name.find('%') != std::string::npos) {
-    const FramePattern files(name, folder);
+    const FramePattern files(name, folder, stamps);
     if (files.existing().empty()) throw InputError(name + ": no file of that name for any frame");
     return read_yolo(files, images, names);
   }
@@ -339,9 +344,9 @@ void check(const std::string& file, const Detections& all) {
 Detections read_detections(const std::string& file_or_pattern, const std::filesystem::path& folder,
                            const Intrinsics& images,
                            const std::map<std::int64_t, std::string>& names,
-                           std::int64_t first_frame) {
+                           std::int64_t first_frame, const std::optional<FrameStamps>& stamps) {
   Detections read =
-      read_any(file_or_pattern, folder, images, names, static_cast<double>(first_frame));
+      read_any(file_or_pattern, folder, images, names, static_cast<double>(first_frame), stamps);
   if (read.empty()) throw InputError(file_or_pattern + ": holds no detection");
   check(file_or_pattern, read);
   if (first_frame == 0) return read;

@@ -12,6 +12,8 @@
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/targets/region.hpp>
 
+#include <io/files/frame_pattern.hpp>
+
 namespace penumbra::io {
 
 /// What a detector found in an image.
@@ -28,12 +30,14 @@ using Detections = std::unordered_map<std::int64_t, std::vector<Detection>>;
 /// Reads a detector's output (docs/targets.md): COCO results (*.json), a table with a header
 /// (*.csv), MOT text (*.txt) or YOLO text, one file for each frame (labels/%d.txt). `images`: which
 /// the boxes are of. `names`: of classes that have numbers in the file. `first_frame`: the file's
-/// number of frame 0. Throws InputError that names the file and, for text, the line.
+/// number of frame 0. `stamps`: of the frames, for YOLO's files that are named by time (%t). Throws
+/// InputError that names the file and, for text, the line.
 [[nodiscard]] Detections read_detections(const std::string& file_or_pattern,
                                          const std::filesystem::path& folder,
                                          const Intrinsics& images,
                                          const std::map<std::int64_t, std::string>& names,
-                                         std::int64_t first_frame);
+                                         std::int64_t first_frame,
+                                         const std::optional<FrameStamps>& stamps = {});
 
 /// Returns the number that files of this kind give to the first frame: 1 of MOT, else 0.
 [[nodiscard]] std::int64_t usual_first_frame(const std::string& file_or_pattern);

@@ -18,9 +18,10 @@ namespace penumbra::io {
 namespace {
 
 /// Adds a faulty row for every depth image without a row, before the first row of a later frame.
-/// `lacking`: the images' numbers, ascending.
+/// `lacking`: the images' numbers, ascending. `by_time`: names them, or null.
 std::vector<JointRow> with_gaps(std::vector<JointRow> rows, std::vector<std::int64_t> lacking,
-                                const std::filesystem::path& joint_file) {
+                                const std::filesystem::path& joint_file,
+                                const FramePattern* by_time) {
   std::unordered_set<std::int64_t> known;
   for (const JointRow& row : rows) known.insert(row.index);
   std::erase_if(lacking, [&](std::int64_t index) { return known.contains(index); });
@@ -31,7 +32,9 @@ std::vector<JointRow> with_gaps(std::vector<JointRow> rows, std::vector<std::int
   const auto add_lacking = [&] {
     JointRow& row = all.emplace_back();
     row.index = *next;
-    row.fault = joint_file.string() + " has no row for frame " + std::to_string(*next);
+    row.fault = joint_file.string() + " has no row for " +
+                (by_time != nullptr ? by_time->file(*next).string() + ", by its time"
+                                    : "frame " + std::to_string(*next));
     ++next;
   };
   for (JointRow& row : rows) {
@@ -57,6 +60,12 @@ std::vector<std::int64_t> numbers_of(const FramePattern& images, const VideoFile
   std::vector<std::int64_t> numbers(video->frames());
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
+}
+
+/// Returns the pattern of numbers_of_images() if it is of times.
+const FramePattern* by_time(const RecordingFrames& files) {
+  const auto& images = files.depth ? files.depth : files.color;
+  return images && images->is_by_time() ? &*images : nullptr;
 }
 
 ImageSize size_of(const Camera& camera) {
@@ -111,7 +120,8 @@ FrameReader::FrameReader(const Recording& recording, const Robot& robot)
       depth_camera_(recording.camera.depth ? std::make_shared<DepthCamera>(recording.camera)
                                            : nullptr),
       depth_scale_(recording.camera.depth_scale),
-      rows_(with_gaps(read_joint_file(files_.joints, robot), numbers_of_images(), files_.joints)),
+      rows_(with_gaps(read_joint_file(files_.joints, robot), numbers_of_images(), files_.joints,
+                      by_time(files_))),
       bodies_(recording.attached),
       robot_(robot),
       camera_parent_(robot.find_link(recording.camera.parent).value_or(0)) {}

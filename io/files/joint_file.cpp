@@ -7,6 +7,7 @@
 #include <io/files/csv.hpp>
 #include <io/files/joint_file.hpp>
 #include <io/files/names.hpp>
+#include <io/files/numbers.hpp>
 #include <io/files/printable.hpp>
 
 namespace penumbra::io {
@@ -66,6 +67,17 @@ std::vector<JointRow> read_joint_file(const std::filesystem::path& file, const R
   }
   if (rows.empty()) throw InputError(file.string() + ": has no frames below its header");
   return rows;
+}
+
+FrameStamps read_frame_stamps(const std::filesystem::path& file) {
+  const FrameTable table(file);
+  FrameStamps stamps;
+  const auto column = table.find("stamp");
+  for (const FrameTable::Row& row : table.rows())
+    if (column && *column < row.cells.size())
+      if (const auto stamp = parse_number<std::int64_t>(row.cells[*column]); stamp && *stamp >= 0)
+        stamps.emplace(row.frame, *stamp);
+  return stamps;
 }
 
 }  // namespace penumbra::io

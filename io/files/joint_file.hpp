@@ -9,6 +9,8 @@
 
 #include <penumbra/robot/robot.hpp>
 
+#include <io/files/frame_pattern.hpp>
+
 namespace penumbra::io {
 
 /// One frame's row of a joint file.
@@ -29,5 +31,9 @@ struct JointRow {
 /// invalid or doubled frame number, a negative stamp.
 [[nodiscard]] std::vector<JointRow> read_joint_file(const std::filesystem::path& file,
                                                     const Robot& robot);
+
+/// Reads the stamps of a joint file of any robot; none without that column. Throws InputError for
+/// another header or an invalid frame number.
+[[nodiscard]] FrameStamps read_frame_stamps(const std::filesystem::path& file);
 
 }  // namespace penumbra::io

@@ -11,6 +11,7 @@
 
 #include <io/files/camera_info.hpp>
 #include <io/files/frame_values.hpp>
+#include <io/files/joint_file.hpp>
 #include <io/files/names.hpp>
 #include <io/files/recording.hpp>
 #include <io/files/yaml.hpp>
@@ -175,8 +176,14 @@ RecordingCamera camera_of(const YamlNode& node, const std::vector<std::string_vi
   return camera;
 }
 
-FramePattern pattern_of(const YamlNode& node, const std::filesystem::path& folder) {
-  return node.with_context([&] { return FramePattern(node.text(), folder); });
+FramePattern pattern_of(const YamlNode& node, const std::filesystem::path& folder,
+                        const std::filesystem::path& joints) {
+  std::optional<FrameStamps> stamps;
+  if (node.text().find("%t") != std::string::npos) stamps = read_frame_stamps(joints);
+  FramePattern pattern =
+      node.with_context([&] { return FramePattern(node.text(), folder, stamps); });
+  if (!pattern.fault().empty()) node.fail(pattern.fault());
+  return pattern;
 }
 
 /// `images` has the patterns; of several cameras, one may have joints at its own stamps.
@@ -185,8 +192,10 @@ RecordingFrames frames_of(const YamlNode& node, const YamlNode& images,
   const YamlNode* const joints = images.find("joints");
   RecordingFrames frames{file_of(joints != nullptr ? *joints : node.at("joints"), folder),
                          std::nullopt, std::nullopt};
-  if (const YamlNode* depth = images.find("depth")) frames.depth = pattern_of(*depth, folder);
-  if (const YamlNode* color = images.find("color")) frames.color = pattern_of(*color, folder);
+  if (const YamlNode* depth = images.find("depth"))
+    frames.depth = pattern_of(*depth, folder, frames.joints);
+  if (const YamlNode* color = images.find("color"))
+    frames.color = pattern_of(*color, folder, frames.joints);
   return frames;
 }
 
@@ -311,13 +320,14 @@ std::optional<CloudRecording> CloudRecording::open(const std::filesystem::path& 
   root.allow_only({"robot", "robots", "sensor", "frames", "targets", "attached"});
   frames.allow_only({"joints", "cloud"});
   const YamlNode& sensor = root.at("sensor");
+  const std::filesystem::path joints = file_of(frames.at("joints"), folder);
   CloudRecording recording{.file = file,
                            .robots = robots_of(root, folder),
                            .parent = {},
                            .pose = {},
                            .rule = {},
-                           .joints = file_of(frames.at("joints"), folder),
-                           .clouds = pattern_of(*clouds, folder),
+                           .joints = joints,
+                           .clouds = pattern_of(*clouds, folder, joints),
                            .targets = {},
                            .attached = {}};
   if (const YamlNode* model = sensor.find("model"))

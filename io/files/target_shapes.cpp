@@ -142,8 +142,8 @@ ShapeSource read_mask(const TargetReader& reader, const YamlNode& node) {
   }
   node.allow_only({"files"});
   const YamlNode& files = node.at("files");
-  const FramePattern pattern =
-      files.with_context([&] { return FramePattern(files.text(), reader.folder); });
+  const FramePattern pattern = files.with_context(
+      [&] { return FramePattern(files.text(), reader.folder, reader.context.stamps); });
   if (pattern.existing().empty()) files.fail("no file of that name for any frame");
   return {[=](std::int64_t index) { return read(pattern.file(index)); }};
 }

@@ -253,7 +253,7 @@ struct TargetsFile::State {
                           const TargetsContext& context,
                           const std::map<std::int64_t, std::string>& names) {
     if (!is_first_given) first_frame = usual_first_frame(name);
-    detections = read_detections(name, folder, context.images, names, first_frame);
+    detections = read_detections(name, folder, context.images, names, first_frame, context.stamps);
     if (std::string doubt = doubt_of(detections, context.images); !doubt.empty())
       notes.push_back(name + ": " + doubt);
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,19 +15,22 @@
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/targets/target.hpp>
 
+#include <io/files/frame_pattern.hpp>
+
 namespace penumbra::io {
 
 /// The context of targets.
 struct TargetsContext {
   static constexpr double default_history = 0.5;  ///< seconds
 
-  const Robot& robot;                  ///< its links may be named
-  ImageSpace image;                    ///< of the report
-  Intrinsics images;                   ///< of the report's images
-  bool has_distortion;                 ///< the camera's raw images have lens distortion
-  bool beyond_hides;                   ///< default of targets
-  double history = default_history;    ///< seconds that frames are kept for late targets
-  std::string_view camera_frame = {};  ///< of the report's images; empty: it has no name
+  const Robot& robot;                      ///< its links may be named
+  ImageSpace image;                        ///< of the report
+  Intrinsics images;                       ///< of the report's images
+  bool has_distortion;                     ///< the camera's raw images have lens distortion
+  bool beyond_hides;                       ///< default of targets
+  double history = default_history;        ///< seconds that frames are kept for late targets
+  std::string_view camera_frame = {};      ///< of the report's images; empty: it has no name
+  std::optional<FrameStamps> stamps = {};  ///< of the frames, for files named by time (%t)
 };
 
 /// A targets.yaml or a detector's file (docs/targets.md): which targets each frame has.

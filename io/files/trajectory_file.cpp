@@ -43,16 +43,21 @@ std::vector<double> values_of(const YamlNode& point, std::string_view key) {
   return values == nullptr || values->is_null() ? std::vector<double>{} : values->numbers();
 }
 
+/// Returns a duration of ROS 2 (sec, nanosec) or ROS 1 (secs, nsecs).
+double seconds_of(const YamlNode& time) {
+  const bool is_ros1 = time.find("secs") != nullptr;
+  const YamlNode* const rest = time.find(is_ros1 ? "nsecs" : "nanosec");
+  return static_cast<double>(time.at(is_ros1 ? "secs" : "sec").integer()) +
+         1e-9 * static_cast<double>(rest == nullptr ? 0 : rest->integer());
+}
+
 /// Appends a JointTrajectory `after` seconds.
 void append(const YamlNode& message, double after, FileTrajectory& to) {
   const std::vector<std::string> names = message.at("joint_names").texts();
   if (to.points.empty()) to.variables = names;
   if (names != to.variables) message.at("joint_names").fail("differ from those of the part before");
   for (const YamlNode& point : message.at("points").items()) {
-    const YamlNode& time = point.at("time_from_start");
-    const YamlNode* const nanosec = time.find("nanosec");
-    const double seconds = static_cast<double>(time.at("sec").integer()) +
-                           1e-9 * static_cast<double>(nanosec == nullptr ? 0 : nanosec->integer());
+    const double seconds = seconds_of(point.at("time_from_start"));
     TrajectoryPoint read{.time = after + seconds,
                          .positions = point.at("positions").numbers(),
                          .velocities = values_of(point, "velocities"),
@@ -74,8 +79,13 @@ void append_robot(const YamlNode& message, FileTrajectory& to) {
 }
 
 FileTrajectory read_message(const YamlNode& message, std::string name) {
+  if (const YamlNode* const goal = message.find("goal"); goal != nullptr && goal->is_map())
+    return read_message(*goal, std::move(name));
   FileTrajectory trajectory{.name = std::move(name)};
-  if (const YamlNode* const parts = message.find("trajectory"))
+  const YamlNode* const parts = message.find("trajectory");
+  if (parts != nullptr && parts->is_map())  // a goal of FollowJointTrajectory
+    append(*parts, 0.0, trajectory);
+  else if (parts != nullptr)
     for (const YamlNode& part : parts->items()) append_robot(part, trajectory);
   else if (message.find("joint_trajectory") != nullptr)
     append_robot(message, trajectory);
@@ -83,8 +93,8 @@ FileTrajectory read_message(const YamlNode& message, std::string name) {
     append(message, 0.0, trajectory);
   else
     message.fail(
-        "expected a message of JointTrajectory, RobotTrajectory or DisplayTrajectory, or a table "
-        "*.csv");
+        "expected a message of JointTrajectory, RobotTrajectory or DisplayTrajectory, a goal of "
+        "FollowJointTrajectory, or a table *.csv");
   return trajectory;
 }
 

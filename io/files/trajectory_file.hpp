@@ -17,9 +17,10 @@ struct FileTrajectory {
 };
 
 /// Reads the motions of a file, at least one: CSV with the header "time,JOINT,..." (seconds, rad
-/// and m); or messages in YAML or JSON, as `ros2 topic echo` prints them, of
+/// and m); or messages of ROS 2 or ROS 1 in YAML or JSON, as `ros2 topic echo` prints them, of
 /// trajectory_msgs/JointTrajectory, moveit_msgs/RobotTrajectory or DisplayTrajectory, whose parts
-/// follow one another. Throws InputError that names file and line.
+/// follow one another, or goals of control_msgs/FollowJointTrajectory. Throws InputError that names
+/// file and line.
 [[nodiscard]] std::vector<FileTrajectory> read_trajectories(const std::filesystem::path& file);
 
 }  // namespace penumbra::io

@@ -253,7 +253,7 @@ std::vector<std::string> YamlNode::texts() const {
 
 void YamlNode::fail(const std::string& what) const {
   throw InputError(*file_ + ":" + std::to_string(line_) + ": " +
-                   (path_.empty() ? "" : path_ + ": ") + what);
+                   (path_.empty() ? "" : without_controls(path_) + ": ") + what);
 }
 
 std::string YamlNode::described() const {

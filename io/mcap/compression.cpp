@@ -8,6 +8,7 @@
 #include <zstd.h>
 #include <zstd_errors.h>
 
+#include <io/files/disk_file.hpp>
 #include <io/files/printable.hpp>
 #include <io/mcap/compression.hpp>
 #include <io/mcap/records.hpp>
@@ -132,6 +133,32 @@ std::string Decompressor::decompress(std::string_view compression, std::span<con
     return lz4_decompress(static_cast<LZ4F_dctx*>(lz4_.get()), from, size, to);
   }
   return "is compressed as '" + printable(compression) + "'; lz4, zstd and none are read";
+}
+
+std::string decompress_zstd(const std::filesystem::path& from, const std::filesystem::path& to) {
+  constexpr std::uint64_t most_file_ratio = 1000;  // of blank images; the disk has to hold it
+  InputFile input;
+  input.open(from).require();
+  OutputFile output(to);
+  const auto context = checked(ZSTD_createDCtx(), ZSTD_freeDCtx);
+  std::vector<std::byte> packed(ZSTD_DStreamInSize()), plain(ZSTD_DStreamOutSize());
+  std::uint64_t left = unbacked_bytes + most_file_ratio * input.size();
+  std::size_t result = 1;  // 0 at the end of a frame
+  while (const std::size_t read = input.read(packed.data(), packed.size())) {
+    ZSTD_inBuffer in{packed.data(), read, 0};
+    ZSTD_outBuffer out{plain.data(), plain.size(), plain.size()};
+    while (in.pos < in.size || out.pos == out.size) {
+      out.pos = 0;
+      result = ZSTD_decompressStream(static_cast<ZSTD_DCtx*>(context.get()), &out, &in);
+      if (ZSTD_isError(result) != 0) return undone("zstd", ZSTD_getErrorName(result));
+      if (out.pos > left) return undone("zstd", "it becomes more than 1000 times as large");
+      left -= out.pos;
+      output.write(plain.data(), out.pos);
+      if (result == 0 && in.pos == in.size) break;
+    }
+  }
+  output.close();
+  return result == 0 ? "" : undone("zstd", "it is truncated");
 }
 
 void Compressor::compress(std::span<const std::byte> from, std::vector<std::byte>& to) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -32,6 +33,11 @@ class Decompressor {
  private:
   std::shared_ptr<void> lz4_, zstd_;  // contexts, made at the first use
 };
+
+/// Decompresses a file of Zstandard frames. Returns what is wrong, or an empty text; what comes
+/// before that is written. Throws InputError for a file that cannot be read or written.
+[[nodiscard]] std::string decompress_zstd(const std::filesystem::path& from,
+                                          const std::filesystem::path& to);
 
 class Compressor {
  public:

@@ -71,7 +71,8 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   std::optional<FramePattern> masks;
   const auto& path = options.input.path;
   if (options.masks)
-    masks.emplace(*options.masks, std::filesystem::is_directory(path) ? path : path.parent_path());
+    masks.emplace(*options.masks, std::filesystem::is_directory(path) ? path : path.parent_path(),
+                  input.stamps);
 
   const bool has_depth = input.config.has_depth;
   if (!has_depth && !masks) throw InputError(path.string() + ": has no depth: give --masks");

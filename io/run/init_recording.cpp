@@ -36,6 +36,7 @@ struct Sequence {
   std::size_t count = 0;
   bool is_depth = false;
   ImageSize size = {};
+  std::string fault = {};  // of names that are times
 };
 
 /// Returns the files of a folder and those below it, sorted, relative to it.
@@ -68,25 +69,38 @@ bool ends_with(const fs::path& file, std::initializer_list<std::string_view> end
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
-/// Returns "depth/%06d.png" for "depth/000012.png", or nothing for a name without a number.
+/// Returns "depth/%06d.png" for "depth/000012.png" and "depth/%t.png" for a time, or nothing for a
+/// name without a number.
 std::string pattern_of(const fs::path& file) {
   constexpr std::string_view digits = "0123456789";
+  constexpr std::size_t seconds = 9, milliseconds = 13;  // digits of times since 1973
   const std::string name = file.filename().string();
   const std::size_t dot = name.rfind('.');
   const std::size_t end = name.find_last_of(digits, dot);
   if (end == std::string::npos) return {};
-  const std::size_t before = name.find_last_not_of(digits, end);
-  const std::size_t first = before == std::string::npos ? 0 : before + 1;
+  const auto first_of = [&](std::size_t last) {
+    const std::size_t before = name.find_last_not_of(digits, last);
+    return before == std::string::npos ? 0 : before + 1;
+  };
+  std::size_t first = first_of(end);
   const std::size_t count = end + 1 - first;
-  if (name.find('%') != std::string::npos || count > 9) return {};
+  if (name.find('%') != std::string::npos) return {};
   const bool is_padded = count > 1 && name[first] == '0';
-  const std::string number = is_padded ? "%0" + std::to_string(count) + "d" : "%d";
+  std::string number = is_padded ? "%0" + std::to_string(count) + "d" : "%d";
+  const std::size_t whole = first < 2 || name[first - 1] != '.' ? first : first_of(first - 2);
+  if (whole + seconds < first || count >= milliseconds) {
+    number = "%t";
+    first = std::min(first, whole);
+  } else if (count > 9) {
+    return {};
+  }
   return (file.parent_path() / (name.substr(0, first) + number + name.substr(end + 1))).string();
 }
 
 /// Says what the images of a pattern are; null: neither depth nor colour.
-std::optional<Sequence> sequence_of(const std::string& pattern, const fs::path& folder) {
-  const FramePattern files(pattern, folder);
+std::optional<Sequence> sequence_of(const std::string& pattern, const fs::path& folder,
+                                    const FrameStamps& stamps) {
+  const FramePattern files(pattern, folder, stamps);
   Sequence found{.pattern = pattern};
   if (files.is_video()) {
     const auto look = [&](const auto& video, bool is_depth) {
@@ -104,6 +118,12 @@ std::optional<Sequence> sequence_of(const std::string& pattern, const fs::path& 
   const std::vector<std::int64_t> numbers = files.existing();
   if (numbers.empty()) return std::nullopt;
   found.count = numbers.size();
+  found.fault = files.fault();
+  const auto unmatched =
+      std::ranges::count_if(numbers, [&](std::int64_t number) { return !stamps.contains(number); });
+  if (files.is_by_time() && found.fault.empty() && unmatched > 0)
+    found.fault = std::to_string(unmatched) + " of " + std::to_string(found.count) +
+                  " images have no row whose stamp is their time";
   const fs::path first = files.file(numbers.front());
   SharedDepth depth;
   Image<Rgb8> color;
@@ -118,7 +138,18 @@ std::optional<Sequence> sequence_of(const std::string& pattern, const fs::path& 
   return found;
 }
 
+/// Returns the stamps of the first joint file that has some.
+FrameStamps stamps_in(const std::vector<fs::path>& files, const fs::path& folder) {
+  for (const fs::path& file : files)
+    if (ends_with(file, {".csv"})) try {
+        if (FrameStamps stamps = read_frame_stamps(folder / file); !stamps.empty()) return stamps;
+      } catch (const InputError&) {  // another table
+      }
+  return {};
+}
+
 std::vector<Sequence> sequences_of(const std::vector<fs::path>& files, const fs::path& folder) {
+  const FrameStamps stamps = stamps_in(files, folder);
   std::vector<std::string> patterns;
   for (const fs::path& file : files) {
     const bool is_image =
@@ -131,7 +162,8 @@ std::vector<Sequence> sequences_of(const std::vector<fs::path>& files, const fs:
   }
   std::vector<Sequence> found;
   for (const std::string& pattern : patterns) try {
-      if (auto sequence = sequence_of(pattern, folder)) found.push_back(std::move(*sequence));
+      if (auto sequence = sequence_of(pattern, folder, stamps))
+        found.push_back(std::move(*sequence));
     } catch (const InputError&) {  // a video that cannot be read
     }
   return found;
@@ -211,6 +243,7 @@ class Draft {
     value(key, found.pattern,
           std::to_string(found.count) + (found.count == 1 ? " image of " : " images of ") +
               std::to_string(found.size.width) + " x " + std::to_string(found.size.height));
+    if (!found.fault.empty()) lacking.push_back(key + ": " + found.pattern + ": " + found.fault);
   }
   [[nodiscard]] std::string text() const { return text_.str(); }
 
@@ -262,14 +295,17 @@ void write_robot(Draft& draft, const InitOptions& options, const fs::path& urdf)
 /// Returns whether there is a pose.
 bool write_camera(Draft& draft, const InitOptions& options, const std::vector<fs::path>& files,
                   const Sequence* images, const std::string& root) {
-  const auto infos = those_that(files, {".yaml", ".yml"}, [&](const fs::path& file) {
+  const auto infos = those_that(files, {".yaml", ".yml", ".json"}, [&](const fs::path& file) {
+    constexpr std::uintmax_t most_bytes = 1U << 16U;  // labels of images are larger, and many
+    std::error_code ignored;
+    if (fs::file_size(options.folder / file, ignored) > most_bytes) throw InputError("too large");
     const Camera camera = read_camera_info(options.folder / file, false);
     const ImageSize size{camera.intrinsics.width(), camera.intrinsics.height()};
     if (images != nullptr && size != images->size) throw InputError("is of another camera");
   });
-  const auto poses = those_that(files, {".csv", ".txt"}, [&](const fs::path& file) {
-    static_cast<void>(read_pose_csv(options.folder / file));
-  });
+  const auto poses = those_that(
+      files, {".csv", ".txt", ".npy", ".yaml", ".yml", ".json"},
+      [&](const fs::path& file) { static_cast<void>(read_pose_csv(options.folder / file)); });
   draft.line("camera:");
   draft.one_of(
       "info", infos,
@@ -343,10 +379,11 @@ InitResult init_recording(const InitOptions& options) {
   const Sequence* const depth = best_of(sequences, true);
   const Sequence* color = best_of(sequences, false);
   if (depth == nullptr && color == nullptr)
-    throw InputError(options.folder.string() +
-                     (is_bag_folder(options.folder)
-                          ? is_a_bag
-                          : ": holds no images with a number in their names, and no video"));
+    throw InputError(
+        options.folder.string() +
+        (is_bag_folder(options.folder)
+             ? is_a_bag
+             : ": holds no images with a number or a time in their names, and no video"));
   const fs::path urdf = robot_file(options, files);
   RobotOptions robot_options;
   robot_options.packages = options.packages;

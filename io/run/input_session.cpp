@@ -27,7 +27,8 @@ std::optional<TargetsFile> open_targets(const SessionOptions& options, const Run
                                 .images = camera.intrinsics,
                                 .has_distortion = !input.camera.distortion.is_none(),
                                 .beyond_hides = input.beyond != BeyondMeans::visible,
-                                .camera_frame = camera.frame_id});
+                                .camera_frame = camera.frame_id,
+                                .stamps = input.stamps});
   if (!input.frame_numbers.empty()) targets.check_frames(input.frame_numbers);
   return targets;
 }

@@ -20,7 +20,8 @@ TargetsFile open_planned_targets(const std::filesystem::path& path,
                                 .images = input.camera.intrinsics,
                                 .has_distortion = !input.camera.distortion.is_none(),
                                 .beyond_hides = true,
-                                .camera_frame = input.camera.frame_id});
+                                .camera_frame = input.camera.frame_id,
+                                .stamps = input.stamps});
   if (targets.size() == 0) throw InputError(file->string() + ": has no targets");
   return targets;
 }

@@ -12,6 +12,7 @@
 
 #include <io/bag/bag_reader.hpp>
 #include <io/files/frame_reader.hpp>
+#include <io/files/joint_file.hpp>
 #include <io/files/names.hpp>
 #include <io/run/read_ahead.hpp>
 #include <io/run/run_input.hpp>
@@ -110,6 +111,8 @@ RunInput open_recording_input(const InputOptions& options) {
   FrameReader reader(recording, robot);
   std::vector<std::size_t> selected = select_frames(options.frames, reader);
   check_links(recording, robot, options.extra);
+  const auto by_time = [](const auto& pattern) { return pattern && pattern->is_by_time(); };
+  const bool is_by_time = by_time(recording.frames.depth) || by_time(recording.frames.color);
   std::vector<std::int64_t> numbers;
   for (std::size_t i = 0; i < reader.size(); ++i) numbers.push_back(reader.index(i));
   std::ranges::sort(numbers);
@@ -121,6 +124,8 @@ RunInput open_recording_input(const InputOptions& options) {
           .beyond = recording.camera.beyond,
           .targets = recording.targets,
           .frame_numbers = std::move(numbers),
+          .stamps =
+              is_by_time ? std::optional(read_frame_stamps(recording.frames.joints)) : std::nullopt,
           .bag = {},
           .made_files = {recording.camera.pose},
           .frames = [reader = std::move(reader), selected = std::move(selected),
@@ -144,8 +149,7 @@ RunInput open_folder_or_bag(const InputOptions& options, const LineSink& print) 
 
 bool is_bag(const std::filesystem::path& input) {
   std::error_code ignored;
-  if (!std::filesystem::is_directory(input, ignored))
-    return is_bag_file(input) || input.extension() == ".zstd";
+  if (!std::filesystem::is_directory(input, ignored)) return is_bag_file(input);
   return is_bag_folder(input);
 }
 

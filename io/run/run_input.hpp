@@ -60,6 +60,7 @@ struct RunInput {
   std::optional<BeyondMeans> beyond;
   std::optional<std::filesystem::path> targets;  ///< the input's own
   std::vector<std::int64_t> frame_numbers = {};  ///< all, ascending; empty: not known
+  std::optional<FrameStamps> stamps = {};        ///< of a recording whose images are named by time
   double target_history = 0.0;  ///< PipelineConfig's, for targets that come with the frames
   std::optional<UsedBag> bag;
   /// Those of its files that tune and calibrate make, too: the camera's pose, parts.

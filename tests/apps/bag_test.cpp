@@ -6,6 +6,8 @@
 
 #include <limits>
 
+#include <io/mcap/compression.hpp>
+
 namespace penumbra::test {
 namespace {
 
@@ -26,6 +28,14 @@ TEST_F(BagTest, ReadsSqliteBagsAndFolders) {
   succeed(run({}, "tiny.db3"));
   expect_recorded_labels();
 
+  const std::string plain = read_file(path("tiny.db3"));
+  std::vector<std::byte> packed;
+  io::mcap::Compressor(io::mcap::Compression::zstd).compress(as_bytes(plain), packed);
+  write_file(path("packed.db3.zst"),
+             std::string(reinterpret_cast<const char*>(packed.data()), packed.size()));
+  EXPECT_EQ(succeed(run({}, "packed.db3.zst")).err, "");
+  expect_recorded_labels();
+
   fs::create_directory(path("recorded"));
   bag_.write_mcap(path("recorded/a_0.mcap"));
   expect_has(succeed(run({}, "recorded")).err, {"metadata.yaml: is missing"});
@@ -34,6 +44,12 @@ TEST_F(BagTest, ReadsSqliteBagsAndFolders) {
   write_file(path("recorded/metadata.yaml"), metadata_yaml("mcap", {"a_0.mcap"}));
   EXPECT_EQ(succeed(run({}, "recorded")).err, "");
   expect_recorded_labels();
+}
+
+TEST_F(BagTest, OtherBagsAreCalledByTheirNames) {
+  write_file(path("old.bag"), "#ROSBAG V2.0\n");
+  for (const char* command : {"run", "cloud", "calibrate"})
+    expect_refused(penumbra({command, path("old.bag"), "-o", out("a.mcap")}), {"old.bag", "ROS 1"});
 }
 
 TEST_F(BagTest, ShowsColorInOverlays) {

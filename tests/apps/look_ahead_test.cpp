@@ -78,7 +78,13 @@ points:
   };
   write_file(path("display.json"), R"({"model_id": "tiny", "trajectory": [)" + half("0.0", "0.5") +
                                        ", " + half("0.5", "1.0") + "]}");
-  for (const char* file : {"joint.yaml", "display.json"}) {
+  const std::string ros1 = R"({joint_names: [slide], points: [
+  {positions: [0], time_from_start: {secs: 0, nsecs: 0}},
+  {positions: [1], time_from_start: {secs: 0, nsecs: 1000000000}}]})";
+  write_file(path("ros1.yaml"), "joint_trajectory: " + ros1);
+  write_file(path("goal.yaml"), "trajectory: " + ros1);  // of FollowJointTrajectory
+  write_file(path("action.yaml"), "goal_id: {id: 3}\ngoal:\n  trajectory: " + ros1);
+  for (const char* file : {"joint.yaml", "display.json", "ros1.yaml", "goal.yaml", "action.yaml"}) {
     succeed(look(file));
     EXPECT_EQ(intervals(), wanted) << file;
   }

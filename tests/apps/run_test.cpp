@@ -52,6 +52,42 @@ TEST_F(RunTest, ATargetThatALinkCarriesIsHeld) {
                        {"/summary/targets/0/verdicts/held", 1}});
 }
 
+TEST_F(RunTest, ImagesNamedByTimeBelongToTheRowsOfTheirStamps) {
+  succeed(run({"--save", "labels"}));
+  std::vector<std::string> wanted;
+  for (std::size_t i = 0; i < 3; ++i) wanted.push_back(read_file(out("labels") / numbered(i)));
+  write_joints(
+      "frame,stamp,slide\n0,1700000000000000000,0.0\n1,1700000000100000000,0.05\n"
+      "2,1700000000200000000,0.1\n");
+  Words names{"0", "1", "2"};
+  for (const Words& times :
+       {Words{"1700000000.000000", "1700000000.100000", "1700000000.200000"},
+        Words{"1700000000000000000", "1700000000100000000", "1700000000200000000"},
+        Words{"1700000000000", "1700000000100", "1700000000200"}}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (const std::string kind : {"depth_", "color_"})
+        fs::rename(path(kind + names[i] + ".png"), path(kind + times[i] + ".png"));
+      write_file(path("found_" + times[i] + ".txt"), "0 0.5 0.5 0.2 0.2 0.9\n");
+    }
+    names = times;
+    succeed(penumbra({"init", path(), "--force"}));
+    expect_has(read_file(path("recording.yaml")), {"depth: \"depth_%t.png\""});
+    succeed(run({"--save", "labels", "--targets", path("found_%t.txt")}));
+    EXPECT_EQ(statuses(), (Words{"ok", "ok", "ok"}));
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_TRUE(read_file(out("labels") / numbered(i)) == wanted[i]) << times[i];
+      EXPECT_EQ(report()["frames"][i]["targets"].size(), 1U) << times[i];
+    }
+  }
+  fs::rename(path("depth_" + names[1] + ".png"), path("depth_1700000000350.png"));
+  succeed(run());
+  EXPECT_EQ(statuses(), (Words{"ok", "missing_depth", "ok", "missing_joints"}));
+  expect_has(message(3), {"depth_1700000000350.png"});
+  write_joints("frame,slide\n0,0.0\n1,0.05\n2,0.1\n");
+  expect_refused(run(), {"recording.yaml:", "frames.depth: ", "no stamps"});
+  expect_has(succeed(penumbra({"init", path(), "--force"})).out, {"depth_%t.png: ", "no stamps"});
+}
+
 TEST_F(RunTest, WritesDepthAndPointsWithoutTheRobot) {
   succeed(run({"--save", "labels,filtered,points", "--points-frame", "base"}));
   const auto depth = read_image<std::uint16_t>(path("depth_0.png"));

@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bag_files.hpp"
 
+#include <span>
+
 #include <gtest/gtest.h>
+
+#include <penumbra/base/whole_file-inl.hpp>
+
+#include <io/files/disk_file.hpp>
+#include <io/mcap/compression.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -145,16 +152,68 @@ TEST_F(Bags, AMissingOrBrokenFileCostsItsPart) {
   EXPECT_HAS(refusal(folder_.path()), path("r_1.mcap").string() + ": ");
 }
 
+/// Compresses a file of the folder as rosbag2 does; leaves `cut` bytes out at the end.
+std::filesystem::path zip(const std::filesystem::path& file, std::size_t cut = 0) {
+  const std::string plain = read_whole_file(file, FileLimit::data);
+  std::vector<std::byte> packed;
+  mcap::Compressor(mcap::Compression::zstd).compress(std::as_bytes(std::span(plain)), packed);
+  const std::filesystem::path zipped = file.string() + ".zstd";
+  write_file(zipped, packed.data(), packed.size() - cut);
+  return zipped;
+}
+
+TEST_F(Bags, ReadsFilesThatAreCompressedAsAWhole) {
+  mcap("r_0.mcap", {1, 2});
+  mcap("r_1.mcap", {3, 4});
+  {
+    test::BagDatabase database(path("r_2.db3"));
+    database.make_tables(false);
+    database.topic(1, "/q", "std_msgs/msg/String");
+    database.message(1, 5, "q");
+  }
+  for (const char* name : {"r_0.mcap", "r_1.mcap", "r_2.db3"}) {
+    const BagContent plain = test::read_bag(path(name));
+    const BagContent zipped = test::read_bag(zip(path(name)));
+    EXPECT_EQ(times(zipped), times(plain));
+    EXPECT_TRUE(zipped.faults.empty());
+  }
+  EXPECT_EQ(times(test::read_bag(folder_.path())), "1r 2r 3r 4r 5q ") << "both are there: once";
+  for (const char* name : {"r_0.mcap", "r_1.mcap", "r_2.db3"}) std::filesystem::remove(path(name));
+  metadata(test::metadata_yaml("mcap", {"r_0.mcap.zstd", "r_1.mcap.zstd", "r_2.db3.zstd"}, " []",
+                               "FILE"));
+  const BagContent all = test::read_bag(folder_.path());
+  EXPECT_EQ(times(all), "1r 2r 3r 4r 5q ");
+  EXPECT_TRUE(all.faults.empty());
+}
+
+TEST_F(Bags, SaysWhatIsWrongWithACompressedFile) {
+  mcap("r_0.mcap", {1, 2});
+  const auto cut = zip(path("r_0.mcap"), 5);
+  EXPECT_HAS(refusal(cut), cut.string() + ": cannot be decompressed as zstd: ");
+  folder_.write("r_1.mcap", "no bag");
+  const auto other = zip(path("r_1.mcap"));
+  EXPECT_HAS(refusal(other), other.string() + ": ");
+  const auto none = folder_.write("r_2.mcap.zstd", "no zstd");
+  EXPECT_HAS(refusal(none), none.string() + ": ");
+  const std::string whole = read_whole_file(zip(path("r_0.mcap")), FileLimit::data);
+  test::read_damaged(whole, 500, [&](const std::string& damaged) {
+    for (const std::string& fault : test::read_bag(folder_.write("d.mcap.zstd", damaged)).faults)
+      EXPECT_EQ(fault.find("penumbra-bag-"), std::string::npos) << fault;
+  });
+}
+
 TEST_F(Bags, RefusesWhatItCannotRead) {
   EXPECT_HAS(refusal(folder_.path()), "holds no bag: neither metadata.yaml nor *.mcap");
   folder_.write("a.bag", "#ROSBAG V2.0\n");
-  EXPECT_HAS(refusal(path("a.bag")), "*.mcap, *.db3 and folders");
-  EXPECT_HAS(refusal(path("a.db3.zstd")), "is compressed as a whole");
-  EXPECT_HAS(refusal(path("a.mcap")), "No such file");
+  EXPECT_HAS(refusal(path("a.bag")), "a.bag: is a bag of ROS 1");
+  EXPECT_HAS(refusal(folder_.path()), "a.bag: is a bag of ROS 1");
+  folder_.write("a.bag", "#ROSBAG V2.0\n" + std::string(5 << 20, '.') + "/device_0/sensor_0/Depth");
+  EXPECT_HAS(refusal(path("a.bag")), "a.bag: is a recording of RealSense's SDK");
+  folder_.write("a.bag", "other");
+  EXPECT_HAS(refusal(path("a.bag")), "*.mcap, *.db3");
+  for (const char* name : {"a.mcap", "a.db3.zstd"}) EXPECT_HAS(refusal(path(name)), "No such file");
   metadata("rosbag2_bagfile_information:\n  version: 5\n");
   EXPECT_HAS(refusal(folder_.path()), "key 'relative_file_paths' is missing");
-  metadata(test::metadata_yaml("sqlite3", {"a.db3.zstd"}, " []", "FILE"));
-  EXPECT_HAS(refusal(folder_.path()), "metadata.yaml:11: ");
   metadata(test::metadata_yaml("sqlite3", {"a.db3"}, " []", "MESSAGE"));
   EXPECT_HAS(refusal(folder_.path()), "'MESSAGE' is not read; 'ros2 bag convert'");
   metadata("rosbag2_bagfile_information:\n  relative_file_paths: []\n");

@@ -144,8 +144,8 @@ void expect_refused(const std::string& text, std::initializer_list<Edit> edits,
 
 TEST(CameraInfo, WrongValuesAreNamedWithLineAndKey) {
   expect_refused(info_text,
-                 {{"k: [500.5, 0.0, 320.25, 0.0, 501.5, 240.75, 0.0, 0.0, 1.0]\n", "", "key 'k'"},
-                  {"distortion_model: plumb_bob\n", "", "key 'distortion_model'"},
+                 {{"k: [500.5, 0.0, 320.25, 0.0, 501.5, 240.75, 0.0, 0.0, 1.0]\n", "", "add k: "},
+                  {"distortion_model: plumb_bob\n", "", "add distortion_model: "},
                   {"height: 480", "height: 480\nheigth: 480", "cam.yaml:7: heigth"},
                   {"height: 480", "height: 480\nheight: 480", "there already"},
                   {"width: 640", "width: 0", "cam.yaml:7: width"},
@@ -163,11 +163,11 @@ TEST(CameraInfo, WrongValuesAreNamedWithLineAndKey) {
                   {"  x_offset: 0", "  x_offset: 10", "region of interest"},
                   {"do_rectify: false", "do_rectify: false\n  angle: 3", "roi.angle"},
                   {"height: 480", "height: 480\nframe_id: other", "header.frame_id"}});
-  expect_refused(calibration, {{"image_width: 640\n", "", "'image_width'"},
+  expect_refused(calibration, {{"image_width: 640\n", "", "add width: "},
                                {"  rows: 3\n", "", "camera_matrix: key 'rows'"},
                                {"cols: 5", "cols: 4", "1 x 4"},
                                {"rows: 3", "rows: 4611686018427387905", "rows x"},
-                               {"cols: 5", "cols: 5\n  dt: d", "dt"}});
+                               {"cols: 5", "cols: 5\n  rank: 2", "rank"}});
 }
 
 TEST(CameraInfo, RectifiedNeedsAPlainProjection) {
@@ -197,8 +197,103 @@ TEST(CameraInfo, SeveralDocumentsMustBeOfTheSameCamera) {
                          [](const std::string& text) { return parse(text); });
 }
 
+// As OpenCV's calibration programs write it.
+const std::string opencv = R"(%YAML:1.0
+---
+calibration_time: "Mon 01 Jan 2024 10:00:00"
+nr_of_frames: 3
+image_width: 640
+image_height: 480
+board_width: 9
+square_size: 25.
+# flags: +fix_aspectRatio
+flags: 2
+camera_matrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 5.005e+02, 0., 320.25, 0., 501.5,
+       240.75, 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   rows: 5
+   cols: 1
+   dt: d
+   data: [ -0.3, 1.0e-01, 0.001, -0.002, 0. ]
+avg_reprojection_error: 4.4e-01
+per_view_reprojection_errors: !!opencv-matrix
+   rows: 1
+   cols: 1
+   dt: f
+   data: [ .Nan ]
+)";
+
+const std::string kalibr = R"(cam0:
+  cam_overlaps: []
+  camera_model: pinhole
+  distortion_coeffs: [-0.3, 0.1, 0.001, -0.002]
+  distortion_model: radtan
+  intrinsics: [500.5, 501.5, 320.25, 240.75]
+  resolution: [640, 480]
+  rostopic: /camera/image_raw
+)";
+
+const std::string realsense = R"({
+	"width": 640, "height": 480, "fx": 500.5, "fy": 501.5, "ppx": 320.25, "ppy": 240.75,
+	"model": "distortion.brown_conrady", "coeffs": [-0.3, 0.1, 0.001, -0.002, 0.0], "serial": "1"
+})";
+
+// What numpy and yaml.dump make of OpenCV's matrices, with the keys of its tutorials.
+const std::string dumped =
+    "image_size: [640, 480]\ncameraMatrix:\n- [500.5, 0, 320.25]\n- [0, 501.5, 240.75]\n- [0, 0, "
+    "1]\ndist_coeffs: [[-0.3, 0.1, 0.001, -0.002, 0]]\nrms: 0.2\n";
+
+TEST(CameraInfo, ReadsTheFilesOfOtherPrograms) {
+  const std::string upper_case =
+      replaced(replaced(opencv, "camera_matrix", "K"), "distortion_coefficients", "D");
+  const std::string both = replaced(opencv, "flags: 2", "distortion_model: plumb_bob");
+  for (const std::string& text : {opencv, upper_case, both, kalibr, realsense, dumped}) {
+    const Camera camera = parse(text);
+    EXPECT_EQ(camera.intrinsics, raw) << text;
+    expect_same_lens(camera.distortion, lens);
+  }
+  const auto model = [](const std::string& text) { return parse(text).distortion.model(); };
+  const std::string fisheye =
+      replaced(replaced(opencv, "rows: 5", "rows: 4"), "-0.002, 0. ]", "-0.002 ]");
+  EXPECT_EQ(model(replaced(kalibr, "radtan", "equidistant")), DistortionModel::equidistant);
+  EXPECT_EQ(model(replaced(fisheye, "flags: 2", "fisheye_model: 1")), DistortionModel::equidistant);
+  EXPECT_EQ(model(replaced(fisheye, "flags: 2", "fisheye_model: 0")), DistortionModel::plumb_bob);
+  EXPECT_EQ(model(replaced(replaced(opencv, "rows: 5", "rows: 8"), "-0.002, 0. ]",
+                           "-0.002, 0., 0.1, 0., 0. ]")),
+            DistortionModel::rational_polynomial);
+  const std::string zeros = replaced(realsense, "-0.3, 0.1, 0.001, -0.002, 0.0", "0, 0, 0, 0, 0");
+  EXPECT_TRUE(parse(replaced(zeros, "brown", "inverse_brown")).distortion.is_none());
+  EXPECT_EQ(parse(zeros, true).intrinsics, raw) << "without distortion nothing is rectified";
+}
+
+TEST(CameraInfo, OneLineSaysWhatOtherFilesLack) {
+  test::expect_refused(
+      {{replaced(kalibr, "resolution: [640, 480]", "fps: 3"),
+        "cam.yaml:1: cam0: is not complete; "
+        "add width: 640; height: 480"},
+       {replaced(kalibr, "pinhole", "omni"), "cam0.camera_model: is 'omni'"},
+       {replaced(kalibr, "radtan", "fov"), "cam0.distortion_model: "},
+       {kalibr + "cam1:\n  resolution: [640, 480]\n", "cam0 and cam1"},
+       {replaced(realsense, "brown", "inverse_brown"), "model: is not supported"},
+       {replaced(realsense, "\"model\": \"distortion.brown_conrady\",", ""),
+        "add distortion_model"},
+       {replaced(realsense, "\"coeffs\"", "\"coefs\""), "add d: [k1, k2, p1, p2, k3]"},
+       {replaced(replaced(opencv, "rows: 5", "rows: 4"), "-0.002, 0. ]", "-0.002 ]"),
+        "equidistant"},
+       {replaced(opencv, "image_width", "imgwidth"), "add width: 640"},
+       {"Camera.fx: 500.5\nCamera.fy: 501.5\n", "k: [fx, 0, cx, 0, fy, cy, 0, 0, 1]"},
+       {"500.5 0 320.25\n0 501.5 240.75\n0 0 1\n", "k: [fx, 0, cx"},
+       {"<?xml version=\"1.0\"?><opencv_storage></opencv_storage>", "XML"}},
+      [](const std::string& text) { return parse(text); });
+  expect_refused(kalibr, {{"radtan", "radtan", "add their projection"}}, true);
+}
+
 TEST(CameraInfo, DamagedFilesAreCamerasOrErrors) {
-  for (const std::string& text : {info_text, calibration})
+  for (const std::string& text : {info_text, calibration, opencv, kalibr, realsense, dumped})
     for (const bool is_rectified : {false, true})
       test::read_damaged(text, 500, [&](const std::string& damaged) {
         const Camera camera = parse(damaged, is_rectified);

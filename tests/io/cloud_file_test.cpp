@@ -203,5 +203,55 @@ TEST_F(CloudFile, GapsBetweenFieldsAndRowsAreLeftOut) {
                 data.substr(8, 4) + data.substr(4, 2) + data.substr(26, 4) + data.substr(22, 2));
 }
 
+/// A scan around the sensor of `numbers` a point: coordinates of both signs, then positive ones.
+std::string bin_scan(std::size_t points, std::size_t numbers, std::mt19937_64& random) {
+  std::uniform_real_distribution<float> length(-40.0F, 40.0F);
+  std::string bytes;
+  for (std::size_t i = 0; i < points * numbers; ++i)
+    bytes += raw(i % numbers < 3 ? length(random) : std::abs(length(random)));
+  return bytes;
+}
+
+TEST_F(CloudFile, BinFilesSayByTheirValuesHowManyNumbersAPointHas) {
+  std::mt19937_64 random = test::seeded_random(67);
+  int refused = 0;
+  for (std::size_t points = 500; points < 560; ++points)
+    for (const std::size_t numbers : {3U, 4U, 5U, 6U}) {
+      const std::string bytes = bin_scan(points, numbers, random);
+      const std::string message = test::refusal([&] {
+        const StoredCloud stored = read("a.bin", bytes);
+        EXPECT_EQ(stored.cloud.fields.size(), numbers) << points << " points";
+        EXPECT_EQ(written("b.bin", stored.cloud), bytes);
+      });
+      if (message.empty()) continue;
+      EXPECT_EQ(numbers, 3U) << message;  // no value shows it: another number must not fit
+      EXPECT_TRUE(points % 2 == 0 || points % 5 == 0) << message;
+      EXPECT_HAS(message, "numpy.save");
+      ++refused;
+    }
+  EXPECT_EQ(refused, 36);
+  EXPECT_EQ(read("a.bin", bin_scan(2, 4, random)).cloud.fields.size(), 4U);
+  EXPECT_EQ(read("a.bin", bin_scan(100, 5, random)).cloud.fields[4].name, "ring");
+  EXPECT_EQ(read("a.bin", "").cloud.width, 0U);
+  test::expect_refused(
+      [&] { (void)read("a.bin", bin_scan(4, 7, random) + raw(-1.0F, -1.0F, -1.0F, -1.0F)); },
+      {"a.bin: ", "numpy.save"});  // 32 numbers: of 4 by size, and not by values
+  std::string positive;            // no value says what it is
+  for (int i = 0; i < 12; ++i) positive += raw(1.0F + static_cast<float>(i));
+  test::expect_refused([&] { (void)read("a.bin", positive); }, {"a.bin: ", "numpy.save"});
+}
+
+TEST_F(CloudFile, KeepsIntegersOf64Bits) {
+  const std::string fields = "FIELDS x y z t\nSIZE 4 4 4 8\nTYPE F F F U\nCOUNT 1 1 1 1\n";
+  const std::string points = raw(1.0F, 2.0F, 3.0F) + raw(std::uint64_t{18446744073709551615U});
+  const std::string file = test::pcd(fields, 1, 1, "binary\n") + points;
+  const StoredCloud stored = read("a.pcd", file);
+  EXPECT_EQ(written("b.pcd", stored.cloud), file);
+  EXPECT_EQ(
+      points_of(read("c.pcd", test::pcd(fields, 1, 1, "ascii\n1 2 3 18446744073709551615\n"))),
+      points);
+  EXPECT_EQ(points_of(read("d.ply", written("e.ply", stored.cloud))), points);
+}
+
 }  // namespace
 }  // namespace penumbra::io

@@ -96,6 +96,53 @@ TEST(CloudPoints, LieWhereTheFieldsSay) {
   check(rows, true);
 }
 
+TEST(CloudPoints, FieldsThatAreNotReadMayBeOfAnyType) {
+  auto fields = xyz_fields();
+  fields.push_back({"serial", 12, 9, 1});    // 8 bytes: 64-bit integers, which ROS does not have
+  fields.push_back({"vendor", 500, 77, 9});  // of any size
+  Table table(fields, 20, 2);
+  for (std::size_t i = 0; i < 2; ++i) table.set(i, 0, 1.0F + static_cast<float>(i));
+  CloudPoints points;
+  EXPECT_EQ(io::read_points(table.message(), true, points), "");
+  EXPECT_EQ(points.points[1], Eigen::Vector3f(2, 0, 0));
+  for (const char* used : {"x", "time"}) {
+    fields[4].name = used;
+    if (*used == 'x') fields[0].name = "other";
+    Table other(fields, 20, 2);
+    EXPECT_TRUE(holds(io::read_points(other.message(), true, points), "77")) << used;
+    fields[0].name = "x";
+  }
+}
+
+TEST(CloudPoints, AWrongByteOrderIsSeenAndSaid) {
+  std::mt19937_64 random = seeded_random(5);
+  std::uniform_real_distribution<float> length(-50.0F, 50.0F);
+  for (const bool is_big : {false, true})
+    for (const bool is_lie : {false, true}) {
+      Table table(xyz_fields(), 12, 3000, 1, is_big);
+      std::vector<Eigen::Vector3f> truth;
+      for (std::size_t i = 0; i < 3000; ++i) {
+        truth.emplace_back(length(random), length(random), i % 3 == 0 ? 0.0F : 1.5F);
+        if (i % 7 == 0) truth.back().setZero();  // no measurement
+        for (std::uint32_t axis = 0; axis < 3; ++axis) table.set(i, 4 * axis, truth[i][axis]);
+      }
+      PointCloud2Message message = table.message();
+      message.is_bigendian = is_big != is_lie;
+      CloudPoints points;
+      ASSERT_EQ(io::read_points(message, true, points), "");
+      for (std::size_t i = 0; i < truth.size(); ++i) ASSERT_EQ(points.points[i], truth[i]);
+      EXPECT_EQ(points.time_note.find("is_bigendian") != std::string::npos, is_lie);
+    }
+}
+
+TEST(CloudPoints, AreAtMost16Million) {
+  CloudPoints points;
+  Table table({{"x", 0, float32}, {"y", 0, float32}, {"z", 0, float32}}, 4, 16'000'001);
+  EXPECT_TRUE(holds(io::read_points(table.message(), false, points), "16000000"));
+  const io::LaserScanMessage scan{.ranges = std::vector<float>(16'000'001, 1.0F)};
+  EXPECT_TRUE(holds(io::read_points(scan, false, points), "16000000"));
+}
+
 /// How drivers write times. Each scan lasts 100 ms; the expected ones are after the header's stamp.
 struct Clock {
   const char* name;

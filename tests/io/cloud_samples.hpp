@@ -144,7 +144,11 @@ inline std::vector<std::pair<std::string, std::string>> cloud_samples() {
           {"big.ply", binary_ply<true>()},
           {"float.npy", float_npy()},
           {"fortran.npy", fortran_npy()},
-          {"kitti.bin", kitti()}};
+          {"kitti.bin", kitti()},
+          {"long.pcd",
+           pcd("FIELDS x y z t\nSIZE 4 4 4 8\nTYPE F F F U\nCOUNT 1 1 1 1\n", 1, 1, "binary\n") +
+               raw(1.0F, 2.0F, 3.0F) + raw(std::uint64_t{1} << 60U)},
+          {"five.bin", raw(-1.0F, 2.0F, 3.0F, 0.5F, 7.0F, 4.0F, -5.0F, 6.0F, 0.25F, 8.0F)}};
 }
 
 }  // namespace penumbra::test

@@ -7,6 +7,7 @@
 #include <io/files/csv.hpp>
 #include <io/files/numbers.hpp>
 #include <io/files/pose_file.hpp>
+#include <io/files/trajectory_file.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -71,20 +72,85 @@ TEST_F(PoseFile, RefusesWhatIsNoPose) {
                         {"1,0,0,1\n0,1,0,2\n0,0,-1,3\n0,0,0,1\n", "mirrors"},
                         {"0,0,0,1\n0,0,0,2\n0,0,0,3\n0,0,0,1\n", "no rigid transform"},
                         {"1,0,0,1\n0,1,0,2\n0,0,1,3\n0,0,0,2\n", "0,0,0,1"},
-                        {"1,0,0,1\n0,1,0,2\n0,0,1,3\n", "3 rows"},
+                        {"1,0,0,1\n0,1,0,2\n", "8 numbers in 2 rows"},
+                        {"1,0,0,1\n0,1,0,2\n0,0,1,3\n0,0,0\n", "pose.csv:4: "},
+                        {"1 2 3 0 0 0\n", "6 numbers"},
+                        {"1 2 3 0 0 0.7 0.8\n", "length 1.06"},
+                        {"1 2 3 0 0 0 1\n1 2 3 0 0 0 1\n", "14 numbers in 2 rows"},
+                        {"x,y,z,qx,qy,qz,qw\n", "4 x 4"},
+                        {"parameters: {}\ntransformation: {x: 1, y: 2, z: 3, qx: 0}\n",
+                         "pose.csv:2: transformation: key 'qy'"},
+                        {"parameters: {eye_on_hand: true}\n", "4 x 4"},
+                        {"\x93NUMPY", "NumPy"},
                         {"1,0,0,1\n0,1,0,2\n0,0,1,3\n0,0,0,1\n0,0,0,1\n", "pose.csv:5: "},
                         {"1,0,0,1\n0,1,0\n", "pose.csv:2: "},
                         {"1,0,0,1\n0,x,0,1\n", ":2: 'x'"},
                         {"1,0,0,nan\n", ":1: 'nan'"},
-                        {"", "0 rows"},
+                        {"", "0 numbers"},
                         {"1,0,0,1e300\n0,1,0,0\n0,0,1,0\n0,0,0,1\n", "1000 km"}},
                        [&](const std::string& text) { read(text); });
 }
 
+std::string npy(const char* type, bool is_fortran, const std::string& shape,
+                const std::string& numbers) {
+  const std::string header = std::string("{'descr': '") + type +
+                             "', 'fortran_order': " + (is_fortran ? "True" : "False") +
+                             ", 'shape': (" + shape + "), }\n";
+  return "\x93NUMPY" + test::raw('\x01', '\0', static_cast<std::uint16_t>(header.size())) + header +
+         numbers;
+}
+
+// A quarter turn about z and (1, 2, 3) in the forms of other programs.
+const std::vector<std::string> quarter_turns{
+    "0,-1,0,1\n1,0,0,2\n0,0,1,3\n0,0,0,1\n",
+    "# 4 x 4: camera to base\n0.0e+00 -1.0e+00 0.0e+00 1.0e+00\n1 0 0 2\n0 0 1 3\n0 0 0 1\n",
+    "0\t-1\t0\t1\n1\t0\t0\t2\n0\t0\t1\t3\n",
+    "0 -1 0 1 1 0 0 2 0 0 1 3\n",
+    "[[0, -1, 0, 1],\n [1, 0, 0, 2],\n [0, 0, 1, 3],\n [0, 0, 0, 1]]\n",
+    "1 2 3 0 0 0.70710678118654757 0.70710678118654757\n",
+    "1, 2, 3, 0, 0, 0.70710678118654757, 0.70710678118654757",
+    "parameters:\n  eye_on_hand: false\n  robot_base_frame: base_link\ntransformation:\n"
+    "  {x: 1, y: 2, z: 3, qx: 0, qy: 0, qz: 0.70710678118654757, qw: 0.70710678118654757}\n",
+    "parameters: {name: a}\ntransform:\n  translation: {x: 1, y: 2, z: 3}\n"
+    "  rotation: {x: 0, y: 0, z: 0.70710678118654757, w: 0.70710678118654757}\n",
+    "pose:\n  position: {x: 1, y: 2, z: 3}\n"
+    "  orientation: {x: 0, y: 0, z: 0.70710678118654757, w: 0.70710678118654757}\n",
+    npy("<f8", false, "4, 4",
+        test::raw(0., -1., 0., 1., 1., 0., 0., 2., 0., 0., 1., 3.) + test::raw(0., 0., 0., 1.)),
+    npy("<f4", false, "3, 4",
+        test::raw(0.F, -1.F, 0.F, 1.F, 1.F, 0.F, 0.F, 2.F, 0.F, 0.F, 1.F, 3.F)),
+    npy("<f8", true, "3, 4", test::raw(0., 1., 0., -1., 0., 0., 0., 0., 1., 1., 2., 3.))};
+
+TEST_F(PoseFile, ReadsTheFormsOfOtherPrograms) {
+  constexpr double rounding = 1e-15;
+  const Eigen::Matrix4d expected = read(quarter_turns[0]).matrix();
+  EXPECT_EQ(expected.col(3), Eigen::Vector4d(1, 2, 3, 1));
+  for (const std::string& text : quarter_turns)
+    EXPECT_LT((read(text).matrix() - expected).cwiseAbs().maxCoeff(), rounding) << text;
+}
+
 TEST_F(PoseFile, SurvivesDamage) {
-  test::read_damaged("0,-1,0,1\n1,0,0,2\n0,0,1,3\n0,0,0,1\n", 2000, [&](const std::string& text) {
-    EXPECT_TRUE(read(text).matrix().allFinite());
-  });
+  for (const std::size_t form : {0U, 5U, 7U, 8U, 12U})
+    test::read_damaged(quarter_turns[form], 150, [&](const std::string& text) {
+      EXPECT_TRUE(read(text).matrix().allFinite());
+    });
+}
+
+TEST(TrajectoryFile, SurvivesDamage) {
+  const test::TemporaryFolder folder;
+  const std::string points =
+      "{joint_names: [a, b], points: [{positions: [0, 1], time_from_start: {secs: 0, nsecs: 5}},\n"
+      " {positions: [1, 2], velocities: [0, 0], time_from_start: {secs: 2}}]}\n";
+  for (const auto& [name, text] : std::initializer_list<std::pair<const char*, std::string>>{
+           {"goal.yaml", "goal:\n  trajectory: " + points},
+           {"plan.yaml", "trajectory: [{joint_trajectory: " + points + "}]\n"}}) {
+    const auto read = [&](const std::string& from) {
+      return read_trajectories(folder.write(name, from)).front();
+    };
+    EXPECT_EQ(read(text).points.at(0).time, 5e-9);
+    EXPECT_EQ(read(text).points.at(1).time, 2.0);
+    test::read_damaged(text, 100, [&](const std::string& damaged) { (void)read(damaged); });
+  }
 }
 
 }  // namespace

@@ -94,6 +94,7 @@ TEST_F(DetectionsTest, FaultsNameFileAndLine) {
            {"a.json", "", "no JSON"},
            {"a.json", "[1]", "detection 0"},
            {"a.json", "[]", "no detection"},
+           {"a.json", R"({"version": "5", "shapes": [], "imagePath": "4.png"})", "LabelMe"},
            {"a.json", R"([{"image_id": 4, "category_id": 39}])", "bbox"},
            {"a.json", R"([{"image_id": "left", "category_id": 1, "bbox": [1, 2, 3, 4]}])", "left"},
            {"a.json", one + R"("segmentation": {"size": [9, 9], "counts": "4"}}])", "[50, 70]"},

@@ -59,7 +59,7 @@ void expect_refused(const BadInputs& inputs, const Read& read) {
 template <class Read>
 void read_damaged(const std::string& whole, int rounds, const Read& read) {
   using namespace std::string_literals;
-  const std::string special = "0123456789.-+eE:[]{},#&*!|>'\"%@`\n\r\t ~?=\\<\xff\x01\0"s;
+  const std::string special = "0123456789.-+eE:[]{},#&*!|>'\"%@`\n\r\t ~?=\\<\xff\x01\x1b\0"s;
   for (std::size_t length = 0; length < whole.size(); ++length)
     refusal([&] { read(whole.substr(0, length)); });
   std::mt19937_64 random = seeded_random(31);

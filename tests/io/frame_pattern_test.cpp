@@ -61,5 +61,53 @@ TEST(FramePattern, FindsTheFilesThatExist) {
   EXPECT_EQ(FramePattern(absolute, "/r").existing(), Indices{8});
 }
 
+TEST(FramePattern, FindsFilesOfFramesByTheirTimes) {
+  using Names = std::vector<std::string>;
+  struct Case {
+    const char* pattern;
+    Names files;     // in the folder
+    Names expected;  // by frame, from 0
+  };
+  constexpr std::int64_t one_second = 1'000'000'000, start = 1'700'000'000 * one_second;
+  const FrameStamps stamps{
+      {0, start}, {1, start + one_second / 10}, {2, start + one_second / 5 + 300}};
+  const Case cases[] = {
+      {"%t.png",  // TUM's; the third is rounded
+       {"1700000000.100000.png", "1700000000.200000.png", "1700000000.000000.png", "note.txt",
+        "99999999999999999999.png", "9999999999999.1.png", ".1.png", "1..1.png",
+        "1.0123456789.png"},
+       {"1700000000.000000.png", "1700000000.100000.png", "1700000000.200000.png"}},
+      {"d_%t.png", {"d_1700000000.1.png", "d_1.png"}, {"", "d_1700000000.1.png", ""}},
+      {"%t.png",
+       {"1700000000100000000.png", "1700000000000000000.png"},
+       {"1700000000000000000.png", "1700000000100000000.png", ""}},
+      {"%t.npy", {"1700000000100000.npy"}, {"", "1700000000100000.npy", ""}},
+      {"%t.npy", {"1700000000205.npy", "1700000000100.npy"}, {"", "1700000000100.npy", ""}},
+      {"%t/z.png", {"1700000000100/z.png"}, {"", "1700000000100/z.png", ""}},
+      {"%t.png",  // two of one frame: the nearer
+       {"1700000000.100500.png", "1700000000.100100.png"},
+       {"", "1700000000.100100.png", "", "1700000000.100500.png"}}};
+  for (const Case& each : cases) {
+    const test::TemporaryFolder folder;
+    for (const std::string& name : each.files) folder.write(name, "x");
+    const FramePattern pattern(each.pattern, folder.path(), stamps);
+    EXPECT_EQ(pattern.fault(), "");
+    for (std::size_t i = 0; i < each.expected.size(); ++i) {
+      const auto file = pattern.file(static_cast<std::int64_t>(i));
+      const std::string& name = each.expected[i];
+      EXPECT_EQ(std::filesystem::exists(file), !name.empty()) << file;
+      EXPECT_TRUE(name.empty() || file == folder.path() / name) << file;
+    }
+  }
+  const test::TemporaryFolder folder;
+  folder.write("1700000005.000000.png", "x");  // of no row: behind the last frame
+  folder.write("1700000000.000000.png", "x");
+  EXPECT_EQ(FramePattern("%t.png", folder.path(), stamps).existing(),
+            (std::vector<std::int64_t>{0, 3}));
+  for (const FrameStamps& other : {FrameStamps{}, FrameStamps{{0, start + one_second}}})
+    EXPECT_HAS(FramePattern("%t.png", folder.path(), other).fault(), "stamp");
+  EXPECT_THROW(FramePattern("%t.png", folder.path()), InputError) << "no stamps are known there";
+}
+
 }  // namespace
 }  // namespace penumbra::io

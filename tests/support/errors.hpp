@@ -25,7 +25,7 @@ inline ::testing::AssertionResult holds(std::string_view text,
 }
 
 /// Returns the message of the InputError that a call throws, or "" if it throws none. Fails the
-/// test if the message is empty or has more than one line.
+/// test if the message is empty, has more than one line or an escape sequence.
 template <typename Call>
 std::string refusal(Call&& call) {
   try {
@@ -33,7 +33,7 @@ std::string refusal(Call&& call) {
   } catch (const InputError& error) {
     std::string message = error.what();
     EXPECT_FALSE(message.empty());
-    EXPECT_EQ(message.find_first_of("\n\r"), std::string::npos) << message;
+    EXPECT_EQ(message.find_first_of("\n\r\x1b"), std::string::npos) << message;
     return message;
   }
   return "";
