@@ -369,7 +369,7 @@ RobotOptions Recording::robot_options() const {
     for (const auto& [link, geometry] : options.geometry_of_links)
       all.geometry_of_links.emplace(prefix + link, geometry);
     if (options.geometry != all.geometry)
-      all.geometry_of_links.emplace(prefix + "*", options.geometry);
+      all.geometry_of_links.emplace(prefix + "*", options.geometry.value_or(Geometry::collision));
     for (const auto& [link, margin] : options.margins) all.margins.emplace(prefix + link, margin);
     for (const auto& link : options.ignore_links) all.ignore_links.push_back(prefix + link);
     for (const auto& link : options.only_links) all.only_links.push_back(prefix + link);

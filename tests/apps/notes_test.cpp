@@ -145,24 +145,29 @@ TEST_F(LeniencyTest, EveryResultNamesLinksWithoutTheirMesh) {
   EXPECT_EQ(Json::parse(succeed(inspect({allowed, "--json"})).out)["links"][2]["missing"], true);
 }
 
-TEST_F(LeniencyTest, LinksOfTheOtherGeometryAreDrawnWhereThatIsAskedFor) {
+TEST_F(LeniencyTest, LinksWithoutCollisionGeometryAreDrawnWithANote) {
   add_link(ball);
   const std::string fallback = "--geometry-fallback";
-  const auto robot_pixels = [&](const std::string& option) {
-    return Json::parse(render({option, "--json"}).out)["robot_pixels"].get<int>();
+  const auto robot_pixels = [&](const Words& options) {
+    return Json::parse(succeed(render(options + Words{"--json"})).out)["robot_pixels"].get<int>();
   };
-  EXPECT_GT(robot_pixels(fallback), robot_pixels("--allow-missing-meshes"));
-  const std::string told = run({fallback}).err;
-  expect_has(told, {"do not show the robot"});
-  expect_lacks(told, {"only visual"});
-  const Json link = Json::parse(inspect({fallback, "--json"}).out)["links"][2];
-  EXPECT_EQ(link["drawn"], true);
-  EXPECT_EQ(link["reason"], "visual, as it has no collision");
+  EXPECT_GT(robot_pixels({}), robot_pixels({"--geometry", "collision", "--allow-missing-meshes"}));
+  for (const Words& options : {Words{}, {fallback}, {"--geometry", "collision", fallback}}) {
+    const bool is_default = options.empty();
+    const std::string told = run(options).err;
+    EXPECT_EQ(told.find("only visual: \"more\"") != std::string::npos, is_default) << told;
+    expect_values(report()["settings"], {{"/geometry", "collision"}, {"/geometry_fallback", true}});
+    const Json link = Json::parse(inspect(options + Words{"--json"}).out)["links"][2];
+    EXPECT_EQ(link["drawn"], true);
+    EXPECT_EQ(link["reason"], "visual, as it has no collision");
+  }
 }
 
 TEST_F(LeniencyTest, LinksOfTheOtherGeometryAreNeverLeftOutInSilence) {
   add_link(ball);
-  for (const Outcome& outcome : {run(), render()}) {
+  const Words strict = {"--geometry", "collision"};
+  edit_file(path("recording.yaml"), "tiny.urdf\n", "tiny.urdf\n  geometry: collision\n");
+  for (const Outcome& outcome : {run(), run(strict), render(strict), inspect(strict)}) {
     EXPECT_EQ(outcome.status, 2);
     expect_has(outcome.err, {"1 link has no collision geometry, only visual: \"more\"",
                              "--geometry-fallback", "--geometry visual", "ignore_links"});
