@@ -115,9 +115,9 @@ void read_depth_camera(const YamlNode& node, const std::filesystem::path& folder
 
 /// Refuses unknown keys. `more`: keys of one of several cameras.
 RuleOptions rule_of(const YamlNode& node, const std::vector<std::string_view>& more) {
-  std::vector<std::string_view> camera_keys{"info",       "parent",     "pose",   "sensor",
-                                            "range",      "rectified",  "beyond", "depth_info",
-                                            "depth_pose", "depth_scale"};
+  std::vector<std::string_view> camera_keys{"info",       "parent",      "pose",       "sensor",
+                                            "range",      "rectified",   "beyond",     "depth_info",
+                                            "depth_pose", "depth_scale", "depth_along"};
   camera_keys.insert(camera_keys.end(), more.begin(), more.end());
   RuleOptions rule;
   rule.given = read_settings(node, rule.values, std::move(camera_keys));
@@ -133,6 +133,11 @@ void read_depth_meaning(const YamlNode& node, RecordingCamera& camera) {
     const std::vector<double> ends = range->numbers(2);
     camera.range = camera.camera.range = {ends[0], ends[1]};
     range->with_context([&] { camera.camera.check(); });
+  }
+  if (const YamlNode* along = node.find("depth_along")) {
+    camera.depth_along_ray = along->text() == "ray";
+    if (!camera.depth_along_ray && along->text() != "z")
+      along->fail("is '" + along->text() + "'; expected z or ray");
   }
   if (const YamlNode* beyond = node.find("beyond")) {
     if (beyond->text() == "occluded")
