@@ -27,7 +27,7 @@ using scene::Sample;
 
 constexpr double least_step = 0.001;  // seconds
 // Bound the samples of a long motion, which are kept.
-constexpr double most_steps = 36'000, most_samples = 360'000;
+constexpr double most_steps = 36'000, most_samples = 180'000;
 
 void check(const LookAheadConfig& config) {
   const auto fault = [](const std::string& what) { throw InputError("look-ahead: " + what); };

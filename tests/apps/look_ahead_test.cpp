@@ -141,9 +141,16 @@ TEST_F(LookAheadTest, SaysWhatThePlanDoesWrong) {
 }
 
 TEST_F(LookAheadTest, RunSaysWhatTheBagsPlanDoesWrong) {
-  bag_.add("/joint_trajectory", tiny_stamp(0), to_message(1.0, 2000));
-  expect_has(run({"--plan-topic", "/joint_trajectory"}).err, {"planned motion", "milliseconds"});
+  bag_.add("/slow", tiny_stamp(0), to_message(1.0, 2000));
+  expect_has(run({"--plan-topic", "/slow"}).err, {"planned motion", "milliseconds"});
   expect_has(notes(), {"milliseconds"});
+  const io::JointTrajectoryMessage at_once = to_message(1.0, 0);
+  bag_.add("/at_once", tiny_stamp(0), at_once);
+  bag_.add(
+      "/parts", tiny_stamp(0),
+      io::DisplayTrajectoryMessage{.parts = {{.joints = to_message(0.5, 1)}, {.joints = at_once}}});
+  for (const char* topic : {"/at_once", "/parts"})
+    expect_has(run({"--plan-topic", topic}).err, {"does not rise"});
 }
 
 TEST_F(LookAheadTest, ALongMotionTakesFewSamples) {
