@@ -178,9 +178,9 @@ void bind_calibration(py::module_& m) {
   show_properties(
       diagnosis,
       Field{"cause", [](const S& d) { return std::string(to_string(d.cause)); },
-            "none, depth_unit, camera_unit, camera_inverted, camera_transposed, camera_axes, "
-            "camera_pose, intrinsics, joint_unit, joint_sign, joint_zero, joint_order, joint_time, "
-            "or unexplained."},
+            "none, depth_unit, depth_scale, depth_ray, camera_unit, camera_inverted, "
+            "camera_transposed, camera_axes, camera_pose, intrinsics, joint_unit, joint_sign, "
+            "joint_zero, joint_order, joint_time, or unexplained."},
       Field{"other", [](const S& d) { return std::string(to_string(d.other)); },
             "A second cause that the frames cannot rule out, or none."},
       Field{"message", &S::message, "One line with the amount and the remedy; empty: nothing."},

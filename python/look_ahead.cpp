@@ -84,11 +84,12 @@ void bind_trajectory() {
       },
       "The variable that differs most from `start` where the motion begins, and by how much.");
   motion.def_property_readonly(
-      "beyond_limits",
+      "notes",
       [](const PlannedMotion& self) {
-        return Frozen<std::string>{self.trajectory->beyond_limits(self.robot)};
+        return Frozen<std::string>{self.trajectory->notes(self.robot)};
       },
-      "One line for each joint that exceeds a limit of the URDF.");
+      "One line for each likely mistake: joints that exceed a limit of the URDF, times that may be "
+      "in milliseconds.");
   motion.def("at", &positions_at, py::arg("times"),
              "Positions at times, (N,), seconds: rows in the order of Robot.variables.");
 }

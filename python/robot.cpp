@@ -94,10 +94,11 @@ void bind_options(py::module_& m) {
   using O = RobotOptions;
   bind_fields(
       options, Field{"packages", &O::packages, "package://NAME to its folder."},
-      Field{"geometry", &O::geometry, "Which geometry is drawn."},
+      Field{"geometry", &O::geometry,
+            "Which geometry is drawn; None: collision, and visual for links that have no other."},
       Field{"geometry_of_links", &O::geometry_of_links, "By pattern, in place of geometry."},
       Field{"geometry_fallback", &O::geometry_fallback,
-            "Take the other geometry for a link that lacks the chosen one."},
+            "Take the other geometry for a link that lacks the chosen one, without a note."},
       Field{"ignore_links", &O::ignore_links, "Patterns of links that are not drawn."},
       Field{"joints", &O::joints,
             "Joint to the position at which it is held, rad or m: it does not move."},

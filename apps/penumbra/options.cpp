@@ -89,10 +89,10 @@ void add_joints(CLI::App& app, std::map<std::string, double>& joints) {
 
 void add_leniency(CLI::App& app, bool& allow_missing_meshes, bool& geometry_fallback) {
   app.add_flag("--allow-missing-meshes", allow_missing_meshes,
-               "go on without meshes that cannot be read and links that have only the other "
-               "geometry; every result names the missing links");
+               "go on without meshes that cannot be read and links that lack the geometry of "
+               "--geometry; every result names the missing links");
   app.add_flag("--geometry-fallback", geometry_fallback,
-               "draw links that have only the other geometry with that; inspect lists them");
+               "draw links that lack the geometry of --geometry by the other one, without a note");
 }
 
 void add_frames(CLI::App& app, io::FrameRange& frames) {

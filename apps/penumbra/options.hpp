@@ -122,7 +122,9 @@ void add_frames(CLI::App& app, io::FrameRange& frames);
 /// What is drawn of a robot. `Drawn`: RobotOptions or io::InputOptions.
 template <typename Drawn>
 void add_drawn(CLI::App& app, Drawn& drawn, const std::string& default_geometry) {
-  add_choice<Geometry>(app, "--geometry", "collision or visual; default: " + default_geometry,
+  add_choice<Geometry>(app, "--geometry",
+                       "collision or visual; default: " + default_geometry +
+                           ", and visual for links that have no other",
                        drawn.geometry,
                        {{"collision", Geometry::collision}, {"visual", Geometry::visual}});
   add_links(app, drawn.extra, drawn.ignore_links);

@@ -228,7 +228,7 @@ int execute(const RenderArguments& arguments) {
   print_notes(pipeline.robot().notes());
   std::vector<std::string> of_pose = rest_notes(pipeline.robot(), arguments);
   Warnings doubts(pipeline.robot());
-  doubts.add(first, positions);
+  doubts.add(first, {.pose = {.positions = positions}});
   append(of_pose, doubts.lines());
   print_notes(of_pose);
 

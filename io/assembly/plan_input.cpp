@@ -10,10 +10,11 @@ namespace {
 
 /// Appends a part, which begins where the last one ended.
 void append(const JointTrajectoryMessage& part, std::vector<TrajectoryPoint>& points) {
-  const double after = points.empty() ? 0.0 : points.back().time;
+  const bool is_later = !points.empty();
+  const double after = is_later ? points.back().time : 0.0;
   for (const JointTrajectoryMessage::Point& point : part.points) {
     const double time = point.time_from_start.sec + 1e-9 * point.time_from_start.nanosec;
-    if (after > 0.0 && time == 0.0) continue;
+    if (is_later && time == 0.0 && &point == &part.points.front()) continue;
     points.push_back({after + time, point.positions, point.velocities, point.accelerations});
   }
 }

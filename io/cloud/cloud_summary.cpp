@@ -11,6 +11,10 @@ void CloudSummary::add(const CloudReport& report, const std::string& fault, doub
   ++clouds;
   ++statuses[report.status];
   messages.emplace(report.status, fault.empty() ? report.message : fault);
+  if (body_note.empty()) body_note = report.note;
+  for (const TargetReport& target : report.targets)
+    if (target_note.empty() && !target.note.empty())
+      target_note = "target '" + target.name + "': " + target.note;
   for (std::size_t i = 0; i < label_count; ++i) points[i] += report.points[i];
   parts = std::max(parts, report.parts);
   milliseconds += elapsed;
@@ -25,6 +29,8 @@ std::size_t CloudSummary::labelled() const {
 
 std::vector<std::string> CloudSummary::warnings() const {
   std::vector<std::string> lines;
+  for (const std::string& note : {body_note, target_note})
+    if (!note.empty()) lines.push_back(note);
   const auto of = [&](Label label) {
     return static_cast<double>(points[static_cast<std::size_t>(label)]);
   };

@@ -53,6 +53,7 @@ class FrameReader {
   std::shared_ptr<VideoFile<Rgb8>> color_video_;
   std::shared_ptr<DepthCamera> depth_camera_;  // null: depth images are the camera's
   std::optional<double> depth_scale_;          // metres per unit; null: the format's
+  Image<float> z_of_ray_;                      // of a metre along each pixel's ray; empty: not used
   std::vector<JointRow> rows_;
   std::vector<RecordedBody> bodies_;
   Robot robot_;

@@ -119,9 +119,9 @@ void read_depth_camera(const YamlNode& node, const std::filesystem::path& folder
 
 /// Refuses unknown keys. `more`: keys of one of several cameras.
 RuleOptions rule_of(const YamlNode& node, const std::vector<std::string_view>& more) {
-  std::vector<std::string_view> camera_keys{"info",       "parent",     "pose",   "sensor",
-                                            "range",      "rectified",  "beyond", "depth_info",
-                                            "depth_pose", "depth_scale"};
+  std::vector<std::string_view> camera_keys{"info",       "parent",      "pose",       "sensor",
+                                            "range",      "rectified",   "beyond",     "depth_info",
+                                            "depth_pose", "depth_scale", "depth_along"};
   camera_keys.insert(camera_keys.end(), more.begin(), more.end());
   RuleOptions rule;
   rule.given = read_settings(node, rule.values, std::move(camera_keys));
@@ -137,6 +137,11 @@ void read_depth_meaning(const YamlNode& node, RecordingCamera& camera) {
     const std::vector<double> ends = range->numbers(2);
     camera.range = camera.camera.range = {ends[0], ends[1]};
     range->with_context([&] { camera.camera.check(); });
+  }
+  if (const YamlNode* along = node.find("depth_along")) {
+    camera.depth_along_ray = along->text() == "ray";
+    if (!camera.depth_along_ray && along->text() != "z")
+      along->fail("is '" + along->text() + "'; expected z or ray");
   }
   if (const YamlNode* beyond = node.find("beyond")) {
     if (beyond->text() == "occluded")
@@ -391,7 +396,7 @@ RobotOptions Recording::robot_options() const {
     for (const auto& [link, geometry] : options.geometry_of_links)
       all.geometry_of_links.emplace(prefix + link, geometry);
     if (options.geometry != all.geometry)
-      all.geometry_of_links.emplace(prefix + "*", options.geometry);
+      all.geometry_of_links.emplace(prefix + "*", options.geometry.value_or(Geometry::collision));
     for (const auto& [link, margin] : options.margins) all.margins.emplace(prefix + link, margin);
     for (const auto& link : options.ignore_links) all.ignore_links.push_back(prefix + link);
     for (const auto& link : options.only_links) all.only_links.push_back(prefix + link);

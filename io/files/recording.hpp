@@ -59,6 +59,7 @@ struct RecordingCamera {
   RuleOptions rule = {};
   std::optional<BeyondMeans> beyond = {};
   std::optional<double> depth_scale = {};  ///< metres per unit of the depth images
+  bool depth_along_ray = false;            ///< depth is the distance along each pixel's ray
   std::optional<Camera> depth = {};        ///< a depth camera of its own, which has these images
   Eigen::Isometry3d T_camera_depth = Eigen::Isometry3d::Identity();
 };

@@ -84,11 +84,12 @@ std::string_view name_of(Geometry geometry) {
 
 /// One name where all links have the same.
 Json geometry_json(const RobotOptions& robot) {
-  if (robot.geometry_of_links.empty()) return name_of(robot.geometry);
+  const Geometry geometry = robot.geometry.value_or(Geometry::collision);
+  if (robot.geometry_of_links.empty()) return name_of(geometry);
   Json links = Json::object();
-  for (const auto& [pattern, geometry] : robot.geometry_of_links)
-    links[pattern] = name_of(geometry);
-  return {{"default", name_of(robot.geometry)}, {"links", std::move(links)}};
+  for (const auto& [pattern, of_links] : robot.geometry_of_links)
+    links[pattern] = name_of(of_links);
+  return {{"default", name_of(geometry)}, {"links", std::move(links)}};
 }
 
 Json bag_json(const UsedBag& bag) {
@@ -127,7 +128,7 @@ Json settings_json(const UsedSettings& used) {
                {"range", {finite(range.near), finite(range.far)}},
                {"image", used.image == ImageSpace::raw ? "raw" : "rectified"},
                {"geometry", geometry_json(used.robot)},
-               {"geometry_fallback", used.robot.geometry_fallback},
+               {"geometry_fallback", used.robot.geometry_fallback || !used.robot.geometry},
                {"margins", std::move(margins)},
                {"extra", std::move(extras)},
                {"ignore_links", list(used.robot.ignore_links)},

@@ -56,14 +56,16 @@ void append(const YamlNode& message, double after, FileTrajectory& to) {
   const std::vector<std::string> names = message.at("joint_names").texts();
   if (to.points.empty()) to.variables = names;
   if (names != to.variables) message.at("joint_names").fail("differ from those of the part before");
-  for (const YamlNode& point : message.at("points").items()) {
+  const bool is_later = !to.points.empty();
+  const auto& points = message.at("points").items();
+  for (const YamlNode& point : points) {
     const double seconds = seconds_of(point.at("time_from_start"));
     TrajectoryPoint read{.time = after + seconds,
                          .positions = point.at("positions").numbers(),
                          .velocities = values_of(point, "velocities"),
                          .accelerations = values_of(point, "accelerations")};
     // A part begins where the last one ended.
-    if (!to.points.empty() && seconds == 0.0) continue;
+    if (is_later && seconds == 0.0 && &point == &points.front()) continue;
     to.points.push_back(std::move(read));
   }
 }

@@ -387,7 +387,7 @@ InitResult init_recording(const InitOptions& options) {
   const fs::path urdf = robot_file(options, files);
   RobotOptions robot_options;
   robot_options.packages = options.packages;
-  robot_options.geometry_fallback = robot_options.allow_missing_meshes = true;
+  robot_options.allow_missing_meshes = true;
   const Robot robot = Robot::load(options.folder / urdf, robot_options);
   Draft draft;
   draft.line(

@@ -66,7 +66,7 @@ void add(NamedTrajectory motion, LookAheadInput& to) {
          << ": the robot is elsewhere than the plan assumes";
     to.notes.push_back(note.str());
   }
-  for (const std::string& line : motion.trajectory.beyond_limits(to.robot))
+  for (const std::string& line : motion.trajectory.notes(to.robot))
     to.notes.push_back(motion.name + ": " + line);
   to.trajectories.push_back(std::move(motion));
 }
@@ -113,6 +113,9 @@ LookAheadInput read_look_ahead_input(const LookAheadOptions& options, const Line
       input.frames = {static_cast<std::int64_t>(read->frame),
                       static_cast<std::int64_t>(read->frame) + 1};
       read->now = judged(opened, opened.robot, frame);
+      for (const TargetReport& target : read->now)
+        if (!target.note.empty())
+          read->notes.push_back("target '" + target.name + "': " + target.note);
     }
     read->cameras.push_back(camera_of(opened, frame.pose, name));
   }

@@ -38,7 +38,7 @@ struct LookAheadInput {
 
 /// Reads a frame's poses, targets and images. Throws InputError that names the file, also if the
 /// robot's joint positions are not known in the frame, and for trajectories that Trajectory
-/// refuses. One that begins elsewhere than the robot is, or exceeds limits, is a note.
+/// refuses. One that begins elsewhere than the robot is, and Trajectory::notes(), are notes.
 [[nodiscard]] LookAheadInput read_look_ahead_input(const LookAheadOptions& options,
                                                    const LineSink& print);
 

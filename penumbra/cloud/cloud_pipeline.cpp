@@ -53,7 +53,7 @@ struct CloudPipeline::State {
   void take(const CloudLabels& found, const Scan& scan);
   void judge(const Scan& scan);
   [[nodiscard]] TargetReport judge(const Scan& scan, const Target& target);
-  [[nodiscard]] Eigen::Isometry3d frame_of(const Target& target) const;
+  [[nodiscard]] Eigen::Isometry3d frame_of(const ReferenceFrame& frame) const;
 
   Robot robot;
   CloudConfig config;
@@ -93,6 +93,7 @@ bool CloudPipeline::State::place(std::int64_t stamp, const PoseAt& pose_at) {
   if (!found.known() || !found.missing_links.empty()) return refuse(found.status, found.message);
   report.status = worse(report.status, found.status);
   if (report.message.empty()) report.message = found.message;
+  if (report.note.empty()) report.note = found.note;
   for (const Reach& reach : found.reaches) reaches.push_back(reach.ball);
   if (is_begin) {
     numbers.clear();
@@ -237,13 +238,11 @@ void CloudPipeline::State::take(const CloudLabels& found, const Scan& scan) {
 }
 
 /// Returns the pose of a target's frame in the points' frame, in the scan's first part.
-Eigen::Isometry3d CloudPipeline::State::frame_of(const Target& target) const {
-  const auto placement = placement_of(target.shape);
-  if (!placement || placement->frame.kind == ReferenceFrame::Kind::camera)
-    return Eigen::Isometry3d::Identity();
-  if (placement->frame.kind == ReferenceFrame::Kind::root) return T_sensor_body[0];
-  const auto link = robot.find_link(placement->frame.link);
-  if (!link) throw InputError("there is no link '" + placement->frame.link + "'");
+Eigen::Isometry3d CloudPipeline::State::frame_of(const ReferenceFrame& frame) const {
+  if (frame.kind == ReferenceFrame::Kind::camera) return Eigen::Isometry3d::Identity();
+  if (frame.kind == ReferenceFrame::Kind::root) return T_sensor_body[0];
+  const auto link = robot.find_link(frame.link);
+  if (!link) throw InputError("there is no link '" + frame.link + "'");
   if (!reaches.empty()) throw InputError("the poses of all links are not known");
   return T_sensor_body[*link];
 }
@@ -257,10 +256,12 @@ TargetReport CloudPipeline::State::judge(const Scan& scan, const Target& target)
     if (!target.fault.empty()) throw InputError(target.fault);
     if (target.stamp && target.stamp != scan.stamp) throw InputError("its stamp is not the scan's");
     if (!target.has_identity) memories.erase(target.name);
+    result.note = millimetres_note(target, [&](const ReferenceFrame& of) { return frame_of(of); });
     if (!scan.origin) throw InputError("clouds without rays do not show what is hidden");
     result.judgement = cloud::judge_on_rays(
         {scan.points, *scan.origin, labels, links, poses.links().size(), config.rule.tolerance},
-        target, frame_of(target), memories[target.name]);
+        target, frame_of(placement_of(target.shape).value_or(ShapePlacement()).frame),
+        memories[target.name]);
     result.verdict = result.judgement->verdict;
     result.reason = result.judgement->reason;
     for (Blame& blame : result.judgement->blame) blame.name = poses.links()[blame.link];

@@ -52,6 +52,7 @@ struct CloudReport {
   /// missing_link because the pose of a link is unknown: then those that it could be at.
   FrameStatus status = FrameStatus::ok;
   std::string message;                            ///< one line; empty if the status is ok
+  std::string note;                               ///< as FrameReport::note
   std::span<const std::uint8_t> labels;           ///< values of Label, one for each point
   std::span<const std::uint16_t> point_links;     ///< index + 1 in `links`; 0: none
   std::array<std::size_t, label_count> points{};  ///< their number, by label

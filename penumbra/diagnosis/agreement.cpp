@@ -76,13 +76,15 @@ Agreement::Counts Agreement::count(const Hypothesis& hypothesis, std::size_t fra
   Poses T_camera_link;
   for (const Eigen::Isometry3d& pose : T_root_link) T_camera_link.push_back(T_camera_root * pose);
   const VirtualDepthView view = renderer_->render(T_camera_link);
+  const Intrinsics& view_camera = renderer_->intrinsics();
   const auto factor = static_cast<float>(hypothesis.depth_factor);
   const Small& small = frames_[frame];
   Counts counts;
   for (int v = 0; v < view.depth.height; ++v)
     for (int u = 0; u < view.depth.width; ++u) {
       const float expected = view.depth(u, v);
-      const float z = factor * small.depth(u, v);
+      float z = factor * small.depth(u, v);
+      if (hypothesis.along_ray) z /= static_cast<float>(view_camera.ray(u, v).norm());
       if (!(expected > 0.0f)) {
         if (small.moved(u, v) == 0) continue;
         counts.most += 1.0;

@@ -199,6 +199,8 @@ class Comparison {
           std::to_string(result.frame) +
           " with the URDF, the joint positions, camera_info and the camera's pose (of the optical "
           "frame, in metres)";
+      if (largest_depth(setup_) <= normalised)
+        result.message += "; no depth is above 1 m: is it normalised to 0 to 1? give metres";
       if (setup_.frames.size() < CalibrationFrames::least)
         result.message += "; three different poses of the robot would tell more";
       return;
@@ -220,8 +222,12 @@ class Comparison {
       if (explained(rated) >= explains && unknowns(rated) < unknowns(*best)) best = &rated;
     result.cause = best->hypothesis.cause;
     result.message = best->hypothesis.message;
+    const auto is_other = [&](Cause cause) {  // a unit is a scale
+      return cause != result.cause &&
+             !(result.cause == Cause::depth_unit && cause == Cause::depth_scale);
+    };
     for (const Rated& rated : rated_)
-      if (explained(rated) >= may_explain && rated.hypothesis.cause != result.cause) {
+      if (explained(rated) >= may_explain && is_other(rated.hypothesis.cause)) {
         result.other = rated.hypothesis.cause;
         result.message += "; or " + rated.hypothesis.message;
         break;
@@ -242,10 +248,11 @@ class Comparison {
 }  // namespace diagnosis
 
 std::string_view to_string(Diagnosis::Cause cause) {
-  constexpr std::array<std::string_view, 14> names{
-      "none",        "depth_unit",  "camera_unit", "camera_inverted", "camera_transposed",
-      "camera_axes", "camera_pose", "intrinsics",  "joint_unit",      "joint_sign",
-      "joint_zero",  "joint_order", "joint_time",  "unexplained"};
+  constexpr std::array<std::string_view, 16> names{
+      "none",        "depth_unit",      "depth_scale",       "depth_ray",
+      "camera_unit", "camera_inverted", "camera_transposed", "camera_axes",
+      "camera_pose", "intrinsics",      "joint_unit",        "joint_sign",
+      "joint_zero",  "joint_order",     "joint_time",        "unexplained"};
   return names.at(static_cast<std::size_t>(cause));
 }
 

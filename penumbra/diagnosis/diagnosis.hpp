@@ -22,6 +22,8 @@ struct Diagnosis {
   enum class Cause : std::uint8_t {
     none,               ///< nothing that the frames show
     depth_unit,         ///< depth is in another unit
+    depth_scale,        ///< depth is scaled by a factor that is no unit, as normalised depth is
+    depth_ray,          ///< depth is the distance along the ray, not its z-component
     camera_unit,        ///< the camera's position is in millimetres
     camera_inverted,    ///< the camera's pose is the inverse
     camera_transposed,  ///< its rotation is transposed

@@ -60,6 +60,30 @@ class Mistakes {
     for (const Unit& unit : units)
       add(Cause::depth_unit, std::string(unit.is) + ": set depth_scale to " + unit.metres)
           .depth_factor = unit.factor;
+    add(Cause::depth_ray,
+        "depth is the distance along each pixel's ray: give its z-component, or "
+        "camera.depth_along: ray in recording.yaml")
+        .along_ray = true;
+    scaled_depths();
+  }
+
+  /// Depth of images or floats that use all of their range, whatever is in them.
+  void scaled_depths() {
+    constexpr float farthest = 60.0F;  // metres: 65535 in millimetres, nearly
+    const float largest = largest_depth(setup_);
+    if (largest > normalised && largest < farthest) return;
+    constexpr double step = 0.05;  // of the logarithm
+    const double sign = largest > normalised ? -1.0 : 1.0;
+    for (int i = 6; i <= 90; ++i)
+      with_amount(sign * i * step, step, [&setup = setup_](double amount) {
+        Hypothesis hypothesis = as_given(setup);
+        hypothesis.cause = Cause::depth_scale;
+        hypothesis.depth_factor = std::exp(amount);
+        const std::string factor = number(hypothesis.depth_factor, amount > 0.0 ? 2 : 4);
+        hypothesis.message = "depth looks normalised: it fits if it is multiplied by about " +
+                             factor + ": give metres, or multiply camera.depth_scale by it";
+        return hypothesis;
+      });
   }
 
   void camera_poses() {
@@ -306,6 +330,14 @@ Hypothesis as_given(const Setup& setup) {
   for (const DiagnosisFrame& frame : setup.frames)
     hypothesis.T_root_link.push_back(frame.T_root_link);
   return hypothesis;
+}
+
+float largest_depth(const Setup& setup) {
+  float largest = 0.0F;
+  for (const DiagnosisFrame& frame : setup.frames)
+    for (const float z : std::span(frame.depth.data(), frame.depth.size()))
+      if (std::isfinite(z)) largest = std::max(largest, z);
+  return largest;
 }
 
 std::vector<Hypothesis> mistakes(const Setup& setup) { return Mistakes(setup).all(); }

@@ -24,6 +24,7 @@ struct Hypothesis {
   Cause cause = Cause::none;
   Intrinsics camera;
   double depth_factor = 1.0;  ///< true depth by given depth
+  bool along_ray = false;     ///< given depth is the distance along the ray
   Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();
   std::vector<Poses> T_root_link;  ///< of each frame; empty: this frame does not count
   std::string message;             ///< what is wrong and what mends it
@@ -41,6 +42,10 @@ struct Setup {
   std::size_t parent;
   Eigen::Isometry3d T_parent_camera;
 };
+
+/// Metres: depth that is nowhere above it may be normalised to 0 to 1.
+inline constexpr float normalised = 1.0F + 1e-6F;
+[[nodiscard]] float largest_depth(const Setup& setup);
 
 /// The setup as given.
 [[nodiscard]] Hypothesis as_given(const Setup& setup);

@@ -25,7 +25,8 @@ void CloudRule::check() const {
   if (!tolerance.is_valid())
     throw InputError("tolerance " + std::to_string(tolerance.a) + "," +
                      std::to_string(tolerance.b) + "," + std::to_string(tolerance.c) +
-                     ": a + b s + c s^2 must be finite and not negative at any range");
+                     ": a + b s + c s^2 must not be negative at any range, and each number be "
+                     "below 1; is a in metres?");
 }
 
 }  // namespace penumbra

@@ -29,7 +29,8 @@ struct CloudRule {
   static constexpr auto settings() {
     return std::tuple(
         Setting("tolerance", &CloudRule::tolerance, {}, "m, m/m, m/m^2",
-                "A, B, C of e(s) = A + B s + C s^2 >= 0 metres: a range that differs by less is "
+                "A, B, C, each below 1, of e(s) = A + B s + C s^2 >= 0 metres: a range that "
+                "differs by less is "
                 "the same"),
         Setting("beyond_factor", &CloudRule::beyond_factor, {1, 100}, "",
                 "how many tolerances behind the model beyond starts"),

@@ -31,7 +31,7 @@ std::string_view to_string(Verdict verdict) {
 
 bool Tolerance::is_valid() const {
   const bool is_negative = a < 0.0 || c < 0.0 || (b < 0.0 && b * b > 4.0 * a * c);
-  return std::isfinite(a) && std::isfinite(b) && std::isfinite(c) && !is_negative;
+  return a < 1.0 && std::abs(b) < 1.0 && c < 1.0 && !is_negative;
 }
 
 LabelRule LabelRule::paper() {
@@ -70,7 +70,8 @@ void LabelRule::check() const {
   const Tolerance& e = tolerance;
   if (!e.is_valid())
     fail("tolerance ", e.a, ",", e.b, ",", e.c,
-         ": a + b z + c z^2 must be finite and not negative at any depth");
+         ": a + b z + c z^2 must not be negative at any depth, and each number be below 1; is a in "
+         "metres?");
   if (!(range.near >= 0.0 && range.near < range.far))
     fail("sensor range ", range.near, "..", range.far, " m: near must be 0 or more and below far");
 }

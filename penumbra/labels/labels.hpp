@@ -58,7 +58,8 @@ struct Tolerance {
 
   [[nodiscard]] double at(double z) const { return a + (b + c * z) * z; }
 
-  /// Whether it is finite, and not negative at any depth.
+  /// Whether it is not negative at any depth, and each number is below 1: no sensor is as coarse as
+  /// 1 m, and millimetres are taken for metres.
   [[nodiscard]] bool is_valid() const;
 };
 
@@ -116,7 +117,8 @@ struct LabelRule {
   static constexpr auto settings() {
     return std::tuple(
         Setting("tolerance", &LabelRule::tolerance, {}, "m, m/m, m/m^2",
-                "A, B, C of e(z) = A + B z + C z^2 >= 0 metres: depth that differs by less is the "
+                "A, B, C, each below 1, of e(z) = A + B z + C z^2 >= 0 metres: depth that differs "
+                "by less is the "
                 "same"),
         Setting("front_min_width", &LabelRule::front_min_width, {0, max_width}, "px",
                 "front regions narrower than this become occluded; 0: no clean-up"),

@@ -68,6 +68,7 @@ struct FrameReport {
   std::optional<std::int64_t> joint_age;  ///< nanoseconds
   FrameStatus status = FrameStatus::ok;
   std::string message;            ///< one line; empty if the status is ok
+  std::string note;               ///< of an attached body that may be in millimetres; else empty
   bool nothing_measured = false;  ///< no pixel of the depth image is within the sensor's range
   PixelCounts pixels;
   StageTimes timing;

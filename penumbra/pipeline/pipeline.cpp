@@ -139,6 +139,7 @@ const FrameReport& Pipeline::State::report_of(const Frame& frame, const Labelled
   report.joint_age = frame.pose.age;
   report.status = labelled.status;
   report.message = labelled.message;
+  report.note = at.note;
   report.nothing_measured = labelled.nothing_measured;
   report.pixels = counts_of(labelled);
   report.timing.kinematics = at.kinematics_ms;

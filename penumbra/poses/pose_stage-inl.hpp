@@ -34,6 +34,7 @@ struct PoseResult {
   std::optional<std::int64_t> stamp;                ///< nanoseconds
   FrameStatus status = FrameStatus::ok;             ///< all faults except those of the depth image
   std::string message;                              ///< empty if the status is ok
+  std::string note = {};                            ///< as in FrameReport
   std::vector<Eigen::Isometry3d> T_root_link = {};  ///< valid if known()
   std::vector<Eigen::Isometry3d> T_camera_link = {};  ///< valid if known()
   Eigen::Isometry3d T_root_camera = Eigen::Isometry3d::Identity();
@@ -107,6 +108,7 @@ class PoseStage {
   void add_reach(std::size_t link, Ball ball);
   FrameStatus place_bodies(std::span<const AttachedBody> bodies);
   FrameStatus place_body(const AttachedBody& body);
+  void note_size(const AttachedBody& body);
   [[nodiscard]] std::size_t number_of(const std::string& body);
   FrameStatus fault(FrameStatus status, std::string_view message);
 
@@ -120,6 +122,7 @@ class PoseStage {
   Eigen::Isometry3d T_camera_parent_;
   CameraInsideCheck camera_inside_;
   std::vector<Ball> reach_;  // of each link: reach_of_links
+  double length_ = 0.0;      // metres: of all links in a row
   PoseResult result_;
 };
 

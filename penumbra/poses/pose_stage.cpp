@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <iterator>
 #include <limits>
 #include <sstream>
@@ -12,9 +13,6 @@
 
 namespace penumbra {
 namespace {
-
-/// Limit of Robot::forward_kinematics, rad and m.
-constexpr double largest_position = 1e9;
 
 /// Allows for the rounding of quaternions in files.
 constexpr double quaternion_error = 0.01;
@@ -56,6 +54,8 @@ PoseStage::PoseStage(const Robot& robot, const std::string& camera_parent,
   if (T_parent_camera.translation().cwiseAbs().maxCoeff() > max_distance)
     throw InputError("camera pose is more than 1000 km from its parent link; expected metres");
   T_camera_parent_ = T_parent_camera.inverse();
+  for (const LinkReport& link : robot.report())
+    if (link.drawn) length_ += link.bounds.sizes().norm();
   for (const std::string& link : missing_links)
     without_links_ += (without_links_.empty() ? "no geometry of link '" : ", '") + link + "'";
 }
@@ -66,6 +66,7 @@ const PoseResult& PoseStage::place(const RobotPose& pose, std::optional<std::int
   check_uncertain(pose.uncertain_links);
   result_.stamp = stamp;
   result_.message.clear();
+  result_.note.clear();
   result_.uncertain_links = pose.uncertain_links;
   result_.uncertain_reason = pose.uncertain_reason;
   FrameStatus& status = result_.status;
@@ -136,7 +137,7 @@ FrameStatus PoseStage::check_joints(std::span<const double> positions) {
                      " joint positions for " + std::to_string(variables.size()) +
                      " joint variables");
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    if (std::abs(positions[i]) <= largest_position) continue;  // false for NaN
+    if (std::abs(positions[i]) <= Robot::max_position) continue;  // false for NaN
     return fault(FrameStatus::missing_joints,
                  "position of joint '" + variables[i] + "' is not a number within +-1e9");
   }
@@ -245,6 +246,7 @@ FrameStatus PoseStage::place_body(const AttachedBody& body) {
   if (!body.mesh || body.mesh->triangles.empty())
     return missing(body.reason.empty() ? "it has no triangles" : body.reason);
   if (!is_rigid(body.T_link_body)) return missing("its pose is not a rigid transform");
+  note_size(body);
   if (result_.attached.size() == max_attached)
     return missing("more than " + std::to_string(max_attached) + " bodies are attached");
   if (result_.is_uncertain(*link)) {
@@ -257,6 +259,19 @@ FrameStatus PoseStage::place_body(const AttachedBody& body) {
   result_.attached.push_back({number_of(body.name), body.name, body.link, body.mesh,
                               result_.T_camera_link[*link] * body.T_link_body});
   return FrameStatus::ok;
+}
+
+/// A robot carries nothing that is several times as long as itself.
+void PoseStage::note_size(const AttachedBody& body) {
+  constexpr double least = 3.0, times = 3.0;  // metres; of the robot's length
+  const Eigen::AlignedBox3d& box = body.mesh->bounds;
+  const double reach = (body.T_link_body * box.center()).norm() + 0.5 * box.diagonal().norm();
+  if (!result_.note.empty() || reach < std::max(least, times * length_)) return;
+  std::ostringstream line;
+  line << std::setprecision(3) << "attached body '" << body.name << "' reaches " << reach
+       << " m from link '" << body.link << "', and the links of the robot are " << length_
+       << " m long together: is it in millimetres? give metres";
+  result_.note = line.str();
 }
 
 /// Returns the index of a body in links_. A new body takes the place of the one that was attached

@@ -14,7 +14,8 @@ namespace penumbra::detail {
 /// relative to the URDF's folder.
 ///
 /// A package that was not given is searched in AMENT_PREFIX_PATH, ROS_PACKAGE_PATH and Gazebo's
-/// model paths, then next to the URDF and next to each folder above it.
+/// model paths, then next to the URDF and next to each folder above it. If it is nowhere, NAME may
+/// be the only folder of that name in meshes/ or meshes/MODEL/ of the URDF's package.
 class FileLocator {
  public:
   FileLocator(std::filesystem::path folder, std::map<std::string, std::filesystem::path> packages)

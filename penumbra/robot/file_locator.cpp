@@ -70,17 +70,35 @@ bool is_package(const fs::path& folder, const std::string& name) {
   return false;
 }
 
+/// Returns the folder without symbolic links, or as it is.
+fs::path canonical_of(const fs::path& folder) {
+  std::error_code error;
+  fs::path canonical = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
+  return error ? folder : canonical;
+}
+
 /// Returns the folders that may be package `name`, the nearest first: NAME in the URDF's folder and
 /// in each folder above it, and those folders themselves if they are called NAME or have its
 /// package.xml.
 std::vector<fs::path> folders_near(const fs::path& start, const std::string& name) {
   std::vector<fs::path> folders;
-  std::error_code error;
-  const fs::path absolute = fs::weakly_canonical(start.empty() ? fs::path(".") : start, error);
-  for (fs::path at = error ? start : absolute; !at.empty(); at = at.parent_path()) {
+  for (fs::path at = canonical_of(start); !at.empty(); at = at.parent_path()) {
     if (at.filename() == name || is_package(at, name)) folders.push_back(at);
     if (is_folder(at / name)) folders.push_back(at / name);
     if (at == at.parent_path()) break;
+  }
+  return folders;
+}
+
+/// Returns the folders meshes/NAME and meshes/MODEL/NAME in the URDF's folder and in the one above.
+std::vector<fs::path> folders_in_meshes(const fs::path& start, const std::string& name) {
+  std::vector<fs::path> folders;
+  const fs::path folder = canonical_of(start);
+  for (const fs::path& meshes : {folder / "meshes", folder.parent_path() / "meshes"}) {
+    if (is_folder(meshes / name)) folders.push_back(meshes / name);
+    std::error_code error;
+    for (fs::directory_iterator at(meshes, error), end; !error && at != end; at.increment(error))
+      if (is_folder(at->path() / name)) folders.push_back(at->path() / name);
   }
   return folders;
 }
@@ -146,6 +164,10 @@ std::pair<fs::path, std::string> FileLocator::search(const std::string& name,
         return {prefix / below, std::string("by ") + variable};
   for (const fs::path& near : folders_near(folder_, name))
     if (is_file(existing(near, file.string()))) return {near, "found next to or above the URDF"};
+  // Folders of several models have files of the same names.
+  const std::vector<fs::path> in_meshes = folders_in_meshes(folder_, name);
+  if (in_meshes.size() == 1 && is_file(existing(in_meshes.front(), file.string())))
+    return {in_meshes.front(), "no package has this name; found in the URDF's own"};
   return {};
 }
 

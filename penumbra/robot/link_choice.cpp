@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <functional>
+#include <optional>
 
 #include <fnmatch.h>
 
@@ -30,10 +31,10 @@ void require_match(const Urdf& urdf, const std::string& pattern, const std::stri
                      " matches no link; 'penumbra inspect' lists the links");
 }
 
-/// Returns the value of a setting for a link, or `otherwise`.
+/// Returns the value of a setting for a link; null: no pattern matches it.
 template <typename Value>
-Value setting_of(const std::map<std::string, Value>& settings, const UrdfLink& link,
-                 Value otherwise) {
+std::optional<Value> setting_of(const std::map<std::string, Value>& settings,
+                                const UrdfLink& link) {
   if (const auto own = settings.find(link.name); own != settings.end()) return own->second;
   const std::string* first = nullptr;
   for (const auto& [pattern, value] : settings) {
@@ -43,7 +44,7 @@ Value setting_of(const std::map<std::string, Value>& settings, const UrdfLink& l
                        in_quotes(pattern) + " have different values; use the link's name");
     if (first == nullptr) first = &pattern;
   }
-  return first == nullptr ? otherwise : settings.at(*first);
+  return first == nullptr ? std::nullopt : std::optional(settings.at(*first));
 }
 
 Geometry other(Geometry g) {
@@ -52,15 +53,19 @@ Geometry other(Geometry g) {
 
 std::string name_of(Geometry g) { return g == Geometry::visual ? "visual" : "collision"; }
 
-void choose_geometry(const UrdfLink& link, Geometry wanted, bool fallback, LinkChoice& choice) {
+/// `given`: what was asked for; null: nothing.
+void choose_geometry(const UrdfLink& link, std::optional<Geometry> given, bool fallback,
+                     LinkChoice& choice) {
+  const Geometry wanted = given.value_or(Geometry::collision);
   choice.geometry = wanted;
   const bool has_wanted = !link.elements(wanted).empty();
   const bool has_other = !link.elements(other(wanted)).empty();
-  choice.draw = has_wanted || (fallback && has_other);
+  choice.draw = has_wanted || (has_other && (fallback || !given));
   if (has_wanted) {
     choice.reason = name_of(wanted);
   } else if (choice.draw) {
     choice.geometry = other(wanted);
+    choice.is_substitute = !fallback;
     choice.reason = name_of(other(wanted)) + ", as it has no " + name_of(wanted);
   } else if (has_other) {
     choice.reason = "has no " + name_of(wanted) + ", only " + name_of(other(wanted));
@@ -68,6 +73,24 @@ void choose_geometry(const UrdfLink& link, Geometry wanted, bool fallback, LinkC
   } else {
     choice.reason = "has no geometry";
   }
+}
+
+/// Names the first of the links that a test picks, which have only the other kind of geometry;
+/// empty: it picks none.
+std::string without(Geometry wanted, const Urdf& urdf, const std::vector<LinkChoice>& choices,
+                    const std::function<bool(const LinkChoice&)>& is_picked) {
+  constexpr std::size_t most_names = 5;
+  std::string names;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (!is_picked(choices[i])) continue;
+    ++count;
+    if (count <= most_names) names += (count > 1 ? ", " : "") + in_quotes(urdf.links[i].name);
+  }
+  if (count == 0) return {};
+  return std::to_string(count) + (count == 1 ? " link has no " : " links have no ") +
+         name_of(wanted) + " geometry, only " + name_of(other(wanted)) + ": " + names +
+         (count > most_names ? ", ..." : "");
 }
 
 void check_options(const Urdf& urdf, const RobotOptions& options) {
@@ -96,45 +119,40 @@ std::vector<LinkChoice> choose_links(const Urdf& urdf, const RobotOptions& optio
   std::vector<LinkChoice> choices;
   for (const UrdfLink& link : urdf.links) {
     LinkChoice choice;
-    choice.margin = setting_of(options.margins, link, 0.0);
-    const Geometry wanted = setting_of(options.geometry_of_links, link, options.geometry);
+    choice.margin = setting_of(options.margins, link).value_or(0.0);
     if (any_matches(options.ignore_links, link.name)) {
       choice.reason = "ignored by ignore_links";
     } else if (!options.only_links.empty() && !any_matches(options.only_links, link.name)) {
       choice.reason = "left out by only_links";
     } else {
-      choose_geometry(link, wanted, options.geometry_fallback, choice);
+      const std::optional<Geometry> of_link = setting_of(options.geometry_of_links, link);
+      choose_geometry(link, of_link ? of_link : options.geometry, options.geometry_fallback,
+                      choice);
     }
     choices.push_back(std::move(choice));
   }
-  const auto missing = missing_geometry_notes(urdf, choices);
-  if (!options.allow_missing_meshes && !missing.empty())
-    throw InputError(urdf.file + ": " + missing.front());
+  if (!options.allow_missing_meshes && std::ranges::any_of(choices, &LinkChoice::lacks_geometry))
+    throw InputError(urdf.file + ": " + geometry_notes(urdf, choices).front());
   return choices;
 }
 
-std::vector<std::string> missing_geometry_notes(const Urdf& urdf,
-                                                const std::vector<LinkChoice>& choices) {
-  constexpr std::size_t most_names = 5;
+std::vector<std::string> geometry_notes(const Urdf& urdf, const std::vector<LinkChoice>& choices) {
   std::vector<std::string> notes;
   for (const Geometry wanted : {Geometry::collision, Geometry::visual}) {
-    std::string names;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-      if (!choices[i].lacks_geometry || choices[i].geometry != wanted) continue;
-      ++count;
-      if (count <= most_names) names += (count > 1 ? ", " : "") + in_quotes(urdf.links[i].name);
-    }
-    if (count == 0) continue;
     const std::string kind = name_of(other(wanted));
-    std::ostringstream note;
-    note << count << (count == 1 ? " link has no " : " links have no ") << name_of(wanted)
-         << " geometry, only " << kind << ": " << names << (count > most_names ? ", ..." : "")
-         << "; use " << kind << " for such links (--geometry-fallback, or geometry: {LINK: " << kind
-         << "}) or for all (--geometry " << kind
-         << "), or leave out links that the real robot does not have (ignore_links)";
-    notes.push_back(note.str());
+    const std::string links = without(wanted, urdf, choices, [&](const LinkChoice& choice) {
+      return choice.lacks_geometry && choice.geometry == wanted;
+    });
+    if (!links.empty())
+      notes.push_back(links + "; use " + kind + " for such links (--geometry-fallback, or " +
+                      "geometry: {LINK: " + kind + "}) or for all (--geometry " + kind +
+                      "), or leave out links that the real robot does not have (ignore_links)");
   }
+  const std::string drawn = without(Geometry::collision, urdf, choices, &LinkChoice::is_substitute);
+  if (!drawn.empty())
+    notes.push_back(drawn +
+                    "; visual is drawn: leave out links that the real robot does not have "
+                    "(ignore_links)");
   return notes;
 }
 

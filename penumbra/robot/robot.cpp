@@ -102,13 +102,12 @@ void hold_joints(const std::string& file, const std::map<std::string, double>& p
 }
 
 void check_positions(const Robot& robot, std::span<const double> positions, std::size_t poses) {
-  constexpr double largest_position = 1e9;  // keeps every pose finite
   constexpr double shortest_quaternion = 1e-6;
   if (positions.size() != robot.variables().size() || poses != robot.links().size())
     throw std::invalid_argument(
         "forward_kinematics: one position per variable and one pose per link");
   for (std::size_t i = 0; i < positions.size(); ++i)
-    if (!(std::abs(positions[i]) <= largest_position))
+    if (!(std::abs(positions[i]) <= Robot::max_position))
       throw std::invalid_argument("forward_kinematics: position of " + robot.variables()[i] +
                                   " is not within +-1e9");
   for (const Joint& joint : robot.joints()) {
@@ -208,8 +207,7 @@ std::unique_ptr<Robot::Model> Robot::make_model(std::string_view xml, const std:
     model->meshes.push_back(std::move(geometry.meshes));
     model->report.push_back(std::move(geometry.report));
   }
-  for (const auto& notes :
-       {urdf.warnings, loader.notes(), detail::missing_geometry_notes(urdf, choices)})
+  for (const auto& notes : {urdf.warnings, loader.notes(), detail::geometry_notes(urdf, choices)})
     model->notes.insert(model->notes.end(), notes.begin(), notes.end());
   return model;
 }

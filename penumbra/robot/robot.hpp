@@ -30,9 +30,11 @@ struct ExtraMesh {
 /// error, and so is a pattern that matches no link.
 struct RobotOptions {
   std::map<std::string, std::filesystem::path> packages = {};  ///< package://NAME -> folder
-  Geometry geometry = Geometry::collision;
+  /// Null: collision, and visual for links that have no other, which a note lists.
+  std::optional<Geometry> geometry = {};
   std::map<std::string, Geometry> geometry_of_links = {};  ///< pattern -> overrides `geometry`
-  bool geometry_fallback = false;  ///< use the other geometry for links that lack the chosen one
+  bool geometry_fallback = false;  ///< use the other geometry for links that lack the chosen one,
+                                   ///< without a note
   std::vector<std::string> ignore_links = {};  ///< patterns of links that are not drawn
   std::vector<std::string> only_links = {};    ///< if not empty: patterns of the links drawn
   std::map<std::string, double> margins = {};  ///< pattern -> surface offset, metres, -1 to 1
@@ -41,7 +43,7 @@ struct RobotOptions {
   /// Joint -> position at which it is held, rad or m: it and the joints that mimic it do not move.
   std::map<std::string, double> joints = {};
 
-  /// Continue without meshes that cannot be read and links that have only the other geometry: these
+  /// Continue without meshes that cannot be read and links that lack the chosen geometry: these
   /// links are missing, in the report and in every frame.
   bool allow_missing_meshes = false;
 };
@@ -104,9 +106,11 @@ struct RobotPart {
 /// used by several threads.
 class Robot {
  public:
+  static constexpr double max_position = 1e9;  ///< rad or m, keeps every pose finite
+
   /// Reads a URDF and its meshes. Throws InputError that names file, line and element for a URDF
   /// that cannot be drawn correctly, for a mesh that cannot be read, and for links that have only
-  /// the other kind of geometry.
+  /// the other kind than the chosen geometry.
   [[nodiscard]] static Robot load(const std::filesystem::path& urdf,
                                   const RobotOptions& options = {});
 
@@ -151,14 +155,15 @@ class Robot {
   [[nodiscard]] std::span<const LinkReport> report() const;
 
   /// Remarks, one line each: unknown content of the URDF, where a package was found that was not
-  /// given ("package NAME: taken from ..."), links so small that their unit may be wrong and, if
-  /// missing meshes are allowed, links that have only the other kind of geometry.
+  /// given ("package NAME: taken from ..."), links so small that their unit may be wrong, links
+  /// that are drawn by visual geometry because they have no other, and links that are missing
+  /// because they lack the chosen one.
   [[nodiscard]] std::span<const std::string> notes() const;
 
   /// Computes the pose T_root_link of every link. `positions` are in the order of variables(), rad
-  /// and m, within +-1e9. Planar joints move by x and y in their plane (plane_axes) and turn by yaw
-  /// about its normal. Quaternions are normalised. Allocates nothing. Throws std::invalid_argument
-  /// for wrong sizes and invalid positions.
+  /// and m, within +-max_position. Planar joints move by x and y in their plane (plane_axes) and
+  /// turn by yaw about its normal. Quaternions are normalised. Allocates nothing. Throws
+  /// std::invalid_argument for wrong sizes and invalid positions.
   void forward_kinematics(std::span<const double> positions,
                           std::span<Eigen::Isometry3d> T_root_link) const;
 

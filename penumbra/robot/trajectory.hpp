@@ -30,7 +30,8 @@ class Trajectory {
   /// at `start`, which has all, in the order of Robot::variables(). Values of joints that mimic are
   /// ignored. Throws InputError, with the number of the point, for unknown or repeated names, no
   /// points, times that are negative, above max_duration or do not rise, another number of values
-  /// than of names, values that are not finite, and accelerations without velocities; and
+  /// than of names, values beyond +-Robot::max_position, accelerations without velocities, and
+  /// velocities that contradict positions and times, as with times in milliseconds; and
   /// std::invalid_argument for a start of another size.
   Trajectory(const Robot& robot, std::span<const std::string> variables,
              std::vector<TrajectoryPoint> points, std::span<const double> start);
@@ -53,10 +54,19 @@ class Trajectory {
   };
   [[nodiscard]] Jump jump() const { return jump_; }
 
-  /// One line for each joint that exceeds a limit of the URDF at a point, with the largest excess.
-  [[nodiscard]] std::vector<std::string> beyond_limits(const Robot& robot) const;
+  /// One line for each likely mistake: joints that exceed a limit of the URDF, of position at a
+  /// point or of velocity, with the largest excess; and a motion so slow that its times may be in
+  /// milliseconds.
+  [[nodiscard]] std::vector<std::string> notes(const Robot& robot) const;
 
  private:
+  struct Fastest {
+    double speed = 0.0, at = 0.0;  // rad/s or m/s; seconds
+  };
+  [[nodiscard]] Fastest fastest(std::size_t i) const;
+  void append_limits(const Joint& joint, std::size_t i, std::vector<std::string>& lines) const;
+  [[nodiscard]] std::string slow_line(const Robot& robot) const;
+
   std::vector<std::optional<std::size_t>> variables_;  // null: mimics
   std::vector<TrajectoryPoint> points_;
   std::vector<double> start_;

@@ -26,6 +26,8 @@ using scene::CameraPredictor;
 using scene::Sample;
 
 constexpr double least_step = 0.001;  // seconds
+// Bound the samples of a long motion, which are kept.
+constexpr double most_steps = 36'000, most_samples = 180'000;
 
 void check(const LookAheadConfig& config) {
   const auto fault = [](const std::string& what) { throw InputError("look-ahead: " + what); };
@@ -59,17 +61,22 @@ void parallel_for(int threads, std::size_t count,
 class Sampler {
  public:
   Sampler(CameraPredictor& judge, const Trajectory& trajectory, const LookAheadConfig& config,
-          std::size_t variables)
-      : judge_(judge), trajectory_(trajectory), config_(config), positions_(variables) {}
+          double least, std::size_t variables)
+      : judge_(judge),
+        trajectory_(trajectory),
+        config_(config),
+        least_(least),
+        positions_(variables) {}
 
   /// Returns samples at these times, which rise, and between them, as close as the motion asks.
   std::vector<Sample> at_least(std::span<const double> times) {
-    samples_.push_back(at(times.front()));
+    Sample before = at(times.front());
+    keep(before);
     for (const double time : times.subspan(1)) {
       Sample next = at(time);
-      const Sample before = samples_.back();
       refine(before, next);
-      samples_.push_back(std::move(next));
+      keep(next);
+      before = std::move(next);
     }
     return std::move(samples_);
   }
@@ -80,14 +87,20 @@ class Sampler {
     return judge_.at(time, positions_);
   }
 
+  /// Without places, which only refine() compares.
+  void keep(const Sample& sample) {
+    samples_.push_back(
+        {.time = sample.time, .predictions = sample.predictions, .targets = {}, .bodies = {}});
+  }
+
   /// Adds what is needed between two samples.
   void refine(const Sample& a, const Sample& b) {
     const double apart = b.time - a.time;
     const bool is_wanted = apart > config_.border && differ(a, b);
-    if (!is_wanted && !(apart > least_step && moves_far(a, b))) return;
+    if (!is_wanted && !(apart > least_ && moves_far(a, b))) return;
     Sample middle = at(0.5 * (a.time + b.time));
     refine(a, middle);
-    samples_.push_back(middle);
+    keep(middle);
     refine(middle, b);
   }
 
@@ -126,6 +139,7 @@ class Sampler {
   CameraPredictor& judge_;
   const Trajectory& trajectory_;
   const LookAheadConfig& config_;
+  double least_;  // seconds
   std::vector<double> positions_;
   std::vector<Sample> samples_;
 };
@@ -329,7 +343,9 @@ std::vector<TargetForecast> LookAhead::along(const Trajectory& trajectory, doubl
   const auto threads = static_cast<std::size_t>(s.config.threads);
   from = std::clamp(from, 0.0, trajectory.duration());
   until = std::clamp(until, from, trajectory.duration());
-  const auto steps = static_cast<std::size_t>(std::ceil((until - from) / s.config.step));
+  const double length = until - from, least = std::max(least_step, length / most_samples);
+  const auto steps =
+      static_cast<std::size_t>(std::min(std::ceil(length / s.config.step), most_steps));
   std::vector<double> times;
   for (std::size_t i = 0; i <= steps; ++i)
     times.push_back(std::lerp(
@@ -341,7 +357,8 @@ std::vector<TargetForecast> LookAhead::along(const Trajectory& trajectory, doubl
   std::vector<std::vector<Sample>> sampled(s.cameras.size() * pieces);
   parallel_for(s.config.threads, sampled.size(), [&](std::size_t thread, std::size_t i) {
     const std::size_t first = i % pieces * steps / pieces, last = (i % pieces + 1) * steps / pieces;
-    Sampler sampler(s.judge(i / pieces, thread), trajectory, s.config, s.robot.variables().size());
+    Sampler sampler(s.judge(i / pieces, thread), trajectory, s.config, least,
+                    s.robot.variables().size());
     sampled[i] = sampler.at_least(std::span(times).subspan(first, last - first + 1));
     if (i % pieces > 0) sampled[i].erase(sampled[i].begin());  // the last piece's last
   });

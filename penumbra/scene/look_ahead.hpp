@@ -74,9 +74,10 @@ struct TargetForecast {
 
 struct LookAheadConfig {
   int threads = 1;
-  double step = 0.02;  ///< seconds between samples at most
+  double step = 0.02;  ///< seconds between samples at most; more if a motion would have over 36,000
   /// Of a target's smaller side in the image, that a part of the robot next to it, or the target
-  /// itself, moves at most between two samples, unless they are 1 ms apart.
+  /// itself, moves at most between two samples, unless they are 1 ms apart, or in motions of more
+  /// than 3 minutes a 180,000th of it.
   double motion = 0.25;
   double border = 0.005;  ///< seconds by which an interval's begin and end may be off
   /// Pixels up to which Prediction::clearance is measured, to 127; 0: it is not, which saves time.

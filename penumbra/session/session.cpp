@@ -16,7 +16,7 @@ Session::Session(Robot robot, const Camera& camera, const PipelineConfig& config
 
 const FrameReport& Session::process(const Frame& frame) {
   const FrameReport& report = pipeline_.process(frame);
-  warnings_.add(report, frame.pose.positions);
+  warnings_.add(report, frame);
   watch_.add(report);
   if (!frame.plan) return report;
   targets_.assign(report.targets.begin(), report.targets.end());

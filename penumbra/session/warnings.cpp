@@ -51,7 +51,8 @@ Warnings::Warnings(const Pipeline& pipeline, const PipelineConfig& config)
                          .image = config.image});
 }
 
-void Warnings::add(const FrameReport& report, std::span<const double> positions) {
+void Warnings::add(const FrameReport& report, const Frame& frame) {
+  const std::span<const double> positions = frame.pose.positions;
   if (report.pixels.robot) {
     ++posed_frames_;
     robot_seen_ = robot_seen_ || *report.pixels.robot > 0;
@@ -65,6 +66,10 @@ void Warnings::add(const FrameReport& report, std::span<const double> positions)
   }
   for (const std::size_t link : report.near_links) ++frames_near_[link];
   uncovered_ = std::max(uncovered_, report.pixels.uncovered);
+  if (body_note_.empty()) body_note_ = report.note;
+  if (frame.plan && frame.plan != plan_ && plan_notes_.empty())
+    plan_notes_ = frame.plan->notes(robot_);
+  plan_ = frame.plan;
   add_targets(report);
   add_stamp(report);
   if (sensor_) {
@@ -91,6 +96,9 @@ void Warnings::add_stamp(const FrameReport& report) {
 /// Called before add_stamp().
 void Warnings::add_targets(const FrameReport& report) {
   if (report.targets.empty()) return;
+  for (const TargetReport& target : report.targets)
+    if (target_note_.empty() && !target.note.empty())
+      target_note_ = "target '" + target.name + "': " + target.note;
   if (report.stamp && last_stamp_ && is_clock_jump(*report.stamp, *last_stamp_)) ++forgotten_;
   if (std::any_of(report.targets.begin(), report.targets.end(),
                   [](const TargetReport& target) { return target.wants_stamp; }))
@@ -109,9 +117,12 @@ std::vector<std::string> Warnings::lines() const {
   // Without a robot in view, or depth on it, no setup explains anything.
   const bool shows_robot =
       robot_seen_ && (robot_pixels_ == 0 || exceeds(measured_, nearly_none, robot_pixels_));
-  const bool is_named = found.cause != Diagnosis::Cause::none &&
-                        (shows_robot || found.cause != Diagnosis::Cause::unexplained);
-  if (is_named) lines.push_back(found.message);
+  const bool has_cause = found.cause != Diagnosis::Cause::none &&
+                         (shows_robot || found.cause != Diagnosis::Cause::unexplained);
+  if (!body_note_.empty()) lines.push_back(body_note_);
+  if (has_cause && (body_note_.empty() || found.cause != Diagnosis::Cause::unexplained))
+    lines.push_back(found.message);
+  const bool is_named = has_cause || !body_note_.empty();
   if (!is_named && posed_frames_ > 0 && !robot_seen_)
     lines.push_back(
         std::string("the robot is ") + (posed_frames_ == 1 ? "not in the image" : "in no frame") +
@@ -143,6 +154,8 @@ std::vector<std::string> Warnings::lines() const {
   if (not_handled_ > 0)
     lines.push_back("targets that want handling in " + counted(not_handled_, "frame") +
                     " without a stamp: they are not handled there");
+  if (!target_note_.empty()) lines.push_back(target_note_);
+  for (const std::string& line : plan_notes_) lines.push_back("the planned motion: " + line);
   std::string joints;
   for (std::size_t i = 0; i < frames_beyond_.size(); ++i)
     if (frames_beyond_[i] > 0)
@@ -150,7 +163,7 @@ std::vector<std::string> Warnings::lines() const {
                 "' beyond its limits in " + counted(frames_beyond_[i], "frame");
   if (!is_named && !joints.empty())
     lines.push_back(joints + ": are the positions in radians and metres?");
-  if (!sensor_ || found.cause != Diagnosis::Cause::none) return lines;
+  if (!sensor_ || found.cause != Diagnosis::Cause::none || !body_note_.empty()) return lines;
   for (std::string& line : sensor_->missing.lines()) lines.push_back(std::move(line));
   return lines;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,8 +39,8 @@ class Warnings {
   /// `pipeline`: which judges the frames; `config`: the pipeline's.
   Warnings(const Pipeline& pipeline, const PipelineConfig& config);
 
-  /// `positions`: those of the frame, in the order of Robot::variables(); empty if not known.
-  void add(const FrameReport& report, std::span<const double> positions);
+  /// `frame`: the report's.
+  void add(const FrameReport& report, const Frame& frame);
 
   /// Returns a line for each likely mistake. What a wrong setup looks like is left out where the
   /// diagnosis names the cause.
@@ -83,6 +84,9 @@ class Warnings {
   std::uint64_t longest_period_ = 0;        // nanoseconds between two stamps that rise
   std::size_t forgotten_ = 0;               // times, with targets in the frame
   std::size_t not_handled_ = 0;             // frames
+  std::string body_note_, target_note_;     // the first of each
+  std::shared_ptr<const Trajectory> plan_;  // of the last frame
+  std::vector<std::string> plan_notes_;     // of the first plan that has any
   std::vector<std::size_t> frames_beyond_;  // of each joint
   std::vector<std::size_t> frames_near_;    // of each link
 };

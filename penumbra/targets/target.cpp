@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
@@ -89,6 +91,45 @@ struct EstimateCheck {
   }
 };
 
+// Metres. No sensor of a robot sees farther; of what stands upright; of a shape with the camera
+// inside, and of an outline.
+constexpr double farthest_target = 250.0, tallest_target = 50.0, largest_target = 10.0;
+
+std::string metres_text(double length) {
+  std::ostringstream text;
+  text << std::setprecision(4) << length << " m";
+  return text.str();
+}
+
+Eigen::AlignedBox3d bounds_of(const TargetShape& shape) {
+  Eigen::Vector3d half = Eigen::Vector3d::Zero();
+  if (const auto* mesh = std::get_if<MeshTarget>(&shape); mesh != nullptr && mesh->mesh)
+    return mesh->mesh->bounds;
+  if (const auto* point = std::get_if<PointTarget>(&shape)) half.setConstant(point->radius);
+  if (const auto* box = std::get_if<BoxTarget>(&shape)) half = 0.5 * box->size;
+  return {-half, half};
+}
+
+/// The first of some lengths that is impossible; empty: none.
+std::string impossible_length(const Target& target) {
+  const auto check = [](const std::optional<double>& length, double most, const char* name) {
+    return length && *length > most ? name + (" is " + metres_text(*length)) : std::string();
+  };
+  std::string line = check(target.depth_margin, largest_target, "its depth_margin");
+  const auto take = [&](const auto* shape) {
+    if (shape == nullptr) return;
+    if (line.empty()) line = check(shape->expected_depth, farthest_target, "its expected_depth");
+    if constexpr (requires { shape->height; })
+      if (line.empty()) line = check(shape->height, tallest_target, "its height");
+    if constexpr (requires { shape->in_metres; })
+      if (line.empty() && shape->in_metres)
+        line = check(shape->semi_axes.maxCoeff(), largest_target, "its semi-axis");
+  };
+  take(std::get_if<RegionTarget>(&target.shape));
+  take(std::get_if<KeypointTarget>(&target.shape));
+  return line;
+}
+
 }  // namespace
 
 std::optional<ShapePlacement> placement_of(const TargetShape& shape) {
@@ -118,6 +159,35 @@ bool is_rendered(const TargetShape& shape) {
 }
 
 void check_shape(const TargetShape& shape) { std::visit(ShapeCheck{}, shape); }
+
+std::string millimetres_note(
+    const Target& target,
+    const std::function<Eigen::Isometry3d(const ReferenceFrame&)>& T_camera_frame) {
+  std::string line = impossible_length(target);
+  const auto check_distance = [&](double distance) {
+    if (line.empty() && distance > farthest_target)
+      line = "it is " + metres_text(distance) + " away from the camera";
+  };
+  try {
+    if (const auto at = placement_of(target.shape)) {
+      const Eigen::Isometry3d T_camera_shape = T_camera_frame(at->frame) * at->pose;
+      const Eigen::AlignedBox3d bounds = bounds_of(target.shape);
+      check_distance((T_camera_shape * bounds.center()).norm());
+      const double size = bounds.sizes().maxCoeff();
+      if (line.empty() && size > largest_target &&
+          bounds.contains(T_camera_shape.inverse().translation().eval()))
+        line = "it is " + metres_text(size) + " large, and the camera is inside of it";
+    }
+    if (target.estimate && !std::holds_alternative<std::monostate>(target.estimate->value)) {
+      const auto* const pose = std::get_if<Eigen::Isometry3d>(&target.estimate->value);
+      const Eigen::Vector3d position =
+          pose != nullptr ? pose->translation() : std::get<Eigen::Vector3d>(target.estimate->value);
+      check_distance((T_camera_frame(target.estimate->frame) * position).norm());
+    }
+  } catch (const InputError&) {  // the frame's pose is not known
+  }
+  return line.empty() ? line : line + ": are these millimetres? give metres";
+}
 
 void check_target(const Target& target) {
   if (target.name.empty()) throw InputError("has no name");

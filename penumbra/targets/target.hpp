@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -140,6 +141,13 @@ void place(TargetShape& shape, const ShapePlacement& at);
 void check_shape(const TargetShape& shape);
 void check_target(const Target& target);
 
+/// Says which length of a valid target is as large as only millimetres are that are taken for
+/// metres, one line; empty: none. `T_camera_frame`: returns the pose of a frame in the camera's or
+/// the sensor's.
+[[nodiscard]] std::string millimetres_note(
+    const Target& target,
+    const std::function<Eigen::Isometry3d(const ReferenceFrame&)>& T_camera_frame);
+
 /// Throws InputError for a pose that is not rigid or more than max_target_distance away, and for
 /// one in the camera's frame that is nearer than DepthRenderer::near_plane.
 void check_estimate(const TargetEstimate& estimate);
@@ -174,6 +182,7 @@ struct TargetReport {
   std::optional<std::int64_t> stamp;  ///< of the frame on which it was judged, nanoseconds
   Verdict verdict = Verdict::unknown;
   std::string reason;  ///< one line if the verdict is unknown or held, else empty
+  std::string note;    ///< millimetres_note()
 
   /// Null if no pixels were judged. The judge's values except `point`.
   std::optional<Judgement> judgement;

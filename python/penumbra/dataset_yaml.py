@@ -144,7 +144,7 @@ def _arguments(root: dict[str, Any], folder: pathlib.Path) -> dict[str, Any]:
 def _robot(node: dict[str, Any], folder: pathlib.Path) -> Robot:
     options = RobotOptions(
         packages={name: folder / at for name, at in node.get("packages", {}).items()},
-        geometry=Geometry(node.get("geometry", "collision")),
+        geometry=Geometry(node["geometry"]) if "geometry" in node else None,
         geometry_fallback=node.get("geometry_fallback", False),
         ignore_links=node.get("ignore_links", []),
     )

@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 from penumbra import (
     Camera,
     Frame,
-    Geometry,
     InputError,
     JointAnswer,
     LabelRule,
@@ -246,7 +245,7 @@ def _scalar(value: object) -> str:
 
 def _robot_keys(options: RobotOptions) -> Dict[str, Any]:
     geometry: Any = {link: of.name for link, of in options.geometry_of_links.items()}
-    if options.geometry != Geometry.collision:
+    if options.geometry is not None:
         geometry = {"*": options.geometry.name, **geometry} if geometry else options.geometry.name
     keys = {
         "packages": {name: os.path.abspath(at) for name, at in options.packages.items()},

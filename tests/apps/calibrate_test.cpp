@@ -3,8 +3,10 @@
 #include "../support/page_json.hpp"
 #include "real_recording.hpp"
 
+#include <algorithm>
 #include <sstream>
 
+#include <io/files/camera_info.hpp>
 #include <io/files/pose_file.hpp>
 
 namespace penumbra::test {
@@ -179,6 +181,30 @@ TEST_F(DiagnosisTest, DepthScaleMendsDepthOfAnotherUnit) {
   expect_cause(0, nullptr);
   edit_file(path("recording/recording.yaml"), "0.001\n", "0\n");
   refused(run("out"));
+}
+
+TEST_F(DiagnosisTest, NormalisedDepthAndDepthAlongTheRay) {
+  const Camera camera = io::read_camera_info(path("recording/camera_info.yaml"), false);
+  const auto write_depth = [&](const std::function<double(double z, double ray)>& given) {
+    for (std::size_t i = 0; i < 10; ++i) {
+      const std::string name = "recording/depth_" + std::to_string(i);
+      const auto read = read_image<std::uint16_t>(path(name + ".png"));
+      Image<float> depth(read.width(), read.height());
+      for (int v = 0; v < read.height(); ++v)
+        for (int u = 0; u < read.width(); ++u)
+          depth(u, v) =
+              static_cast<float>(given(0.001 * read(u, v), camera.intrinsics.ray(u, v).norm()));
+      io::write_npy(path(name + ".npy"), depth.view());
+    }
+  };
+  const fs::path yaml = path("recording/recording.yaml");
+  edit_file(yaml, "depth_%d.png", "depth_%d.npy");
+  write_depth([](double z, double) { return std::min(z / 4.0, 1.0); });
+  expect_has(expect_cause(0, "depth_scale").err, {"depth_scale"});
+  write_depth([](double z, double ray) { return z * ray; });
+  expect_has(expect_cause(0, "depth_ray").err, {"depth_along: ray"});
+  edit_file(yaml, "  pose:", "  depth_along: ray\n  pose:");
+  expect_cause(0, nullptr);
 }
 
 }  // namespace

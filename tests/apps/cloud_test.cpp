@@ -185,6 +185,16 @@ TEST_F(CloudFolder, LosesTheRobot) {
   EXPECT_EQ(io::read_cloud(out("clouds/1.pcd")).cloud.fields.back().name, "link");
 }
 
+TEST_F(CloudFolder, NamesBodiesAndTargetsInMillimetres) {
+  write_file(path("knob.yaml"), "targets: [{name: knob, point: [300, 0, 1500]}]\n");
+  succeed(cloud());
+  expect_has(report()["notes"].dump(), {"'knob': it is 1530 m away"});
+  write_file(path("clouds.yaml"), read_file(path("clouds.yaml")) +
+                                      "attached: [{name: part, link: board, box: [90, 50, 9]}]\n");
+  cloud();
+  expect_has(report()["notes"].dump(), {"'part' reaches 51.7 m"});
+}
+
 TEST_F(CloudFolder, CloudsOfOthersStay) {
   succeed(cloud());
   expect_refused(cloud({"--frames", "7:9"}), {"--frames"});

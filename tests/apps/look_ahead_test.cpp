@@ -130,7 +130,41 @@ TEST_F(LookAheadTest, RanksMotions) {
 TEST_F(LookAheadTest, SaysWhatThePlanDoesWrong) {
   write_file(path("elsewhere.csv"), "time,slide\n0,0.5\n1,2\n");
   expect_has(succeed(look("elsewhere.csv", {"--from", "1"})).err,
-             {"begins 0.45", "slide", "exceeds its limit by 1 m"});
+             {"begins 0.45", "slide", "exceeds its limit by 1 m", "velocity limit by 0.5 m/s"});
+  const std::pair<std::string, std::string> plans[] = {
+      {"0,0\n1,1\n", ""},
+      {"0,0\n0.99,1\n", ""},  // rounding
+      {"0,0\n0.5,1\n", "exceeds its velocity limit by 1 m/s at 0 s"},
+      {"0,0\n1000,0.9\n2000,0.1\n", "milliseconds"},
+      {"0,0\n1000,0\n1001,0.9\n", ""},  // it waits
+      {"0,0\n100,0.9\n", ""}};
+  for (const auto& [plan, words] : plans) {
+    write_file(path("plan.csv"), "time,slide\n" + plan);
+    const std::string told = succeed(look("plan.csv")).err;
+    expect_has(told, {words});
+    if (words.empty()) expect_lacks(told, {"exceeds", "milliseconds"});
+  }
+}
+
+TEST_F(LookAheadTest, RunSaysWhatTheBagsPlanDoesWrong) {
+  bag_.add("/slow", tiny_stamp(0), to_message(1.0, 2000));
+  expect_has(run({"--plan-topic", "/slow"}).err, {"planned motion", "milliseconds"});
+  expect_has(notes(), {"milliseconds"});
+  const io::JointTrajectoryMessage at_once = to_message(1.0, 0);
+  bag_.add("/at_once", tiny_stamp(0), at_once);
+  bag_.add(
+      "/parts", tiny_stamp(0),
+      io::DisplayTrajectoryMessage{.parts = {{.joints = to_message(0.5, 1)}, {.joints = at_once}}});
+  for (const char* topic : {"/at_once", "/parts"})
+    expect_has(run({"--plan-topic", topic}).err, {"does not rise"});
+}
+
+TEST_F(LookAheadTest, ALongMotionTakesFewSamples) {
+  write_file(path("hour.csv"), "time,slide\n0,0\n1800,0.9\n3600,0\n");
+  succeed(look("hour.csv"));
+  const Json camera = seen()["motions"][0]["targets"][0]["cameras"][0];
+  EXPECT_LE(camera["samples"]["time_s"].size(), 40'000U);
+  EXPECT_EQ(camera["intervals"].back()["end_s"], 3600.0);
 }
 
 TEST_F(LookAheadTest, RefusesWithOneLine) {
@@ -142,13 +176,30 @@ TEST_F(LookAheadTest, RefusesWithOneLine) {
       {"time,slide\n0,0\n1,nan\n", "plan.csv:3"},
       {"time,slide\n0,0\n1,1\n1,2\n", "does not rise"},
       {"time,slide\n1700000000,0\n", "0 to 3600 seconds"},
-      {"time,slide,slide\n0,0,0\n", "twice"}};
+      {"time,slide,slide\n0,0,0\n", "twice"},
+      {"time,slide\n0,0\n0,1\n", "does not rise"},
+      {"time,slide\n0,0\n1,4294967295\n", "4.29497e+09; expected rad and m"},
+      {"time,slide\n0,0\n1,-1e300\n", "expected rad and m"}};
   for (const auto& [plan, named] : plans) {
     write_file(path("plan.csv"), plan);
     expect_refused(look("plan.csv"), {named});
   }
-  write_file(path("plan.yaml"), "a: 1\n");
-  EXPECT_EQ(look("plan.yaml").status, 2);
+  const auto message = [](int seconds, const std::string& speed) {
+    const auto point = [&](const std::string& position, int time) {
+      return "{positions: [" + position + "], velocities: [" + speed +
+             "], time_from_start: {sec: " + std::to_string(time) + "}}";
+    };
+    return "{joint_names: [slide], points: [" + point("0", 0) + ", " + point("0.5", seconds) +
+           ", " + point("0.9", 2 * seconds) + "]}\n";
+  };
+  for (const auto& [plan, named] : std::initializer_list<std::pair<std::string, std::string>>{
+           {message(0, "0"), "does not rise"},
+           {message(1000, "0.5"), "expected times in seconds"},
+           {message(1, "-1e300"), "velocities"},
+           {"a: 1\n", "JointTrajectory"}}) {
+    write_file(path("plan.yaml"), plan);
+    expect_refused(look("plan.yaml"), {"plan.yaml", named});
+  }
   EXPECT_EQ(look("nowhere.csv").status, 2);
   write_file(path("plan.csv"), "time,slide\n0,0\n1,1\n");
   EXPECT_EQ(look("plan.csv", {"--from", "7"}).status, 2);

@@ -113,6 +113,39 @@ TEST_F(NotesTest, JointsThatRenderWasNotGiven) {
   expect_note_of_render({"--joint", "slide=0", "--joint", "wrist=0", "--joint", "finger=1"}, "");
 }
 
+TEST_F(NotesTest, AttachedBodiesAndTargetsInMillimetres) {
+  const std::string yaml = read_file(path("recording.yaml")) + "targets: targets.yaml\n";
+  const auto expect_note_of = [&](const std::string& body, const std::string& target,
+                                  const std::string& words) {
+    SCOPED_TRACE(body + target);
+    write_file(
+        path("recording.yaml"),
+        yaml + (body.empty() ? "" : "attached: [{name: part, link: board, " + body + "}]\n"));
+    write_targets("- {name: cup, " + target + "}\n");
+    succeed(run());
+    const Json notes = report()["summary"]["notes"];
+    ASSERT_EQ(notes.size(), words.empty() ? 0U : 1U) << notes;
+    expect_has(notes.dump(), {words});
+  };
+  const std::string cup = "point: [0.3, 0.2, 2], radius: 0.03";
+  expect_note_of("", cup, "");
+  expect_note_of("box: [0.1, 0.05, 0.1]", cup, "");
+  expect_note_of("box: [2, 0.05, 0.1], pose: [0, 0, -1.5, 0, 0, 0, 1]", cup, "");
+  expect_note_of("box: [0.1, 0.05, 0.1], pose: [100, 50, 0, 0, 0, 0, 1]", cup,
+                 "'part' reaches 112 m");
+  expect_note_of("box: [100, 50, 100]", cup, "'part' reaches 75 m");
+  // A truck in a hall, and far away.
+  expect_note_of("", "box3d: [0, 0, 30, 0, 0, 0, 1], size: [3, 4, 16]", "");
+  expect_note_of("", "point: [0, 0, 150], radius: 2", "");
+  expect_note_of("", "box: [10, 10, 8, 20], height: 1.8", "");
+  expect_note_of("", "point: [300, 200, 2000], radius: 30", "'cup': it is 2032 m away");
+  expect_note_of("", "point: [0.3, 0.2, 2], radius: 30", "'cup': it is 60 m large");
+  expect_note_of("", "box3d: [0, 0, 2, 0, 0, 0, 1], size: [80, 80, 120]",
+                 "'cup': it is 120 m large");
+  expect_note_of("", "box: [10, 10, 8, 20], height: 1800", "'cup': its height is 1800 m");
+  expect_note_of("", cup + ", depth_margin: 20", "'cup': its depth_margin is 20 m");
+}
+
 /// The tiny recording with one more link on its base.
 class LeniencyTest : public TinyTest {
  protected:
@@ -145,24 +178,29 @@ TEST_F(LeniencyTest, EveryResultNamesLinksWithoutTheirMesh) {
   EXPECT_EQ(Json::parse(succeed(inspect({allowed, "--json"})).out)["links"][2]["missing"], true);
 }
 
-TEST_F(LeniencyTest, LinksOfTheOtherGeometryAreDrawnWhereThatIsAskedFor) {
+TEST_F(LeniencyTest, LinksWithoutCollisionGeometryAreDrawnWithANote) {
   add_link(ball);
   const std::string fallback = "--geometry-fallback";
-  const auto robot_pixels = [&](const std::string& option) {
-    return Json::parse(render({option, "--json"}).out)["robot_pixels"].get<int>();
+  const auto robot_pixels = [&](const Words& options) {
+    return Json::parse(succeed(render(options + Words{"--json"})).out)["robot_pixels"].get<int>();
   };
-  EXPECT_GT(robot_pixels(fallback), robot_pixels("--allow-missing-meshes"));
-  const std::string told = run({fallback}).err;
-  expect_has(told, {"do not show the robot"});
-  expect_lacks(told, {"only visual"});
-  const Json link = Json::parse(inspect({fallback, "--json"}).out)["links"][2];
-  EXPECT_EQ(link["drawn"], true);
-  EXPECT_EQ(link["reason"], "visual, as it has no collision");
+  EXPECT_GT(robot_pixels({}), robot_pixels({"--geometry", "collision", "--allow-missing-meshes"}));
+  for (const Words& options : {Words{}, {fallback}, {"--geometry", "collision", fallback}}) {
+    const bool is_default = options.empty();
+    const std::string told = run(options).err;
+    EXPECT_EQ(told.find("only visual: \"more\"") != std::string::npos, is_default) << told;
+    expect_values(report()["settings"], {{"/geometry", "collision"}, {"/geometry_fallback", true}});
+    const Json link = Json::parse(inspect(options + Words{"--json"}).out)["links"][2];
+    EXPECT_EQ(link["drawn"], true);
+    EXPECT_EQ(link["reason"], "visual, as it has no collision");
+  }
 }
 
 TEST_F(LeniencyTest, LinksOfTheOtherGeometryAreNeverLeftOutInSilence) {
   add_link(ball);
-  for (const Outcome& outcome : {run(), render()}) {
+  const Words strict = {"--geometry", "collision"};
+  edit_file(path("recording.yaml"), "tiny.urdf\n", "tiny.urdf\n  geometry: collision\n");
+  for (const Outcome& outcome : {run(), run(strict), render(strict), inspect(strict)}) {
     EXPECT_EQ(outcome.status, 2);
     expect_has(outcome.err, {"1 link has no collision geometry, only visual: \"more\"",
                              "--geometry-fallback", "--geometry visual", "ignore_links"});

@@ -242,7 +242,7 @@ TEST_F(RunTest, TheReportSaysByWhichRuleItWasMade) {
                   {"range", range},
                   {"image", "raw"},
                   {"geometry", "collision"},
-                  {"geometry_fallback", false},
+                  {"geometry_fallback", true},
                   {"margins", Json::object()},
                   {"extra", Json::array()},
                   {"ignore_links", Json::array()},

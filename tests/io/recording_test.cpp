@@ -2,6 +2,7 @@
 #include "files.hpp"
 #include "robots.hpp"
 
+#include <cmath>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -136,6 +137,7 @@ TEST_F(RecordingFolder, ReadsEveryOptionalKey) {
   EXPECT_EQ(recording.camera.camera.range.near, 0.3);
   EXPECT_TRUE(recording.camera.rectified);
   EXPECT_EQ(recording.camera.beyond, BeyondMeans::visible);
+  EXPECT_FALSE(recording.camera.depth_along_ray);
   EXPECT_EQ(recording.frames.depth.value().file(5), file("depth/0005.npy"));
   EXPECT_FALSE(recording.frames.color);
   EXPECT_EQ(open(with("  urdf", "  geometry: visual")).robots.at(0).options.geometry,
@@ -145,6 +147,7 @@ TEST_F(RecordingFolder, ReadsEveryOptionalKey) {
 TEST_F(RecordingFolder, NamesKeyAndLineOfEveryFault) {
   test::expect_refused(
       {{with("  parent", "  toleranc: [1, 2, 3]"), ":6: camera.toleranc: "},
+       {with("  parent", "  depth_along: x"), ":6: camera.depth_along: "},
        {with("  urdf", "  color: red"), ":3: robot.color: "},
        {with("  joints", "  colour: x"), ":9: frames.colour: "},
        {std::string(minimal) + "scene: x\n", ":11: scene: "},
@@ -208,6 +211,17 @@ TEST_F(RecordingFolder, ReadsFrames) {
   const Frame plain = frames.read(1, false);
   EXPECT_TRUE(plain.color.view.empty());
   EXPECT_EQ(plain.color_message, "");
+}
+
+TEST_F(RecordingFolder, DepthAlongTheRayBecomesZ) {
+  write_yaml(with("  parent", "  depth_along: ray"));
+  const Frame frame = reader().read(0, false);
+  const auto view = std::get<ImageView<const float>>(frame.depth.view);
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u)
+      EXPECT_NEAR(view(u, v),
+                  0.001 * depth(5)(u, v) / std::hypot(1.0, (u - 3.5) / 9.0, (v - 2.5) / 9.0), 1e-6)
+          << u << ' ' << v;
 }
 
 TEST_F(RecordingFolder, ReadsSeveralRobots) {

@@ -145,10 +145,12 @@ TEST(RuleCheck, RefusesAndSaysWhatItGot) {
        [](LabelRule& r) {
          r.tolerance = {0.02, -0.01, 0};
        }},
-      {"tolerance 1,0,-1e-06",
+      {"tolerance 0.9,0,-1e-06",
        [](LabelRule& r) {
-         r.tolerance = {1, 0, -1e-6};
+         r.tolerance = {0.9, 0, -1e-6};
        }},
+      {"metres", [](LabelRule& r) { r.tolerance.a = 1; }},  // millimetres
+      {"metres", [](LabelRule& r) { r.tolerance.b = 5; }},
       {"tolerance inf", [](LabelRule& r) { r.tolerance.a = infinity; }},
       {"nan", [](LabelRule& r) { r.tolerance.c = nan; }},
       {"factor 0.9", [](LabelRule& r) { r.beyond_factor = 0.9; }},

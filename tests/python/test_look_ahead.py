@@ -93,7 +93,7 @@ def test_reports_of_frames_have_forecasts_of_their_plan(cell):
 
 def test_a_trajectory_has_its_faults(cell):
     motion = cell.motion()
-    assert motion.duration == 3 and motion.beyond_limits == ()
+    assert motion.duration == 3 and motion.notes == ()
     assert abs(motion.jump[1]) < 1e-9
     np.testing.assert_allclose(motion.at([1.5])[0][:3], cell.points[1, 1:])
     refuses("rise", lambda: cell.still([0, 0]))

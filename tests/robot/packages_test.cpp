@@ -83,6 +83,17 @@ TEST_F(Packages, AreFoundByNameManifestOrPlace) {
   }
 }
 
+TEST_F(Packages, ANameThatNoPackageHasIsTheOnlyFolderOfThatNameInMeshes) {
+  const std::string uri = "package://collision/t.stl", urdf = "g/urdf/r.urdf";
+  add_mesh("g/meshes/one/collision/t.stl", 3);
+  const Robot robot = load(uri, {}, urdf);
+  EXPECT_EQ(size_of(robot), 3.0);
+  EXPECT_TRUE(holds(robot.notes()[0], in("g/meshes/one/collision")));
+  add_mesh("g/meshes/two/collision/u.stl", 4);
+  expect_refused([&] { (void)load(uri, {}, urdf); },
+                 {"package \"collision\" was not found", "--package collision=DIR"});
+}
+
 TEST_F(Packages, UnknownPackageAndMissingFileAreSaid) {
   const std::string unknown = message_of([&] { (void)load("package://p/t.stl"); });
   EXPECT_TRUE(holds(unknown, "package \"p\" was not found"));

@@ -38,10 +38,11 @@ std::string drawn(const RobotOptions& options) {
 }
 
 TEST(LinkChoice, GeometryIsTheOneAskedFor) {
-  EXPECT_EQ(drawn({.ignore_links = {"b"}}), "ad");
+  EXPECT_EQ(drawn({}), "abd") << "b has only visual geometry";
+  EXPECT_EQ(drawn({.geometry = Geometry::collision, .ignore_links = {"b"}}), "ad");
   EXPECT_EQ(drawn({.geometry = Geometry::visual, .ignore_links = {"d"}}), "ab");
   EXPECT_EQ(drawn({.geometry_of_links = {{"b", Geometry::visual}}}), "abd");
-  EXPECT_EQ(drawn({.geometry_fallback = true}), "abd");
+  EXPECT_EQ(drawn({.geometry = Geometry::visual, .geometry_fallback = true}), "abd");
   EXPECT_EQ(drawn({.ignore_links = {"[ab]"}}), "d");
   EXPECT_EQ(drawn({.only_links = {"a", "c"}}), "a");
   EXPECT_EQ(drawn({.ignore_links = {"a", "b"}, .only_links = {"*"}}), "d");
@@ -61,7 +62,9 @@ TEST(LinkChoice, ExtraMeshesAreDrawnWithTheirLinksAndNamed) {
 }
 
 TEST(LinkChoice, ReportSaysWhyALinkIsNotDrawn) {
-  const Robot robot = parse(four_links(), {.ignore_links = {"d"}, .allow_missing_meshes = true});
+  const Robot robot =
+      parse(four_links(),
+            {.geometry = Geometry::collision, .ignore_links = {"d"}, .allow_missing_meshes = true});
   EXPECT_EQ(report_of(robot, "a").reason, "collision");
   EXPECT_EQ(report_of(robot, "b").reason, "has no collision, only visual");
   EXPECT_EQ(report_of(robot, "c").reason, "has no geometry");
@@ -74,15 +77,22 @@ TEST(LinkChoice, LinksThatLackTheChosenGeometryAreRefusedWithTheWaysOut) {
   const auto refused = [](const RobotOptions& options) {
     return message_of([&] { (void)parse(four_links(), options); });
   };
-  const std::string collision = refused({});
+  const std::string collision = refused({.geometry = Geometry::collision});
   for (const char* part :
        {"robot_description: 1 link has no collision geometry, only visual: \"b\"; ",
         "--geometry-fallback", "geometry: {LINK: visual}", "--geometry visual", "ignore_links"})
     EXPECT_TRUE(holds(collision, part));
+  EXPECT_TRUE(holds(refused({.geometry_of_links = {{"b", Geometry::collision}}}), "\"b\""));
   EXPECT_TRUE(holds(refused({.geometry = Geometry::visual}),
                     ": 1 link has no visual geometry, only collision: \"d\"; "));
-  EXPECT_TRUE(holds(refused({.geometry_of_links = {{"d", Geometry::visual}}}), "\"b\""))
+  EXPECT_TRUE(holds(
+      refused({.geometry = Geometry::collision, .geometry_of_links = {{"d", Geometry::visual}}}),
+      "\"b\""))
       << "both kinds are missing: collision comes first";
+  const Robot usual = parse(four_links());
+  ASSERT_EQ(usual.notes().size(), 1U);
+  for (const char* part : {"\"b\"", "visual", "ignore_links"})
+    EXPECT_TRUE(holds(usual.notes()[0], part));
   for (const RobotOptions& way :
        {RobotOptions{.geometry_of_links = {{"b", Geometry::visual}}},
         RobotOptions{.geometry_fallback = true}, RobotOptions{.ignore_links = {"b"}},

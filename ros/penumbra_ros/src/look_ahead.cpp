@@ -120,9 +120,13 @@ LookAheadService::Service::Response LookAheadService::answer(const Service::Requ
     for (const penumbra::Target& target : seen.targets) targets.push_back({.target = target});
     penumbra::LookAhead ahead(robot, {camera}, targets, seen.pose, {.clearance = 0});
     std::vector<std::vector<penumbra::TargetForecast>> forecasts;
-    for (const auto& message : request.trajectories)
-      forecasts.push_back(
-          ahead.along(trajectory_of(message, forecasts.size(), robot, seen.positions)));
+    for (const auto& message : request.trajectories) {
+      const Trajectory motion = trajectory_of(message, forecasts.size(), robot, seen.positions);
+      for (const std::string& note : motion.notes(robot))
+        response.message += (response.message.empty() ? "trajectories[" : "\ntrajectories[") +
+                            std::to_string(forecasts.size()) + "]: " + note;
+      forecasts.push_back(ahead.along(motion));
+    }
     response.forecasts.resize(forecasts.size());
     for (const penumbra::RankedMotion& motion : penumbra::rank(forecasts)) {
       response.order.push_back(static_cast<std::uint32_t>(motion.trajectory));

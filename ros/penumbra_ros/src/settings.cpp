@@ -61,7 +61,8 @@ class Declaration {
     ParameterDescriptor described = descriptor(description);
     for (const auto& [text, meaning] : of)
       described.additional_constraints +=
-          (described.additional_constraints.empty() ? "one of " : ", ") + text;
+          (described.additional_constraints.empty() ? "one of " : ", ") +
+          (text.empty() ? "empty" : text);
     const auto text = read(name, value, described, false);
     const auto found = of.find(text);
     if (found == of.end())
@@ -136,11 +137,13 @@ penumbra::RobotOptions declare_robot(Declaration& declare) {
            "packages",
            "NAME=DIR: where package://NAME is, if the ament index does not have the package"))
     robot.packages[name] = folder;
-  robot.geometry = declare.choice<Geometry>(
-      "geometry", "collision", {{"collision", Geometry::collision}, {"visual", Geometry::visual}},
-      "geometry of the URDF that is drawn");
-  robot.geometry_fallback =
-      declare("geometry_fallback", false, "draw links that have only the other geometry with that");
+  robot.geometry = declare.choice<std::optional<Geometry>>(
+      "geometry", "",
+      {{"", std::nullopt}, {"collision", Geometry::collision}, {"visual", Geometry::visual}},
+      "geometry of the URDF that is drawn; empty: collision, and visual for links that have no "
+      "other");
+  robot.geometry_fallback = declare("geometry_fallback", false,
+                                    "draw links that lack the chosen geometry with the other one");
   robot.allow_missing_meshes = declare(
       "allow_missing_meshes", false, "go on without meshes that cannot be read; results name them");
   robot.ignore_links =
