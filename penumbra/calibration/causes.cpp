@@ -156,7 +156,8 @@ std::string focal_text(const Explained& explained, const Intrinsics& camera) {
     const double longer = 1.0 / (1.0 + focal[i]) - 1.0;
     text += (text.empty() ? "" : ", ") + std::string(name) + " is " +
             amount(longer, variances[i], 100.0, 1) + " % too " + (longer > 0.0 ? "long" : "short") +
-            " (" + number(given * (1.0 + focal[i]), 1) + " px would fit; --focal)";
+            " (" + number(given * (1.0 + focal[i]), 1) +
+            " px would fit; penumbra calibrate --focal)";
   }
   return text;
 }
@@ -188,13 +189,14 @@ std::string text_of(const FoundCause& found, const Explained& explained, const R
     text = name_of(found.cause, robot) + " is " +
            amount(state.joint_offsets[variable], explained.fit.covariance(at, at),
                   slides ? 1e3 : 180.0 / std::numbers::pi, slides ? 1 : 2) +
-           (slides ? " mm" : " degrees") + " off" + (has_depth ? " (--joint-offsets)" : "");
+           (slides ? " mm" : " degrees") + " off" +
+           (has_depth ? " (penumbra calibrate --joint-offsets)" : "");
   } else {
     const int at = explained.unknowns.time();
     text = "the images' stamps are " +
            amount(state.time_offset, explained.fit.covariance(at, at), 1e3, 1) + " ms too " +
            (state.time_offset > 0.0 ? "early" : "late") + " for the joint states" +
-           (has_depth ? " (--time-offset)" : "");
+           (has_depth ? " (penumbra calibrate --time-offset)" : "");
   }
   for (const Cause& other : found.or_else) text += ", or " + name_of(other, robot) + " is off";
   if (!found.or_else.empty()) text += ": the images cannot tell which";

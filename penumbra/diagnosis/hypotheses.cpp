@@ -81,7 +81,7 @@ class Mistakes {
         hypothesis.depth_factor = std::exp(amount);
         const std::string factor = number(hypothesis.depth_factor, amount > 0.0 ? 2 : 4);
         hypothesis.message = "depth looks normalised: it fits if it is multiplied by about " +
-                             factor + ": give metres, or multiply camera.depth_scale by it";
+                             factor + ": give metres, or multiply depth_scale by it";
         return hypothesis;
       });
   }

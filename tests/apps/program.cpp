@@ -105,7 +105,8 @@ void expect_remedies_exist(const Words& arguments, const std::string& err) {
         read_file(PENUMBRA_SOURCE_DIR "/docs/recording.md").find("." + (*found)[3].str() + "`") !=
             std::string::npos)
       continue;
-    EXPECT_TRUE(options_of(command, is_folder && command == arguments[0]).contains(option))
+    EXPECT_TRUE(options_of(arguments[0], is_folder).contains(option) ||
+                options_of(command, false).contains(option))
         << "penumbra " << command << " has no " << option << ": " << err;
   }
 }
