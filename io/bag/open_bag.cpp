@@ -5,6 +5,7 @@
 
 #include <io/bag/bag_file.hpp>
 #include <io/files/disk_file.hpp>
+#include <io/files/names.hpp>
 #include <io/ros/message_definition.hpp>
 
 namespace penumbra::io {
@@ -33,18 +34,23 @@ OfferedQos read_or_unreadable(const F& read) {
 
 /// Throws InputError for a bag of ROS 1.
 void refuse_ros1(const std::filesystem::path& file) {
+  constexpr std::string_view start = "#ROSBAG V";
   constexpr std::size_t most = std::size_t{1} << 20U;  // topics stand at the begin or the end
   InputFile input;
-  if (!input.open(file).ok()) return;
-  std::string text(std::min<std::uint64_t>(input.size(), most), '\0');
-  text.resize(input.read(text.data(), text.size()));
-  if (!text.starts_with("#ROSBAG V")) return;
-  std::string end(text.size(), '\0');
-  end.resize(input.read_at(input.size() - text.size(), end.data(), end.size()));
-  if (text.find("/device_0/") == std::string::npos && end.find("/device_0/") == std::string::npos)
+  std::string text(start.size(), '\0');
+  if (!input.open(file).ok() || input.read(text.data(), text.size()) != text.size() ||
+      text != start)
+    return;
+  const std::uint64_t last = input.size() - std::min<std::uint64_t>(input.size(), most);
+  const auto has_device = [&](std::uint64_t from) {
+    std::string part(most, '\0');
+    part.resize(input.read_at(from, part.data(), part.size()));
+    return part.find("/device_0/") != std::string::npos;
+  };
+  if (!has_device(0) && !has_device(last))
     throw InputError(file.string() +
                      ": is a bag of ROS 1, which is not read; convert it: rosbags-convert --src " +
-                     file.filename().string() + " --dst bag_of_ros2");
+                     for_shell(file.filename().string()) + " --dst bag_of_ros2");
   throw InputError(file.string() +
                    ": is a recording of RealSense's SDK, which is not read; play it with "
                    "realsense2_camera (rosbag_filename:=FILE) and record its topics with ros2 bag");

@@ -186,9 +186,16 @@ const YamlNode& YamlNode::at(std::string_view key) const {
 }
 
 void YamlNode::allow_only(std::span<const std::string_view> known) const {
-  for (const YamlNode& child : entries())
-    if (std::find(known.begin(), known.end(), child.key_) == known.end())
-      child.fail("unknown key" + near_names(child.key_, known));
+  const YamlNode* first = nullptr;
+  std::string others;
+  for (const YamlNode& child : entries()) {
+    if (std::find(known.begin(), known.end(), child.key_) != known.end()) continue;
+    if (first != nullptr) others += (others.empty() ? "" : ", ") + child.key_;
+    if (first == nullptr) first = &child;
+  }
+  if (first == nullptr) return;
+  first->fail("unknown key" + (others.empty() ? "" : " (unknown, too: " + printable(others) + ")") +
+              near_names(first->key_, known));
 }
 
 std::span<const YamlNode> YamlNode::entries() const {

@@ -147,6 +147,7 @@ TEST(CameraInfo, WrongValuesAreNamedWithLineAndKey) {
                  {{"k: [500.5, 0.0, 320.25, 0.0, 501.5, 240.75, 0.0, 0.0, 1.0]\n", "", "add k: "},
                   {"distortion_model: plumb_bob\n", "", "add distortion_model: "},
                   {"height: 480", "height: 480\nheigth: 480", "cam.yaml:7: heigth"},
+                  {"height: 480", "height: 480\nmade: x\nby: y", "(unknown, too: by)"},
                   {"height: 480", "height: 480\nheight: 480", "there already"},
                   {"width: 640", "width: 0", "cam.yaml:7: width"},
                   {"width: 640", "width: 99999999999", "cam.yaml:7: width"},
