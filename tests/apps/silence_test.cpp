@@ -10,10 +10,10 @@
 #include <iomanip>
 #include <iostream>
 #include <numbers>
-#include <regex>
 #include <set>
 #include <sstream>
 
+#include <io/files/camera_info.hpp>
 #include <io/files/csv.hpp>
 #include <io/files/pose_file.hpp>
 
@@ -93,7 +93,28 @@ class Scene {
     edit_file(path("recording.yaml"), "../robots/xarm7/xarm7.urdf", "xarm7.urdf");
     edit_file(path("recording.yaml"), "../robots/xarm7/xarm_description",
               robots / "xarm_description");
+    write_info(k());  // its lists in lines
   }
+
+  /// Writes a camera_info of the depth images' size.
+  void write_info(const std::array<double, 4>& k) const {
+    const auto [width, height] = size();
+    const auto& [fx, fy, cx, cy] = k;
+    std::ostringstream text;
+    text << std::setprecision(17) << "frame_id: camera_optical_frame\nwidth: " << width
+         << "\nheight: " << height << "\ndistortion_model: plumb_bob\nd: [0, 0, 0, 0, 0]\nk: ["
+         << fx << ", 0, " << cx << ", 0, " << fy << ", " << cy << ", 0, 0, 1]\n"
+         << "r: [1, 0, 0, 0, 1, 0, 0, 0, 1]\np: [" << fx << ", 0, " << cx << ", 0, 0, " << fy
+         << ", " << cy << ", 0, 0, 0, 1, 0]\n";
+    write_file(path("camera_info.yaml"), text.str());
+  }
+  /// fx, fy, cx, cy.
+  [[nodiscard]] std::array<double, 4> k() const {
+    const Intrinsics all = io::read_camera_info(path("camera_info.yaml"), false).intrinsics;
+    return {all.fx(), all.fy(), all.cx(), all.cy()};
+  }
+  [[nodiscard]] std::string root() const { return name_ == "example" ? "base_link" : "link_base"; }
+  [[nodiscard]] std::string last_link() const { return name_ == "example" ? "gripper" : "link7"; }
 
   [[nodiscard]] fs::path path(const std::string& file) const { return folder_ / file; }
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -104,20 +125,6 @@ class Scene {
   }
   void write(const Eigen::Isometry3d& pose) const {
     io::write_pose_csv(path("camera_pose.csv"), pose);
-  }
-  /// Changes the numbers of a list of camera_info.yaml.
-  template <typename Change>
-  void info(const std::string& key, const Change& change) const {
-    const std::string text = read_file(path("camera_info.yaml"));
-    std::smatch found;
-    ASSERT_TRUE(std::regex_search(text, found, std::regex("\n" + key + ": *\\[([^\\]]*)\\]")));
-    std::istringstream list(std::regex_replace(found[1].str(), std::regex(","), " "));
-    std::vector<double> numbers{std::istream_iterator<double>(list), {}};
-    change(numbers);
-    std::string changed;
-    for (const double number : numbers) changed += (changed.empty() ? "" : ", ") + exact(number);
-    write_file(path("camera_info.yaml"),
-               found.prefix().str() + "\n" + key + ": [" + changed + "]" + found.suffix().str());
   }
   [[nodiscard]] fs::path depth(std::size_t frame) const {
     return path((name_ == "example" ? "depth/" : "depth_") + std::to_string(frame) + ".png");
@@ -257,8 +264,45 @@ void rename_frames(TinyBag& bag, const std::string& prefix) {
   });
 }
 
+// Motions
+
+/// Writes a motion of a few seconds from the first frame's positions. Its times and positions are
+/// multiplied.
+std::string motion(const Scene& scene, Random& random, double time, double position) {
+  const Table joints = scene.joints();
+  const std::size_t first = joints.first_joint();
+  std::vector<double> begin, end;
+  std::string text = "joint_names: [";
+  for (std::size_t i = first; i < joints.header.size(); ++i) {
+    text += (i == first ? "" : ", ") + joints.header[i];
+    begin.push_back(std::stod(joints.rows[0][i]));
+    end.push_back(begin.back() + (i == first ? off(random, 0.3, 0.6) : 0.0));
+  }
+  const double duration = between(random, 1.0, 4.0);
+  text += "]\npoints:\n";
+  for (int k = 0; k <= 10; ++k) {
+    const double at = time * duration * k / 10.0;
+    text += "- time_from_start: {sec: " + std::to_string(static_cast<int>(at)) +
+            ", nanosec: " + std::to_string(std::llround(1e9 * (at - std::floor(at)))) +
+            "}\n  positions: [";
+    for (std::size_t i = 0; i < begin.size(); ++i)
+      text += (i == 0 ? "" : ", ") + exact(position * (begin[i] + k / 10.0 * (end[i] - begin[i])));
+    text += "]\n";
+  }
+  return text;
+}
+
+Words look_ahead(const Scene& scene, const std::string& motion) {
+  write_file(scene.path("plan.yaml"), motion);
+  write_file(scene.path("t.yaml"),
+             "targets:\n  - {name: a, point: [0.5, 0.2, 0.3], radius: 0.05, link: " + scene.root() +
+                 "}\n");
+  return {"look-ahead", scene.path(""),      "--trajectory", scene.path("plan.yaml"),
+          "--targets",  scene.path("t.yaml")};
+}
+
 /// A change of a scene. Returns the arguments of `penumbra run`, if they are not the folder alone:
-/// options, or another input and options.
+/// options, or another input and options, or another command and all of it.
 struct Kind {
   std::string name;
   std::function<Words(Random&, const Scene&)> change;
@@ -353,12 +397,14 @@ const std::vector<Kind> wrong_kinds = {
      [](Random& random, const Scene& scene) {
        const double by =
            below(random, 2) == 0 ? between(random, 0.6, 0.85) : between(random, 1.2, 1.6);
-       scene.info("k", [&](auto& k) { k[0] *= by, k[4] *= by; });
+       const auto [fx, fy, cx, cy] = scene.k();
+       scene.write_info({fx * by, fy * by, cx, cy});
        return no_options();
      }},
     {"cx and cy are swapped",
      [](Random&, const Scene& scene) {
-       scene.info("k", [](auto& k) { std::swap(k[2], k[5]); });
+       const auto [fx, fy, cx, cy] = scene.k();
+       scene.write_info({fx, fy, cy, cx});
        return no_options();
      }},
     {"depth in another unit",
@@ -389,13 +435,12 @@ const std::vector<Kind> wrong_kinds = {
      }},
     {"depth along the rays",
      [](Random&, const Scene& scene) {
-       std::vector<double> k;
-       scene.info("k", [&](auto& numbers) { k = numbers; });
+       const auto k = scene.k();
        scene.each_depth([&](Depth& image) {
          for (int v = 0; v < image.height(); ++v)
            for (int u = 0; u < image.width(); ++u)
              image(u, v) = static_cast<std::uint16_t>(
-                 image(u, v) * std::hypot((u - k[2]) / k[0], (v - k[5]) / k[4], 1.0));
+                 image(u, v) * std::hypot((u - k[2]) / k[0], (v - k[3]) / k[1], 1.0));
        });
        return no_options();
      }},
@@ -490,6 +535,34 @@ const std::vector<Kind> wrong_kinds = {
        return with(scene, "t.yaml",
                    "targets:\n  - name: a\n    " + target + "\n    link: " + link + "\n");
      }},
+    {"an attached body in millimetres",
+     [](Random& random, const Scene& scene) {
+       const std::string edge = exact(between(random, 40, 300));
+       edit_file(scene.path("recording.yaml"), "frames:",
+                 "attached:\n  - name: part\n    link: " + scene.last_link() + "\n    box: [" +
+                     edge + ", " + edge + ", 80]\nframes:");
+       return no_options();
+     }},
+    {"a tolerance in millimetres",
+     [](Random& random, const Scene&) {
+       return Words{"--tolerance", exact(between(random, 3, 30)) + ",0,0"};
+     }},
+    {"a motion in milliseconds",
+     [](Random& random, const Scene& scene) {
+       return look_ahead(scene, motion(scene, random, 1000.0, 1.0));
+     }},
+    {"a motion too fast for the robot",
+     [](Random& random, const Scene& scene) {
+       return look_ahead(scene, motion(scene, random, between(random, 0.005, 0.02), 1.0));
+     }},
+    {"a motion in degrees",
+     [](Random& random, const Scene& scene) {
+       return look_ahead(scene, motion(scene, random, 1.0, 180.0 / std::numbers::pi));
+     }},
+    {"a motion without times",
+     [](Random& random, const Scene& scene) {
+       return look_ahead(scene, motion(scene, random, 0.0, 1.0));
+     }},
     {"joint states without a joint",
      [](Random& random, const Scene& scene) {
        const std::size_t joint = below(random, 6);
@@ -556,6 +629,75 @@ const std::vector<Kind> right_kinds = {
                    Eigen::IOFormat(6, Eigen::DontAlignCols, " , ", "\r\n"));
        write_file(scene.path("camera_pose.csv"), text.str());
        return no_options();
+     }},
+    {"intrinsics of other programs",
+     [](Random& random, const Scene& scene) {
+       const auto [width, height] = scene.size();
+       const auto [fx, fy, cx, cy] = scene.k();
+       const std::string w = std::to_string(width), h = std::to_string(height);
+       const std::string list = exact(fx) + ", 0., " + exact(cx) + ", 0., " + exact(fy) + ", " +
+                                exact(cy) + ", 0., 0., 1.";
+       const std::array forms{
+           "%YAML:1.0\n---\ncalibration_time: \"Sat 28 Nov 2026\"\nimage_width: " + w +
+               "\nimage_height: " + h +
+               "\nboard_width: 9\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: "
+               "d\n"
+               "   data: [ " +
+               list +
+               " ]\ndistortion_coefficients: !!opencv-matrix\n   rows: 5\n   cols: 1\n   dt: d\n"
+               "   data: [ 0., 0., 0., 0., 0. ]\navg_reprojection_error: 0.2\n",
+           "cam0:\n  camera_model: pinhole\n  distortion_coeffs: [0, 0, 0, 0]\n  distortion_model: "
+           "radtan\n  intrinsics: [" +
+               exact(fx) + ", " + exact(fy) + ", " + exact(cx) + ", " + exact(cy) +
+               "]\n  resolution: [" + w + ", " + h + "]\n  rostopic: /camera\n",
+           "{\"width\": " + w + ", \"height\": " + h + ", \"fx\": " + exact(fx) +
+               ", \"fy\": " + exact(fy) + ", \"ppx\": " + exact(cx) + ", \"ppy\": " + exact(cy) +
+               ", \"model\": \"distortion.inverse_brown_conrady\", \"coeffs\": [0, 0, 0, 0, 0]}"};
+       write_file(scene.path("camera_info.yaml"), forms[below(random, forms.size())]);
+       return no_options();
+     }},
+    {"poses of other programs",
+     [](Random& random, const Scene& scene) {
+       const Eigen::Isometry3d pose = scene.pose();
+       const Eigen::Vector3d t = pose.translation();
+       const Eigen::Quaterniond q(pose.linear());
+       std::ostringstream rows;
+       rows << std::setprecision(17) << pose.matrix().topRows<3>();
+       const std::array forms{
+           "parameters:\n  eye_on_hand: false\ntransformation: {x: " + exact(t.x()) +
+               ", y: " + exact(t.y()) + ", z: " + exact(t.z()) + ", qx: " + exact(q.x()) +
+               ", qy: " + exact(q.y()) + ", qz: " + exact(q.z()) + ", qw: " + exact(q.w()) + "}\n",
+           exact(t.x()) + " " + exact(t.y()) + " " + exact(t.z()) + " " + exact(q.x()) + " " +
+               exact(q.y()) + " " + exact(q.z()) + " " + exact(q.w()) + "\n",
+           rows.str() + "\n"};
+       write_file(scene.path("camera_pose.csv"), forms[below(random, forms.size())]);
+       return no_options();
+     }},
+    {"images named by time",
+     [](Random&, const Scene& scene) {
+       add_stamps(scene);
+       const Table joints = scene.joints();
+       for (std::size_t i = 0; i < joints.rows.size(); ++i) {
+         const std::string& stamp = joints.rows[i][1];
+         const std::string seconds =
+             stamp.substr(0, stamp.size() - 9) + "." + stamp.substr(stamp.size() - 9, 6);
+         fs::rename(scene.depth(i), scene.path("at_" + seconds + ".png"));
+       }
+       edit_file(scene.path("recording.yaml"),
+                 scene.name() == "example" ? "depth/%d.png" : "depth_%d.png", "at_%t.png");
+       return no_options();
+     }},
+    {"an attached body in metres",
+     [](Random& random, const Scene& scene) {
+       const std::string edge = exact(between(random, 0.02, 0.06));
+       edit_file(scene.path("recording.yaml"), "frames:",
+                 "attached:\n  - name: part\n    link: " + scene.last_link() + "\n    box: [" +
+                     edge + ", " + edge + ", " + edge + "]\nframes:");
+       return no_options();
+     }},
+    {"a motion in seconds",
+     [](Random& random, const Scene& scene) {
+       return look_ahead(scene, motion(scene, random, 1.0, 1.0));
      }},
     {"depth in metres",
      [](Random&, const Scene& scene) {
@@ -720,6 +862,8 @@ class Silence : public FolderTest {
     const Scene scene(path("scene"), name);
     Words arguments;
     if (kind != nullptr) arguments = kind->change(random, scene);
+    if (!arguments.empty() && arguments.front() == "look-ahead")
+      return penumbra(arguments + Words{"-o", out(), "--force"});
     if (arguments.empty() || arguments.front().starts_with('-'))
       arguments = Words{path("scene")} + arguments;
     return penumbra(Words{"run"} + arguments + Words{"-o", out(), "--force"});
