@@ -54,9 +54,9 @@ void BagSource::check_range() {
   const std::int64_t first = options_.first.value_or(0);
   const std::int64_t end = options_.end.value_or(most);
   if (first >= end || end > most)
-    throw InputError("frames " + std::to_string(first) + ":" + std::to_string(end) +
-                     ": the bag has the frames 0 to " + std::to_string(most - 1) +
-                     ", all of them 0:" + std::to_string(most));
+    throw InputError(options_.range_option + " " + std::to_string(first) + ":" +
+                     std::to_string(end) + ": the bag has the frames 0 to " +
+                     std::to_string(most - 1) + ", all of them 0:" + std::to_string(most));
   size_ = static_cast<std::size_t>(end - first);
 }
 
@@ -76,7 +76,7 @@ bool BagSource::read(std::size_t /*number*/, Frame& frame) {
     }
     if (given_) return false;
     throw InputError(name_ + ": none of its " + std::to_string(images_) +
-                     " depth images is in the range of frames");
+                     " depth images is in the range; change " + options_.range_option);
   }
   given_ = true;
   if (const auto fault = depth.read(current); !fault.empty())

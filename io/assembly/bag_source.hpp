@@ -27,6 +27,7 @@ struct BagSourceOptions {
   bool compare_sources = true;  ///< see JointBufferOptions and TransformBufferOptions
   double time_offset = 0.0;     ///< see FrameQueueOptions::time_offset
   std::optional<std::int64_t> first, end = {};  ///< the range of frames to read
+  std::string range_option = "--frames";        ///< that gave it, for messages
   bool with_color = false;                      ///< with colour images, for pictures
 };
 

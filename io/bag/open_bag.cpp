@@ -5,7 +5,6 @@
 
 #include <io/bag/bag_file.hpp>
 #include <io/files/disk_file.hpp>
-#include <io/files/names.hpp>
 #include <io/ros/message_definition.hpp>
 
 namespace penumbra::io {
@@ -48,9 +47,10 @@ void refuse_ros1(const std::filesystem::path& file) {
     return part.find("/device_0/") != std::string::npos;
   };
   if (!has_device(0) && !has_device(last))
-    throw InputError(file.string() +
-                     ": is a bag of ROS 1, which is not read; convert it: rosbags-convert --src " +
-                     for_shell(file.filename().string()) + " --dst bag_of_ros2");
+    throw InputError(
+        file.string() +
+        ": is a bag of ROS 1, which is not read; convert it by rosbags-convert, of the "
+        "Python package rosbags");
   throw InputError(file.string() +
                    ": is a recording of RealSense's SDK, which is not read; play it with "
                    "realsense2_camera (rosbag_filename:=FILE) and record its topics with ros2 bag");

@@ -173,6 +173,7 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
                           .time_offset = options.bag.time_offset,
                           .first = options.frames.first,
                           .end = options.frames.end,
+                          .range_option = options.frames.option,
                           .with_color = options.with_color};
   UsedBag used = used_bag(options, reader.topics(), mount, cameras.judged.frame_id);
   std::vector<std::int64_t> numbers(reader.topics().depth.messages.value_or(0));

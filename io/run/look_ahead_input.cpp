@@ -86,7 +86,7 @@ void add_trajectories(const std::filesystem::path& file, LookAheadInput& to) {
 LookAheadInput read_look_ahead_input(const LookAheadOptions& options, const LineSink& print) {
   InputOptions input = options.input;
   input.with_color = true;
-  if (options.from) input.frames = {*options.from, *options.from + 1};
+  if (options.from) input.frames = {*options.from, *options.from + 1, "--from"};
   std::vector<std::string> names = cameras_of(input.path);
   if (names.empty() || !input.camera.empty()) names = {input.camera};
   std::optional<LookAheadInput> read;

@@ -34,7 +34,7 @@ std::vector<std::size_t> select_frames(const FrameRange& range, const FrameReade
   for (std::size_t i = 0; i < reader.size(); ++i)
     if (reader.index(i) >= first && reader.index(i) < end) selected.push_back(i);
   if (selected.empty() || first < least || end > most + 1)
-    throw InputError("frames " + std::to_string(first) + ":" + std::to_string(end) +
+    throw InputError(range.option + " " + std::to_string(first) + ":" + std::to_string(end) +
                      ": the recording has the frames " + std::to_string(least) + " to " +
                      std::to_string(most) + ", all of them " + std::to_string(least) + ":" +
                      std::to_string(most + 1));

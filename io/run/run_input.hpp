@@ -24,6 +24,7 @@ namespace penumbra::io {
 /// Frames first <= index < end; bounds are optional.
 struct FrameRange {
   std::optional<std::int64_t> first, end;
+  std::string option = "--frames";  ///< that gave it, for messages
 };
 
 /// A recording folder or a bag, and how it is read.

@@ -193,13 +193,17 @@ TEST(VendorsLoss, WhatIsDroppedOnTheWayIsCounted) {
   const auto graph = io::join_graph({.domain = domain.id()});
   unsetenv("CYCLONEDDS_URI");
   const auto heard = graph->subscribe("/a", ros_image, {.depth = 1000});
-  PeerProcess other({std::to_string(domain.id()), "publish", "rt/a", peers_image, "best_effort",
-                     "600000", "200", "100"});
-  ASSERT_TRUE(other.says("ready"));
-  ASSERT_TRUE(other.says("matched"));
-  other.go();
-  ASSERT_TRUE(other.says("written 200"));
-  const std::vector<std::int64_t> numbers = take_numbers(*heard);
+  std::vector<std::int64_t> numbers;
+  constexpr int most_publishers = 50;  // on a busy machine all messages of one may be lost
+  for (int i = 0; i < most_publishers && numbers.empty(); ++i) {
+    PeerProcess other({std::to_string(domain.id()), "publish", "rt/a", peers_image, "best_effort",
+                       "600000", "200", "100"});
+    ASSERT_TRUE(other.says("ready"));
+    ASSERT_TRUE(other.says("matched"));
+    other.go();
+    ASSERT_TRUE(other.says("written 200"));
+    numbers = take_numbers(*heard);
+  }
   ASSERT_FALSE(numbers.empty());
   EXPECT_GE(numbers.front(), 0);
   EXPECT_EQ(std::ranges::adjacent_find(numbers, std::ranges::greater_equal()), numbers.end());

@@ -222,7 +222,7 @@ TEST(ViewInput, AtFaultIsOneLineAndStatus2) {
                       {{folder.write("some.txt", "text")}, "some.txt"},
                       {{example, "--port", "70000"}, "--port"},
                       {{example, "--address", "nowhere"}, "--address"},
-                      {{example, "--frames", "50:60"}, "--frames"}});
+                      {{example, "--frames", "50:60"}, "frames 50:60"}});
 }
 
 }  // namespace
