@@ -187,8 +187,8 @@ void RecordedRun::label_all(const std::function<bool()>& go_on, CloudRunResult& 
 }
 
 bool RecordedRun::is_wanted(const JointRow& row) const {
-  const auto& [first, end] = options_.input.frames;
-  return row.index >= first.value_or(0) && (!end || row.index < *end);
+  const FrameRange& range = options_.input.frames;
+  return row.index >= range.first.value_or(0) && (!range.end || row.index < *range.end);
 }
 
 /// Throws InputError if the folder holds the input, or clouds that the report would not be of.

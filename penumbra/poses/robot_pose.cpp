@@ -46,6 +46,12 @@ std::string some_of(std::span<const std::string> names) {
   return text;
 }
 
+std::string between(std::string before, const std::string& text, const std::string& after) {
+  before += text;
+  before += after;
+  return before;
+}
+
 /// Returns the text before and after the joints' names in the names that were received, or, if
 /// `is_longer`, the reverse, as the setting joint_names has it; empty if they differ otherwise.
 std::string common_pattern(std::span<const std::string> wanted,
@@ -57,16 +63,14 @@ std::string common_pattern(std::span<const std::string> wanted,
     if (at == std::string::npos || inner.empty() || outer.size() == inner.size()) continue;
     const std::string before = outer.substr(0, at), after = outer.substr(at + inner.size());
     const auto is_received = [&](const std::string& joint) {
-      if (!is_longer) return std::ranges::find(received, before + joint + after) != received.end();
-      if (joint.size() <= before.size() + after.size()) return false;
-      return joint.starts_with(before) && joint.ends_with(after) &&
-             std::ranges::find(received, joint.substr(before.size(), joint.size() - before.size() -
-                                                                         after.size())) !=
-                 received.end();
+      return std::ranges::any_of(received, [&](const std::string& other) {
+        return is_longer ? between(before, other, after) == joint
+                         : between(before, joint, after) == other;
+      });
     };
-    const std::string pattern = before + "*" + after;
     if (std::ranges::all_of(wanted, is_received))
-      return is_longer ? "*=" + pattern : pattern + "=*";
+      return is_longer ? between("*=", between(before, "*", after), "")
+                       : between(before, "*", after) + "=*";
   }
   return {};
 }
@@ -82,7 +86,7 @@ std::string describe_names(const Robot& robot, const JointAnswer& joints) {
   for (const bool is_longer : {false, true})
     if (std::string pattern = common_pattern(wanted, joints.other_names, is_longer);
         !pattern.empty())
-      return text + ": set joint_names '" + pattern + "'";
+      return between(text, ": set joint_names '", pattern) + "'";
   return text;
 }
 

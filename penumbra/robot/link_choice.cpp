@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <sstream>
 
 #include <fnmatch.h>
 
@@ -143,10 +144,13 @@ std::vector<std::string> geometry_notes(const Urdf& urdf, const std::vector<Link
     const std::string links = without(wanted, urdf, choices, [&](const LinkChoice& choice) {
       return choice.lacks_geometry && choice.geometry == wanted;
     });
-    if (!links.empty())
-      notes.push_back(links + "; use " + kind + " for such links (--geometry-fallback, or " +
-                      "geometry: {LINK: " + kind + "}) or for all (--geometry " + kind +
-                      "), or leave out links that the real robot does not have (ignore_links)");
+    if (links.empty()) continue;
+    std::ostringstream note;
+    note << links << "; use " << kind
+         << " for such links (--geometry-fallback, or geometry: {LINK: " << kind
+         << "}) or for all (--geometry " << kind
+         << "), or leave out links that the real robot does not have (ignore_links)";
+    notes.push_back(note.str());
   }
   const std::string drawn = without(Geometry::collision, urdf, choices, &LinkChoice::is_substitute);
   if (!drawn.empty())
