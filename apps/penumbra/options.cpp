@@ -62,9 +62,11 @@ void add_links(CLI::App& app, std::vector<ExtraMesh>& extra,
                std::vector<std::string>& ignore_links) {
   add_list(app, "--ignore-links",
            "links that are not drawn, for example the sensor's own housing; of several robots "
-           "ROBOT/PATTERN; may be given several times",
-           "PATTERN",
-           [&ignore_links](const std::string& pattern) { ignore_links.push_back(pattern); });
+           "ROBOT/PATTERN; with commas between, or given several times",
+           "PATTERN", [&ignore_links](const std::string& text) {
+             for (std::string& pattern : split(text, ','))
+               ignore_links.push_back(std::move(pattern));
+           });
   add_list(app, "--extra",
            "mesh that a link carries and the URDF lacks; may be given several times", "LINK=FILE",
            [&extra](const std::string& text) {

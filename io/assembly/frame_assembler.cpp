@@ -62,7 +62,7 @@ void FrameAssembler::receive(std::size_t topic, const SerializedMessage& message
   ++received_[topic];
   if (!handlers_[topic]) return;
   const auto fault = handlers_[topic](message, now);
-  if (!fault) return;
+  if (!fault || topics_[topic].role == TopicRole::unused_joints) return;
   add_fault(topics_[topic].name, now, *fault);
   if (topics_[topic].role == TopicRole::depth)
     cameras_[topics_[topic].camera]->take_unreadable(*fault, now);
@@ -104,12 +104,12 @@ std::string FrameAssembler::describe_clocks() const {
   if (std::abs(offset) < longest_latency) return {};
   std::ostringstream text;
   text << std::fixed << std::setprecision(1);  // the latencies of both are part of it
-  text << "the stamps of joint states are " << std::abs(offset) << " s "
-       << (offset > 0 ? "after" : "before") << " the sensor's, by when both arrive: ";
+  text << "the stamps of joint states are about " << std::abs(offset) << " s "
+       << (offset > 0 ? "after" : "before") << " the sensor's: ";
   if (std::abs(offset) > largest_offset)
-    text << "one of them is of another clock, as that of a simulation (use_sim_time)";
+    text << "do both use the same clock? (use_sim_time)";
   else
-    text << "change time_offset by about " << offset;
+    text << "change time_offset by about " << offset << ", unless its data come so much later";
   return text.str();
 }
 
@@ -139,9 +139,7 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
   const InputTopic& from = topics_[topic];
   switch (from.role) {
     case TopicRole::unused_joints:
-      return handler<JointStateMessage>(topic, [this, topic](const auto& state, const auto&, auto) {
-        robot_.take_unused(state, topics_[topic].name);
-      });
+      return handler_of_unused(topic);
     case TopicRole::description:
       return handler<StringMessage>(topic, [this, topic](const auto& text, const auto&, auto) {
         robot_.take(text, topics_[topic].robot);
@@ -191,6 +189,18 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
                  : handler_of_plans<JointTrajectoryMessage>(topic);
   }
   return {};
+}
+
+/// Messages of these topics that cannot be read are nobody's fault.
+MessageHandler FrameAssembler::handler_of_unused(std::size_t topic) {
+  try {
+    const auto take = [this, topic](const auto& state, const auto&, auto) {
+      robot_.take_unused(state, topics_[topic].name);
+    };
+    return handler<JointStateMessage>(topic, take);
+  } catch (const InputError&) {
+    return {};
+  }
 }
 
 template <typename M>

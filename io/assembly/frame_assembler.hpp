@@ -109,6 +109,7 @@ class FrameAssembler {
   [[nodiscard]] MessageHandler handler(std::size_t topic, F take) const;
   [[nodiscard]] MessageHandler handler_of(std::size_t topic);
   [[nodiscard]] MessageHandler handler_of_targets(std::size_t topic);
+  [[nodiscard]] MessageHandler handler_of_unused(std::size_t topic);
   template <typename M>
   [[nodiscard]] MessageHandler handler_of_images(std::size_t topic);
   template <typename M>

@@ -63,6 +63,9 @@ Robot robot_of(std::span<const RobotDescription> descriptions,
                const std::filesystem::path& folder, const RobotOptions& options) {
   if (descriptions.size() == 1 && descriptions.front().robot.empty())
     return Robot::parse(descriptions.front().text, folder, options);
+  std::vector<std::string> names;
+  for (const RobotDescription& description : descriptions) names.push_back(description.robot);
+  check_robots_of(options.joints, names);
   std::vector<PlacedRobot> robots;
   for (const auto& [name, text] : descriptions) {
     RobotOptions own = options;

@@ -47,7 +47,10 @@ const std::vector<std::pair<const char*, const char*>> examples{
     {"r", "r: [1, 0, 0, 0, 1, 0, 0, 0, 1]"}};
 
 bool is_camera(const YamlNode& node) {
-  const auto has = [&](std::string_view name) { return node.find(name) != nullptr; };
+  const auto has = [&](std::string_view name) {
+    const YamlNode* const found = node.find(name);
+    return found != nullptr && (name != "intrinsics" || found->is_list());
+  };
   return std::ranges::any_of(names_of_fields(), [&](const auto& field) {
     return field.first != "distortion_model" && field.first != "r" &&
            std::ranges::any_of(field.second, has);
@@ -130,6 +133,7 @@ class InfoFile {
     const YamlNode* found = nullptr;
     for (const std::string_view name : names_of_fields().at(field))
       if (const YamlNode* const other = root_.find(name)) {
+        if (found != nullptr && name == "model") break;  // the camera's, as D435
         if (found != nullptr) other->fail("key '" + found->key() + "' is there too; keep one");
         found = other;
       }

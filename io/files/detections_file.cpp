@@ -28,6 +28,8 @@ namespace {
 
 constexpr std::uint64_t most_json_bytes = FileLimit::data / 4;  // it takes several times as much
 constexpr std::size_t most_in_frame = 4096;
+constexpr double fraction_rounding = 1e-3;  // of YOLO's fractions
+constexpr std::int64_t last_frame = 1'000'000'000'000'000;
 
 using ClassNames = std::map<std::int64_t, std::string>;
 
@@ -109,19 +111,23 @@ struct CocoImage {
 };
 using CocoImages = std::map<std::string, CocoImage>;  // by image_id
 
+std::string key_of(const nlohmann::json& id) {
+  return id.is_string() ? id.get<std::string>() : id.dump();
+}
+
 CocoImages coco_images(const nlohmann::json& list) {
   CocoImages images;
   for (const nlohmann::json& image : list)
     if (const auto number = last_number(image.at("file_name").get<std::string>()))
-      images.emplace(image.at("id").dump(), CocoImage{*number,
-                                                      {image.value("width", std::int64_t{0}),
-                                                       image.value("height", std::int64_t{0})}});
+      images.emplace(key_of(image.at("id")), CocoImage{*number,
+                                                       {image.value("width", std::int64_t{0}),
+                                                        image.value("height", std::int64_t{0})}});
   return images;
 }
 
 std::int64_t coco_frame(const nlohmann::json& id, const CocoImages& images,
                         const Intrinsics& camera) {
-  const std::string key = id.is_string() ? id.get<std::string>() : id.dump();
+  const std::string key = key_of(id);
   if (const auto named = images.find(key); named != images.end()) {
     const auto [width, height] = named->second.size;
     if (width > 0 && height > 0 && (width != camera.width() || height != camera.height()))
@@ -231,8 +237,7 @@ std::int64_t whole(double number) {
   return static_cast<std::int64_t>(number);
 }
 
-Detections read_mot(const std::filesystem::path& file, const ClassNames& names,
-                    double first_frame) {
+Detections read_mot(const std::filesystem::path& file, const ClassNames& names) {
   Detections all;
   for_each_line(file, [&](const std::vector<double>& n) {
     if (n.size() < 6 || n.size() > 10)
@@ -240,10 +245,6 @@ Detections read_mot(const std::filesystem::path& file, const ClassNames& names,
           "has " + std::to_string(n.size()) +
           " numbers; expected MOT's frame, track, x, y, width, height[, score[, class, "
           "...]]");
-    if (n[0] < first_frame)
-      throw InputError(
-          "has the frame 0; the first frame of MOT is 1: add 1 to all, or write "
-          "first_frame: 0 in a targets.yaml");
     Detection found{.category = "object", .track = {}, .region = box_of(n[2], n[3], n[4], n[5])};
     if (n[1] >= 0) found.track = std::to_string(whole(n[1]));
     if (n.size() > 6) found.score = score_of(n[6]);
@@ -264,7 +265,8 @@ Detections read_yolo(const FramePattern& files, const Intrinsics& images, const 
       if (n.size() < 5 || n.size() > 7)
         throw InputError("has " + std::to_string(n.size()) +
                          " numbers; expected YOLO's class, x, y, width, height[, score[, track]]");
-      if (std::any_of(n.begin() + 1, n.begin() + 5, [](double x) { return x < 0 || x > 1; }))
+      if (std::any_of(n.begin() + 1, n.begin() + 5,
+                      [](double x) { return x < -fraction_rounding || x > 1 + fraction_rounding; }))
         throw InputError("has a box outside of 0 to 1; YOLO's boxes are in fractions of the image");
       const double width = n[3] * images.width(), height = n[4] * images.height();
       Detection found{.category = name_of(whole(n[0]), names),
@@ -286,7 +288,7 @@ Detections read_yolo(const FramePattern& files, const Intrinsics& images, const 
 }
 
 Detections read_any(const std::string& name, const std::filesystem::path& folder,
-                    const Intrinsics& images, const ClassNames& names, double first_frame,
+                    const Intrinsics& images, const ClassNames& names,
                     const std::optional<FrameStamps>& stamps) {
   if (name.find('%') != std::string::npos) {
     const FramePattern files(name, folder, stamps);
@@ -296,7 +298,7 @@ Detections read_any(const std::string& name, const std::filesystem::path& folder
   const std::filesystem::path file = folder / name;
   const std::string ending = file.extension().string();
   if (ending == ".csv") return read_table(file, names);
-  if (ending == ".txt") return read_mot(file, names, first_frame);
+  if (ending == ".txt") return read_mot(file, names);
   if (ending != ".json")
     throw InputError(
         file.string() +
@@ -318,16 +320,18 @@ void check(const std::string& file, const Detections& all) {
   for (const auto& [index, found] : all) {
     const std::string frame = file + ": frame " + std::to_string(index) + " ";
     if (found.size() > most_in_frame)
-      throw InputError(frame + "has " + std::to_string(found.size()) +
-                       " detections; at most 4096 are read: raise the detector's least score");
+      throw InputError(frame + "has " + std::to_string(found.size()) + " detections; at most " +
+                       std::to_string(most_in_frame) +
+                       " are read: raise the detector's minimum score");
+    if (std::abs(index) > last_frame) throw InputError(frame + "is no frame of a recording");
     std::set<std::pair<std::string_view, std::string_view>> tracks;
     for (const Detection& one : found) {
       if (!one.category.empty()) check_name(one.category);
       if (!one.track.empty()) check_name(one.track);
       if (!one.track.empty() && !tracks.emplace(one.category, one.track).second)
         throw InputError(frame + "has the track '" + one.track +
-                         "' twice; expected one box of each track "
-                         "(a table's column of classes is called class)");
+                         "' twice; expected one box of each track (name and track are of one "
+                         "object; a column of classes is called class)");
       const auto* const box = std::get_if<PixelBox>(&one.region);
       is_fraction = is_fraction && box != nullptr && box->u + box->width <= 0.5 &&
                     box->v + box->height <= 0.5;
@@ -345,8 +349,7 @@ Detections read_detections(const std::string& file_or_pattern, const std::filesy
                            const Intrinsics& images,
                            const std::map<std::int64_t, std::string>& names,
                            std::int64_t first_frame, const std::optional<FrameStamps>& stamps) {
-  Detections read =
-      read_any(file_or_pattern, folder, images, names, static_cast<double>(first_frame), stamps);
+  Detections read = read_any(file_or_pattern, folder, images, names, stamps);
   if (read.empty()) throw InputError(file_or_pattern + ": holds no detection");
   check(file_or_pattern, read);
   if (first_frame == 0) return read;

@@ -140,8 +140,14 @@ PoseNumbers read_numbers(const std::filesystem::path& file) {
   while (lines.next()) {
     const char first = lines.cells().front().empty() ? ',' : lines.cells().front().front();
     if (first == '#') continue;
-    if (std::string_view("+-.,[0123456789").find(first) != std::string_view::npos) break;
-    const YamlNode root = YamlNode::parse(text, file);
+    const bool is_mark = lines.cells().front() == "---";  // of a YAML document
+    if (!is_mark && std::string_view("+-.,[0123456789").find(first) != std::string_view::npos)
+      break;
+    std::vector<YamlNode> documents = YamlNode::parse_all(text, file);
+    // ros2 topic echo ends every message with the mark of a next document.
+    if (documents.size() > 1 && documents[1].is_null()) documents.resize(1);
+    if (documents.size() > 1) documents[1].fail("is a second document (---); keep one");
+    const YamlNode& root = documents.front();
     if (!root.is_map()) root.fail("is no pose; " + std::string(expected_forms));
     return read_map(root);
   }

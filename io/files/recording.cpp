@@ -369,6 +369,16 @@ std::vector<ExtraMesh> extra_of(const std::vector<ExtraMesh>& extra, const std::
   return own;
 }
 
+void check_robots_of(const std::map<std::string, double>& joints,
+                     std::span<const std::string> robots) {
+  for (const auto& [joint, position] : joints)
+    if (std::ranges::none_of(robots, [&](const std::string& robot) {
+          return robot.empty() || joint.starts_with(robot + "/");
+        }))
+      throw InputError("joint '" + joint + "' names no robot; expected " + robots.front() + "/" +
+                       joint);
+}
+
 std::map<std::string, double> joints_of(const std::map<std::string, double>& joints,
                                         const std::string& robot) {
   const std::string prefix = robot.empty() ? "" : robot + "/";

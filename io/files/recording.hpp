@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ struct RecordedRobot {
 /// as PATTERN. Of the only robot, which has no name, that is all.
 [[nodiscard]] std::vector<std::string> patterns_of(const std::vector<std::string>& patterns,
                                                    const std::string& robot);
+/// Throws InputError for a joint that names none of several robots.
+void check_robots_of(const std::map<std::string, double>& joints,
+                     std::span<const std::string> robots);
 /// Returns the joints of one robot of several, likewise.
 [[nodiscard]] std::map<std::string, double> joints_of(const std::map<std::string, double>& joints,
                                                       const std::string& robot);

@@ -102,7 +102,9 @@ Json bag_json(const UsedBag& bag) {
       {"poses", bag.poses},
       {"camera", {{"frame", bag.camera_frame}, {"link", bag.camera_link}, {"by", bag.camera_by}}},
       {"time_offset_s", bag.time_offset},
-      {"first_publisher", bag.first_publisher}};
+      {"first_publisher", bag.first_publisher},
+      {"joint_names", bag.joint_names.empty() ? Json() : Json(bag.joint_names)},
+      {"depth_scale", bag.depth_scale ? Json(*bag.depth_scale) : Json()}};
 }
 
 Json settings_json(const UsedSettings& used) {

@@ -28,11 +28,13 @@ struct UsedBag {
     std::string why;  ///< the reason for the choice
   };
   std::vector<Topic> topics;
-  std::string poses;                      ///< "joints", "tf", "both"
-  std::string camera_frame, camera_link;  ///< place of the camera
-  std::string camera_by;                  ///< source of that place: "tf"
-  double time_offset = 0.0;               ///< seconds
-  bool first_publisher = false;           ///< publishers of one joint are not compared
+  std::string poses;                       ///< "joints", "tf", "both"
+  std::string camera_frame, camera_link;   ///< place of the camera
+  std::string camera_by;                   ///< source of that place: "tf"
+  double time_offset = 0.0;                ///< seconds
+  bool first_publisher = false;            ///< publishers of one joint are not compared
+  std::string joint_names = {};            ///< RobotInputOptions; empty: the joints'
+  std::optional<double> depth_scale = {};  ///< metres per unit; default: the format's
 };
 
 /// The settings of a run.

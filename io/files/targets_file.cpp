@@ -170,8 +170,7 @@ const DetectedClass* class_of(const Detection& detection,
 }
 
 /// Says where the least score decides nothing, or too much.
-void check_scores(const YamlNode& node, const Detections& detections,
-                  const std::map<std::string, DetectedClass>& classes,
+void check_scores(const Detections& detections, const std::map<std::string, DetectedClass>& classes,
                   std::vector<std::string>& notes) {
   std::size_t limited = 0, unscored = 0, taken = 0;
   double most = 0.0, limit = 0.0;
@@ -186,7 +185,7 @@ void check_scores(const YamlNode& node, const Detections& detections,
       limit = std::max(limit, *settings->min_score);
       most = std::max(most, detection.score.value_or(0.0));
     }
-  if (taken == 0) node.fail("no detection has the score that its class wants (min_score)");
+  if (taken == 0 && limited > 0) notes.push_back("no detection has the score that min_score wants");
   if (unscored > 0)
     notes.push_back(std::to_string(unscored) + " of " + std::to_string(limited) +
                     " detections have no score: min_score leaves none of them out");
@@ -280,6 +279,7 @@ TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsCo
     if (const YamlNode* given = root.find("names")) names = class_names_of(*given);
     if (const YamlNode* first = root.find("first_frame")) {
       state->first_frame = first->integer();
+      if (std::abs(state->first_frame) > 1'000'000'000) first->fail("is no frame of a recording");
       state->is_first_given = true;
     }
     detections->with_context(
@@ -291,7 +291,7 @@ TargetsFile TargetsFile::open(const std::filesystem::path& file, const TargetsCo
       for (const YamlNode& node : classes->entries())
         state->classes.emplace(node.key(), class_of(node, context));
     check_classes(*detections, state->detections, state->classes);
-    check_scores(*detections, state->detections, state->classes, state->notes);
+    check_scores(state->detections, state->classes, state->notes);
   } else {
     for (const char* const key : {"first_frame", "names", "classes"})
       if (const YamlNode* found = root.find(key)) found->fail("is for detections; name their file");

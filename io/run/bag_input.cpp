@@ -106,7 +106,9 @@ UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const Cam
                .camera_link = mount.parent,
                .camera_by = mount.source,
                .time_offset = options.bag.time_offset,
-               .first_publisher = options.bag.first_publisher};
+               .first_publisher = options.bag.first_publisher,
+               .joint_names = options.bag.joint_names,
+               .depth_scale = options.bag.depth_scale};
   for (const TopicUse& use : topics.all())
     used.topics.push_back({use.role, use.name, use.type, use.why});
   return used;

@@ -106,6 +106,9 @@ RunInput open_recording_input(const InputOptions& options) {
                      ": frames: key 'depth' is missing: " + needs_depth_images);
   if (!options.needs_camera_pose && !recording.camera.T_parent_camera)
     recording.camera.T_parent_camera = Eigen::Isometry3d::Identity();
+  std::vector<std::string> names;
+  for (const RecordedRobot& robot : recording.robots) names.push_back(robot.name);
+  check_robots_of(options.joints, names);
   for (RecordedRobot& robot : recording.robots) options.apply_to(robot.options, robot.name);
   Robot robot = recording.load_robot();
   FrameReader reader(recording, robot);

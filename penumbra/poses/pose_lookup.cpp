@@ -114,15 +114,17 @@ void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, RobotPose& p
 void PoseLookup::find_joints(const PoseHistory& history, std::int64_t stamp, RobotPose& pose) {
   history.joints().at(stamp, joints_);
   follows_from_joints_ = true;
-  if (joints_.status != JointStatus::ok) judge_unknown_joints(history.joints(), stamp, pose);
   const bool is_in_tf = joints_.status != JointStatus::ok && is_moved_by_tf(history.transforms());
+  const std::string by_tf = is_in_tf ? "; tf has its pose: set poses to tf" : "";
+  if (joints_.status != JointStatus::ok) judge_unknown_joints(history.joints(), stamp, pose);
   pose.status = status_of(joints_.status);
   pose.age = joints_.age;
   if (pose.status != FrameStatus::ok) {
     pose.message = describe(robot_, joints_);
-    if (is_in_tf) pose.message += "; tf has its pose: set poses to tf";
+    pose.message += by_tf;
     return;
   }
+  if (!pose.uncertain_reason.empty()) pose.uncertain_reason += by_tf;
   const bool has_mounts = !robot_.parts().empty() && history.transforms().knows(frames_[0]);
   if (has_mounts || !follows_from_joints_ || options_.source == PoseSource::both)
     robot_.forward_kinematics(joints_.positions, T_root_link_);

@@ -237,7 +237,15 @@ std::string remedy_of(const Robot& robot, const JointAnswer& joints) {
       links += (links.empty() ? "" : ",") + robot.links()[link];
   }
   if (links.empty()) return {};
-  return "; set joint " + robot.variables()[missing.front()] + "=VALUE, or ignore_links " + links;
+  const auto can_be_held = [&](std::size_t variable) {
+    return std::ranges::any_of(robot.joints(), [&](const Joint& joint) {
+      return joint.variable == variable && !joint.mimics && variables_of(joint.type) == 1;
+    });
+  };
+  const auto held = std::ranges::find_if(missing, can_be_held);
+  return (held == missing.end() ? "; set "
+                                : "; set joint " + robot.variables()[*held] + "=VALUE, or ") +
+         ("ignore_links " + links);
 }
 
 }  // namespace penumbra

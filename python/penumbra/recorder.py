@@ -251,6 +251,7 @@ def _robot_keys(options: RobotOptions) -> Dict[str, Any]:
         "packages": {name: os.path.abspath(at) for name, at in options.packages.items()},
         "geometry": geometry,
         "ignore_links": list(options.ignore_links),
+        "joints": dict(options.joints),
         "only_links": list(options.only_links),
         "margins": dict(options.margins),
         "extra": [{"link": e.link, "mesh": os.path.abspath(e.mesh)} for e in options.extra],

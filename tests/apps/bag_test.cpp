@@ -99,6 +99,24 @@ TEST_F(BagTest, TopicsThatHaveAJointAreNamed) {
   expect_recorded_labels();
 }
 
+TEST_F(BagTest, TheRemedyOfAMissingJointWorks) {
+  TinyBag bag = recording_bag(example, Eigen::Isometry3d::Identity());
+  bag.edit<io::JointStateMessage>("/joint_states", [](auto& state) {
+    state.names.pop_back();
+    state.positions.pop_back();
+  });
+  bag.write_mcap(path("bag.mcap"));
+  const auto look = [&](const Words& options) {
+    const Words given = Words{"run", path("bag.mcap"), "-o", out()} + example_package + options;
+    return penumbra(given).err;
+  };
+  const std::string links = "finger_left,finger_right";
+  expect_has(look({}), {"set joint gripper_left=VALUE, or ignore_links " + links});
+  for (const Words& remedy :
+       {Words{"--ignore-links", links}, Words{"--joint", "gripper_left=0.02"}})
+    expect_lacks(look(remedy), {"missing_link", "never seen"});
+}
+
 TEST_F(BagTest, ClocksThatDifferAreNamed) {
   const auto shift = [&](std::int64_t by) {
     bag_.edit<io::JointStateMessage>("/joint_states",
