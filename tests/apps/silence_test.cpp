@@ -865,7 +865,7 @@ class Silence : public FolderTest {
     Words arguments;
     if (kind != nullptr) arguments = kind->change(random, scene);
     if (!arguments.empty() && arguments.front() == "look-ahead")
-      return penumbra(arguments + Words{"-o", out()});
+      return penumbra(arguments + Words{"-o", path("ahead")});
     if (arguments.empty() || arguments.front().starts_with('-'))
       arguments = Words{path("scene")} + arguments;
     return penumbra(Words{"run"} + arguments + Words{"-o", out(), "--force"});
