@@ -31,29 +31,18 @@ OfferedQos read_or_unreadable(const F& read) {
   }
 }
 
-/// Throws InputError for a bag of ROS 1.
+/// Throws InputError for a bag of ROS 1, which RealSense's SDK writes, too.
 void refuse_ros1(const std::filesystem::path& file) {
   constexpr std::string_view start = "#ROSBAG V";
-  constexpr std::size_t most = std::size_t{1} << 20U;  // topics stand at the begin or the end
   InputFile input;
   std::string text(start.size(), '\0');
   if (!input.open(file).ok() || input.read(text.data(), text.size()) != text.size() ||
       text != start)
     return;
-  const std::uint64_t last = input.size() - std::min<std::uint64_t>(input.size(), most);
-  const auto has_device = [&](std::uint64_t from) {
-    std::string part(most, '\0');
-    part.resize(input.read_at(from, part.data(), part.size()));
-    return part.find("/device_0/") != std::string::npos;
-  };
-  if (!has_device(0) && !has_device(last))
-    throw InputError(
-        file.string() +
-        ": is a bag of ROS 1, which is not read; convert it by rosbags-convert, of the "
-        "Python package rosbags");
   throw InputError(file.string() +
-                   ": is a recording of RealSense's SDK, which is not read; play it with "
-                   "realsense2_camera (rosbag_filename:=FILE) and record its topics with ros2 bag");
+                   ": is a bag of ROS 1 or a recording of RealSense's SDK, which are not read; "
+                   "convert a bag by rosbags-convert, of the Python package rosbags; play a "
+                   "recording with realsense2_camera and record its topics with ros2 bag");
 }
 
 }  // namespace

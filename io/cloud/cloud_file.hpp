@@ -41,8 +41,7 @@ struct StoredCloud {
 /// - .npy: N x C float32 or float64 with the fields x, y, z, f3, f4 and so on.
 /// - .bin: float32: KITTI's x, y, z, intensity; nuScenes' with ring, too; or 3 or 6 numbers a
 /// point.
-///   Throws unless the size and the values, of which intensity and ring are not negative, leave no
-///   other choice.
+///   Intensity and ring are never negative. Throws if the size and the values fit several of these.
 [[nodiscard]] StoredCloud read_cloud(const std::filesystem::path& file);
 
 /// Writes a point cloud in the format that the extension names. Throws InputError that names the

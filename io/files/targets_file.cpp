@@ -253,6 +253,11 @@ struct TargetsFile::State {
                           const std::map<std::int64_t, std::string>& names) {
     if (!is_first_given) first_frame = usual_first_frame(name);
     detections = read_detections(name, folder, context.images, names, first_frame, context.stamps);
+    const auto is_before = [](const auto& of) { return of.first < 0; };
+    if (!is_first_given && std::ranges::any_of(detections, is_before))
+      throw InputError(name + ": has detections before its first frame, " +
+                       std::to_string(first_frame) +
+                       ": write a targets.yaml with detections: FILE and first_frame: 0");
     if (std::string doubt = doubt_of(detections, context.images); !doubt.empty())
       notes.push_back(name + ": " + doubt);
   }

@@ -94,7 +94,7 @@ std::string describe_names(const Robot& robot, const JointAnswer& joints) {
 std::string reason_of(const JointGap& gap, std::int64_t stamp) {
   if (gap.jump)
     return "jumps by " + std::to_string(*gap.jump) + " next to the stamp, more than it can move";
-  if (gap.is_refused) return "its positions are not finite";
+  if (gap.is_refused) return "its positions are absent or not finite";
   if (gap.why != JointStatus::stale) return "never seen";
   std::string text = "no position near the stamp";
   if (gap.last_seen) text += ", the last is " + milliseconds(*gap.last_seen, stamp) + " older";

@@ -69,7 +69,7 @@ const Joint& find_held(const std::string& file, const std::string& name, double 
                        found->type != JointType::floating;
   if (!has_one) throw InputError(what + "has no single position of its own");
   const bool is_limited = found->lower && found->upper && *found->lower < *found->upper;
-  if (!std::isfinite(position) || std::abs(position) > 1e9 ||
+  if (!std::isfinite(position) || std::abs(position) > Robot::max_position ||
       (is_limited && (position < *found->lower - slack || position > *found->upper + slack)))
     throw InputError(what + "is held at " + detail::printed(position) +
                      (is_limited ? ", beyond its limits " + detail::printed(*found->lower) +

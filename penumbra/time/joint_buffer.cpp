@@ -12,7 +12,6 @@
 namespace penumbra {
 namespace {
 
-constexpr double kLargestValue = 1e9;    // as forward_kinematics has it
 constexpr double kUnitTolerance = 0.01;  // of a quaternion's length
 constexpr std::size_t kMostOtherNames = 100;
 
@@ -76,7 +75,7 @@ std::size_t JointBuffer::insert(std::int64_t stamp, std::span<const std::string>
       continue;
     }
     const std::size_t variable = at->second;
-    if (i >= positions.size() || !(std::abs(positions[i]) <= kLargestValue)) {
+    if (i >= positions.size() || !(std::abs(positions[i]) <= Robot::max_position)) {
       ++refused_values_;
       is_refused_[variable] = true;
       continue;

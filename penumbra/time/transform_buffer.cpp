@@ -203,8 +203,11 @@ std::string TransformBuffer::no_chain(std::string_view target, std::string_view 
   };
   for (const std::string_view name : {source, target})
     if (!find(name)) {
-      const auto has_prefix = [&](const FrameNode& frame) { return frame.name.ends_with(name); };
-      const auto other = std::ranges::find_if(frames_, has_prefix);
+      const std::string prefixed = "/" + std::string(name);
+      const auto is_prefixed = [&](const FrameNode& frame) {
+        return frame.name.ends_with(prefixed);
+      };
+      const auto other = std::ranges::find_if(frames_, is_prefixed);
       return which + frame_quoted(name) + " was never seen" +
              (other == frames_.end() ? ""
                                      : ", but " + frame_quoted(other->name) +

@@ -140,9 +140,9 @@ TEST_F(LookAheadTest, SaysWhatThePlanDoesWrong) {
       {"0,0\n100,0.9\n", ""}};
   for (const auto& [plan, words] : plans) {
     write_file(path("plan.csv"), "time,slide\n" + plan);
-    const std::string told = succeed(look("plan.csv")).err;
-    expect_has(told, {words});
-    if (words.empty()) expect_lacks(told, {"exceeds", "milliseconds"});
+    const std::string err = succeed(look("plan.csv")).err;
+    expect_has(err, {words});
+    if (words.empty()) expect_lacks(err, {"exceeds", "milliseconds"});
   }
 }
 

@@ -187,8 +187,8 @@ TEST_F(LeniencyTest, LinksWithoutCollisionGeometryAreDrawnWithANote) {
   EXPECT_GT(robot_pixels({}), robot_pixels({"--geometry", "collision", "--allow-missing-meshes"}));
   for (const Words& options : {Words{}, {fallback}, {"--geometry", "collision", fallback}}) {
     const bool is_default = options.empty();
-    const std::string told = run(options).err;
-    EXPECT_EQ(told.find("only visual: \"more\"") != std::string::npos, is_default) << told;
+    const std::string err = run(options).err;
+    EXPECT_EQ(err.find("only visual: \"more\"") != std::string::npos, is_default) << err;
     expect_values(report()["settings"], {{"/geometry", "collision"}, {"/geometry_fallback", true}});
     const Json link = Json::parse(inspect(options + Words{"--json"}).out)["links"][2];
     EXPECT_EQ(link["drawn"], true);

@@ -293,6 +293,8 @@ TEST_F(DetectionsTest, FramesNumberedFromAnotherAreNamed) {
   TargetsFile some = open("d.csv");
   some.check_frames(frames);
   EXPECT_TRUE(some.notes().empty()) << "nothing was found in frame 0";
+  folder_.write("d.txt", "0,1,10,20,14,15\n1,1,10,20,14,15\n");
+  expect_refused([&] { static_cast<void>(open("d.txt")); }, {"d.txt", "first_frame: 0"});
   folder_.write("d.txt", "2,1,10,20,14,15\n5,1,10,20,14,15\n");
   expect_refused(
       [&] {
