@@ -111,6 +111,8 @@ void bind_bag_options(py::module_& m) {
       Field{"pose", &B::pose, "File of the camera's pose in that link, in place of tf's."},
       Field{"depth_scale", &B::depth_scale,
             "Metres per unit of the depth images; None: 0.001 for integers, 1 for floats."},
+      Field{"depth_along_ray", &B::depth_along_ray,
+            "Depth is the distance along each pixel's ray, not its z-component."},
       Field{"rectified", &B::rectified, "The images are free of distortion already."},
       Field{"first_publisher", &B::first_publisher,
             "Publishers of one joint are not compared: the first one is believed."},

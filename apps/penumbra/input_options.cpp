@@ -168,6 +168,11 @@ void add_bag(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
   add_number(app, "--depth-scale",
              "metres per unit of the depth images; default: 0.001 for integers, 1 for floats", "M",
              bag.depth_scale, 1e-9, 1e3);
+  add_choice<bool>(
+      app, "--depth-along",
+      "what the depth images have: the z-component, or the distance along each pixel's "
+      "ray, as some simulators write it",
+      bag.depth_along_ray, {{"z", false}, {"ray", true}});
   app.add_flag("--rectified", bag.rectified,
                "the images are free of distortion already, as those called image_rect... are");
   add_bag_robot(app, bag, help);

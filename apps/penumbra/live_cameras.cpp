@@ -48,6 +48,7 @@ io::CameraInputOptions camera_options(const LiveArguments& arguments) {
   options.info_is_named = topics.camera_info_topic.has_value();
   options.is_rectified = topics.rectified;
   options.depth_scale = topics.depth_scale;
+  options.depth_along_ray = topics.depth_along_ray;
   options.poses = topics.poses.value_or(PoseSource::joints);
   options.time_offset = topics.time_offset;
   options.max_frames = static_cast<std::size_t>(arguments.queue);

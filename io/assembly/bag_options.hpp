@@ -35,6 +35,7 @@ struct BagOptions {
   std::optional<std::filesystem::path> pose;  ///< of the camera in that link, in place of tf's
   bool rectified = false;
   std::optional<double> depth_scale;  ///< JudgedCameras
+  bool depth_along_ray = false;       ///< likewise
   bool first_publisher = false;       ///< publishers of one joint are not compared
   double time_offset = 0.0;           ///< FrameQueueOptions::time_offset
 };

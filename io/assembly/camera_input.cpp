@@ -195,6 +195,7 @@ JudgedCameras CameraInput::find_cameras() const {
   JudgedCameras cameras = judged_cameras(evidence);
   cameras.has_depth = options_.has_depth;
   cameras.depth_scale = options_.depth_scale;
+  cameras.depth_along_ray = options_.depth_along_ray;
   return cameras;
 }
 

@@ -40,6 +40,7 @@ struct CameraInputOptions {
   MountOptions mount = {};
   bool has_depth = true;                   ///< false: `depth_topic` has colour images
   std::optional<double> depth_scale = {};  ///< JudgedCameras
+  bool depth_along_ray = false;            ///< likewise
   bool info_is_named = false;              ///< CameraEvidence
   bool is_rectified = false;               ///< likewise
   PoseSource poses = PoseSource::joints;

@@ -5,6 +5,7 @@
 
 #include <io/assembly/depth_input.hpp>
 #include <io/files/depth_pixels-inl.hpp>
+#include <io/files/ray_depth.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -17,9 +18,10 @@ std::string size_text(int width, int height) {
 
 DepthInput::DepthInput(const JudgedCameras& cameras)
     : has_depth_(cameras.has_depth), scale_(cameras.depth_scale) {
-  const Intrinsics& intrinsics = (cameras.depth ? *cameras.depth : cameras.judged).intrinsics;
-  width_ = intrinsics.width();
-  height_ = intrinsics.height();
+  const Camera& camera = cameras.depth ? *cameras.depth : cameras.judged;
+  width_ = camera.intrinsics.width();
+  height_ = camera.intrinsics.height();
+  if (cameras.depth_along_ray) z_of_ray_ = z_of_rays(camera);
   if (cameras.depth) registration_.emplace(*cameras.depth, cameras.judged);
 }
 
@@ -59,6 +61,10 @@ std::string DepthInput::bring(const AssembledFrame& from, DepthView& depth) {
   if (width != width_ || height != height_)
     return "the depth image is " + size_text(width, height) + ", the camera " +
            size_text(width_, height_);
+  if (z_of_ray_.width() > 0) {
+    along_z_ = along_z(depth, z_of_ray_);
+    depth = along_z_.view;
+  }
   if (!registration_) return {};
   if (!has_pose(from.pose.status)) {
     depth = empty_;  // the depth camera's position is not known

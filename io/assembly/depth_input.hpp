@@ -33,8 +33,9 @@ class DepthInput {
   int width_, height_;  // of the depth images
   std::optional<DepthRegistration> registration_;
   std::optional<double> scale_;  // metres per unit
+  Image<float> z_of_ray_;        // as in FrameReader
   DecodedDepth decoded_;
-  SharedDepth scaled_;
+  SharedDepth scaled_, along_z_;
   DepthView empty_;  // of the images' pixel type
 };
 

@@ -33,6 +33,7 @@ struct JudgedCameras {
   CameraInfoMessage info = {};             ///< of `judged`, as received
   bool has_depth = true;                   ///< false: the images are colour images
   std::optional<double> depth_scale = {};  ///< metres per unit; default: as shared_depth_of()
+  bool depth_along_ray = false;            ///< depth is the distance along each pixel's ray
 };
 
 /// Returns the cameras. Throws InputError that names the topic if camera_of refuses it, or if a

@@ -13,8 +13,7 @@ void CloudSummary::add(const CloudReport& report, const std::string& fault, doub
   messages.emplace(report.status, fault.empty() ? report.message : fault);
   if (body_note.empty()) body_note = report.note;
   for (const TargetReport& target : report.targets)
-    if (target_note.empty() && !target.note.empty())
-      target_note = "target '" + target.name + "': " + target.note;
+    if (target_note.empty()) target_note = target.note;
   for (std::size_t i = 0; i < label_count; ++i) points[i] += report.points[i];
   parts = std::max(parts, report.parts);
   milliseconds += elapsed;

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -16,6 +13,7 @@
 #include <io/files/depth_pixels-inl.hpp>
 #include <io/files/frame_reader.hpp>
 #include <io/files/image_file.hpp>
+#include <io/files/ray_depth.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -73,24 +71,6 @@ const FramePattern* by_time(const RecordingFrames& files) {
 
 ImageSize size_of(const Camera& camera) {
   return {camera.intrinsics.width(), camera.intrinsics.height()};
-}
-
-/// Returns the z-component of a metre along each pixel's ray; 0: the lens model does not reach it.
-Image<float> z_of_rays(const Camera& camera) {
-  const Intrinsics& of = camera.intrinsics;
-  Image<float> z(of.width(), of.height());
-  for (int v = 0; v < of.height(); ++v)
-    for (int u = 0; u < of.width(); ++u)
-      if (const auto ray = camera.distortion.undistort(of.ray(u, v).head<2>()))
-        z(u, v) = static_cast<float>(1.0 / std::sqrt(1.0 + ray->squaredNorm()));
-  return z;
-}
-
-/// Returns depth for distances along the rays.
-SharedDepth along_z(const SharedDepth& distances, const Image<float>& z_of_ray) {
-  Image<float> z = metres_of(distances.view);
-  std::transform(z.data(), z.data() + z.size(), z_of_ray.data(), z.data(), std::multiplies<>());
-  return SharedDepth(std::make_shared<const Image<float>>(std::move(z)));
 }
 
 }  // namespace
@@ -202,7 +182,7 @@ FileResult FrameReader::read_depth_image(std::int64_t index, SharedDepth& depth)
     result = read_depth(files_.depth->file(index), depth_camera_ ? depth_camera_->size() : size_,
                         depth_scale_, depth);
   }
-  if (result.ok() && z_of_ray_.width() > 0) depth = along_z(depth, z_of_ray_);
+  if (result.ok() && z_of_ray_.width() > 0) depth = along_z(depth.view, z_of_ray_);
   if (result.ok() && depth_camera_) depth = depth_camera_->warp(depth);
   return result;
 }

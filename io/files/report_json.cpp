@@ -104,7 +104,8 @@ Json bag_json(const UsedBag& bag) {
       {"time_offset_s", bag.time_offset},
       {"first_publisher", bag.first_publisher},
       {"joint_names", bag.joint_names.empty() ? Json() : Json(bag.joint_names)},
-      {"depth_scale", bag.depth_scale ? Json(*bag.depth_scale) : Json()}};
+      {"depth_scale", bag.depth_scale ? Json(*bag.depth_scale) : Json()},
+      {"depth_along", bag.depth_along_ray ? "ray" : "z"}};
 }
 
 Json settings_json(const UsedSettings& used) {

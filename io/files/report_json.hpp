@@ -35,6 +35,7 @@ struct UsedBag {
   bool first_publisher = false;            ///< publishers of one joint are not compared
   std::string joint_names = {};            ///< RobotInputOptions; empty: the joints'
   std::optional<double> depth_scale = {};  ///< metres per unit; default: the format's
+  bool depth_along_ray = false;            ///< not the z-component
 };
 
 /// The settings of a run.

@@ -95,6 +95,7 @@ JudgedCameras cameras_of(const InputOptions& options, const BagTopics& topics,
   JudgedCameras cameras = judged_cameras(evidence);
   cameras.has_depth = topics.has_depth;
   cameras.depth_scale = options.bag.depth_scale;
+  cameras.depth_along_ray = options.bag.depth_along_ray;
   return cameras;
 }
 
@@ -108,7 +109,8 @@ UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const Cam
                .time_offset = options.bag.time_offset,
                .first_publisher = options.bag.first_publisher,
                .joint_names = options.bag.joint_names,
-               .depth_scale = options.bag.depth_scale};
+               .depth_scale = options.bag.depth_scale,
+               .depth_along_ray = options.bag.depth_along_ray};
   for (const TopicUse& use : topics.all())
     used.topics.push_back({use.role, use.name, use.type, use.why});
   return used;

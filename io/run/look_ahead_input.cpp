@@ -48,14 +48,14 @@ ForecastCamera camera_of(const RunInput& input, const RobotPose& pose, std::stri
           .rule = input.config.rule};
 }
 
-/// What the camera measures of the targets in the frame.
-std::vector<TargetReport> judged(const RunInput& input, const Robot& robot, Frame frame) {
-  if (frame.source_status != FrameStatus::ok) return {};
+/// Adds what the camera measures of the targets in the frame, and notes about them.
+void judge(const RunInput& input, Frame frame, LookAheadInput& to) {
   for (Target& target : frame.targets) target.handling = {};
-  Pipeline pipeline(robot, input.camera, input.config);
+  Pipeline pipeline(to.robot, input.camera, input.config);
   const FrameReport& report = pipeline.process(frame);
-  if (!has_depth(report.status)) return {};
-  return {report.targets.begin(), report.targets.end()};
+  if (has_depth(report.status)) to.now = {report.targets.begin(), report.targets.end()};
+  for (const TargetReport& target : report.targets)
+    if (!target.note.empty()) to.notes.push_back(target.note);
 }
 
 void add(NamedTrajectory motion, LookAheadInput& to) {
@@ -112,10 +112,7 @@ LookAheadInput read_look_ahead_input(const LookAheadOptions& options, const Line
       // Frames by number, so that each camera's is of the same time.
       input.frames = {static_cast<std::int64_t>(read->frame),
                       static_cast<std::int64_t>(read->frame) + 1};
-      read->now = judged(opened, opened.robot, frame);
-      for (const TargetReport& target : read->now)
-        if (!target.note.empty())
-          read->notes.push_back("target '" + target.name + "': " + target.note);
+      judge(opened, frame, *read);
     }
     read->cameras.push_back(camera_of(opened, frame.pose, name));
   }

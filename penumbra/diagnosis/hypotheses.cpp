@@ -62,7 +62,7 @@ class Mistakes {
           .depth_factor = unit.factor;
     add(Cause::depth_ray,
         "depth is the distance along each pixel's ray: give its z-component, or "
-        "camera.depth_along: ray in recording.yaml")
+        "set depth_along to ray")
         .along_ray = true;
     scaled_depths();
   }

@@ -97,8 +97,7 @@ void Warnings::add_stamp(const FrameReport& report) {
 void Warnings::add_targets(const FrameReport& report) {
   if (report.targets.empty()) return;
   for (const TargetReport& target : report.targets)
-    if (target_note_.empty() && !target.note.empty())
-      target_note_ = "target '" + target.name + "': " + target.note;
+    if (target_note_.empty()) target_note_ = target.note;
   if (report.stamp && last_stamp_ && is_clock_jump(*report.stamp, *last_stamp_)) ++forgotten_;
   if (std::any_of(report.targets.begin(), report.targets.end(),
                   [](const TargetReport& target) { return target.wants_stamp; }))

@@ -186,7 +186,8 @@ std::string millimetres_note(
     }
   } catch (const InputError&) {  // the frame's pose is not known
   }
-  return line.empty() ? line : line + ": are these millimetres? give metres";
+  if (line.empty()) return line;
+  return "target '" + target.name + "': " + line + ": are these millimetres? give metres";
 }
 
 void check_target(const Target& target) {

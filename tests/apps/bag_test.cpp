@@ -4,8 +4,10 @@
 #include "../support/data.hpp"
 #include "fixtures.hpp"
 
+#include <cstring>
 #include <limits>
 
+#include <io/files/camera_info.hpp>
 #include <io/mcap/compression.hpp>
 
 namespace penumbra::test {
@@ -144,6 +146,24 @@ TEST_F(BagTest, TheScaleOfDepthIsAnOption) {
     image.data = scaled.back();
   });
   EXPECT_EQ(succeed(run({"--depth-scale", "0.0001"})).err, "");
+  expect_recorded_labels();
+}
+
+TEST_F(BagTest, DepthAlongTheRayIsAnOption) {
+  const Camera camera = io::read_camera_info(path("camera_info.yaml"), false);
+  std::vector<std::vector<float>> along;
+  bag_.edit<io::ImageMessage>("/camera/depth/image_rect_raw", [&](auto& image) {
+    std::vector<std::uint16_t> millimetres(image.data.size() / 2);
+    std::memcpy(millimetres.data(), image.data.data(), image.data.size());
+    std::vector<float>& metres = along.emplace_back();
+    for (unsigned i = 0; i < millimetres.size(); ++i)
+      metres.push_back(static_cast<float>(
+          1e-3 * millimetres[i] * camera.intrinsics.ray(i % image.width, i / image.width).norm()));
+    image.encoding = "32FC1";
+    image.step = 4 * image.width;
+    image.data = std::as_bytes(std::span(metres));
+  });
+  EXPECT_EQ(succeed(run({"--depth-along", "ray"})).err, "");
   expect_recorded_labels();
 }
 

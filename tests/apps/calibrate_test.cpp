@@ -202,7 +202,7 @@ TEST_F(DiagnosisTest, NormalisedDepthAndDepthAlongTheRay) {
   write_depth([](double z, double) { return std::min(z / 4.0, 1.0); });
   expect_has(expect_cause(0, "depth_scale").err, {"depth_scale"});
   write_depth([](double z, double ray) { return z * ray; });
-  expect_has(expect_cause(0, "depth_ray").err, {"depth_along: ray"});
+  expect_has(expect_cause(0, "depth_ray").err, {"set depth_along to ray"});
   edit_file(yaml, "  pose:", "  depth_along: ray\n  pose:");
   expect_cause(0, nullptr);
 }

@@ -110,6 +110,12 @@ TEST_F(DiagnosisTruth, DepthInAnotherUnitAndCameraInfoOfOtherImages) {
         for (std::size_t i = 0; i < depth.size(); ++i)
           depth.data()[i] *= static_cast<float>(factor);
     });
+  expect(Cause::depth_ray, [](Given& given) {
+    for (Image<float>& depth : given.depth)
+      for (int v = 0; v < depth.height(); ++v)
+        for (int u = 0; u < depth.width(); ++u)
+          depth(u, v) *= static_cast<float>(given.camera.ray(u, v).norm());
+  });
   const auto scaled = [](double focal, double centre) {
     return [=](Given& given) {
       const Intrinsics& camera = given.camera;

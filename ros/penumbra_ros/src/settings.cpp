@@ -275,6 +275,9 @@ bool declare_camera(rclcpp_lifecycle::LifecycleNode& node, Declaration& declare,
           "metres per unit of the depth images; 0: 0.001 for integers, 1 for floats");
       scale > 0.0)
     camera.depth_scale = scale;
+  camera.depth_along_ray = declare.choice<bool>(
+      "depth_along", "z", {{"z", false}, {"ray", true}},
+      "what the depth images have: the z-component, or the distance along each pixel's ray");
   camera.is_rectified = declare(
       "rectified", false, "the images have no lens distortion, as those called image_rect...");
   return !camera.depth_topic.empty();
