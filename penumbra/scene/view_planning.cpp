@@ -19,10 +19,6 @@
 namespace penumbra {
 namespace {
 
-/// Metres of an empty room's walls: behind all targets, and past all tolerances.
-constexpr float far_wall = 1e7F;
-static_assert(far_wall > max_target_distance);
-
 std::size_t link_of_candidate(const Robot& robot, const CameraCandidate& candidate) {
   if (candidate.link.empty()) return 0;
   if (const auto link = robot.find_link(candidate.link)) return *link;
@@ -35,17 +31,11 @@ bool is_uncertain(const MotionFrame& motion, std::size_t link) {
   return std::find(links.begin(), links.end(), link) != links.end();
 }
 
-/// Judges frames with a pipeline of its own. What the sensor measures is the far wall everywhere:
-/// then a pixel of the robot is labelled beyond, and the judge compares its depth with the
-/// target's.
+/// Judges frames with a pipeline of its own, by the robot's model alone.
 class CandidateJudge {
  public:
   CandidateJudge(const Robot& robot, const PlannedCamera& planned)
-      : range_(planned.camera.range),
-        pipeline_(robot, without_range(planned.camera), config_of(planned)),
-        wall_(static_cast<std::size_t>(planned.camera.intrinsics.width()), far_wall),
-        depth_{wall_.data(), planned.camera.intrinsics.width(), planned.camera.intrinsics.height(),
-               0} {}
+      : range_(planned.camera.range), pipeline_(robot, planned.camera, config_of(planned)) {}
 
   /// Writes the verdicts of the frame's targets; returns why the first unknown one is.
   std::string judge(const CameraCandidate& candidate, std::size_t link, const MotionFrame& motion,
@@ -53,7 +43,6 @@ class CandidateJudge {
     if (is_uncertain(motion, link)) return "the pose of its link is not known";
     set_targets(motion.targets);
     Frame frame;
-    frame.depth = depth_;
     frame.pose.T_root_link = motion.T_root_link;
     frame.pose.T_parent_camera = motion.T_root_link[link] * candidate.T_link_camera;
     frame.targets = targets_;
@@ -72,16 +61,10 @@ class CandidateJudge {
   }
 
  private:
-  static Camera without_range(Camera camera) {
-    camera.range = {};
-    return camera;
-  }
-
   static PipelineConfig config_of(const PlannedCamera& planned) {
     PipelineConfig config;
     config.rule = planned.rule;
-    config.rule.front_min_width = config.rule.fringe_reach = 0;
-    config.rule.range = {};
+    config.has_depth = false;
     return config;
   }
 
@@ -92,8 +75,6 @@ class CandidateJudge {
       target.handling = {};
       target.estimate.reset();
       target.stamp.reset();
-      target.thresholds.beyond_hides = true;
-      target.thresholds.past_limit = 1.0;  // the wall is behind all
     }
   }
 
@@ -125,8 +106,6 @@ class CandidateJudge {
 
   DepthRange range_;
   Pipeline pipeline_;
-  std::vector<float> wall_;  // one row for all of the image
-  ImageView<const float> depth_;
   std::vector<Target> targets_;
 };
 
