@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -13,6 +12,8 @@
 #include <penumbra/cloud/cloud_targets-inl.hpp>
 #include <penumbra/poses/pose_stage-inl.hpp>
 #include <penumbra/robot/drawn_links-inl.hpp>
+#include <penumbra/targets/target_stage-inl.hpp>
+#include <penumbra/targets/target_views-inl.hpp>
 
 namespace penumbra {
 namespace {
@@ -33,11 +34,12 @@ double radius_of(std::span<const PreparedMesh> meshes) {
 
 }  // namespace
 
-struct CloudPipeline::State {
+struct CloudPipeline::State final : SampleJudge {
   State(Robot given, const CloudConfig& cloud_config)
       : robot(std::move(given)),
         config(cloud_config),
-        poses(robot, config.sensor_parent, config.T_parent_sensor, missing_links_of(robot), false) {
+        poses(robot, config.sensor_parent, config.T_parent_sensor, missing_links_of(robot), false),
+        targets(robot, *this, std::nullopt) {
     check_is_drawn(robot);
     make_labeller();
   }
@@ -51,9 +53,8 @@ struct CloudPipeline::State {
   [[nodiscard]] bool is_reached(const Eigen::Vector3d& point,
                                 const std::optional<Eigen::Vector3d>& origin) const;
   void take(const CloudLabels& found, const Scan& scan);
-  void judge(const Scan& scan);
-  [[nodiscard]] TargetReport judge(const Scan& scan, const Target& target);
-  [[nodiscard]] Eigen::Isometry3d frame_of(const ReferenceFrame& frame) const;
+  Judgement judge(const LabelledFrame& frame, const Target& target, TargetMemory* memory,
+                  const std::optional<Eigen::Vector2d>& motion) override;
 
   Robot robot;
   CloudConfig config;
@@ -69,9 +70,10 @@ struct CloudPipeline::State {
   std::vector<float> ranges;
   std::vector<std::uint8_t> labels;
   std::vector<std::uint16_t> links;
-  bool is_labelled = false;                      // not all unknown
-  std::map<std::string, TargetMemory> memories;  // of the targets
-  std::vector<TargetReport> targets;
+  bool is_labelled = false;      // not all unknown
+  const Scan* judged = nullptr;  // that is judged
+  PoseResult begin_poses = {};   // at the scan's begin
+  TargetStage targets;
   CloudReport report;
 };
 
@@ -90,6 +92,7 @@ bool CloudPipeline::State::place(std::int64_t stamp, const PoseAt& pose_at) {
   const bool is_begin = T_sensor_body.empty();
   if (!is_begin) pose.attached = carried;
   const PoseResult& found = poses.place(pose, stamp, FrameStatus::ok, "");
+  if (is_begin) begin_poses = found;
   if (!found.known() || !found.missing_links.empty()) return refuse(found.status, found.message);
   report.status = worse(report.status, found.status);
   if (report.message.empty()) report.message = found.message;
@@ -165,32 +168,33 @@ bool CloudPipeline::State::place_parts(const Scan& scan, const PoseAt& pose_at) 
   T_sensor_body.clear();
   reaches.clear();
   part_of.clear();
+  const auto place_at = [&](std::int64_t time) {
+    return place(stamp_after(scan.stamp.value_or(0), time), pose_at);
+  };
+  report.parts = 1;
+  const bool is_at_once = scan.times.empty() || !scan.origin;
+  const std::int64_t first = is_at_once ? 0 : std::ranges::min(scan.times);
+  if (!place_at(first)) return false;
   if (!scan.times.empty() && scan.times.size() != scan.points.count)
     return refuse(FrameStatus::bad_depth, std::to_string(scan.times.size()) + " times for " +
                                               std::to_string(scan.points.count) + " points");
   if (std::string fault = fault_of(scan); !fault.empty())
     return refuse(FrameStatus::bad_depth, std::move(fault));
-  const auto place_at = [&](std::int64_t time) {
-    return place(stamp_after(scan.stamp.value_or(0), time), pose_at);
-  };
-  report.parts = 1;
-  if (scan.times.empty() || !scan.origin) return place_at(0);
-  const auto [least, most] = std::minmax_element(scan.times.begin(), scan.times.end());
-  const std::int64_t begin = *least, length = std::int64_t{*most} - begin;
-  constexpr std::int64_t instants = 8;  // of the motion
-  for (std::int64_t i = 0; i <= (length > 0 ? instants : 0); ++i)
-    if (!place_at(begin + i * length / instants)) return false;
+  const std::int64_t length = is_at_once ? 0 : std::int64_t{std::ranges::max(scan.times)} - first;
   if (length == 0) return true;
+  constexpr std::int64_t instants = 8;  // of the motion
+  for (std::int64_t i = 1; i <= instants; ++i)
+    if (!place_at(first + i * length / instants)) return false;
   const auto count = static_cast<std::int64_t>(std::clamp(
       std::ceil(instants * movement() / part_movement), 1.0, static_cast<double>(max_parts)));
   report.parts = static_cast<std::size_t>(count);
   const auto tried = static_cast<std::ptrdiff_t>(T_sensor_body.size());
   for (std::int64_t part = 0; part < count; ++part)
-    if (!place_at(begin + (2 * part + 1) * length / (2 * count))) return false;
+    if (!place_at(first + (2 * part + 1) * length / (2 * count))) return false;
   T_sensor_body.erase(T_sensor_body.begin(), T_sensor_body.begin() + tried);
   for (const std::int32_t time : scan.times)
-    part_of.push_back(static_cast<std::uint16_t>(
-        std::min(count - 1, (std::int64_t{time} - begin) * count / length)));
+    part_of.push_back(
+        static_cast<std::uint16_t>(std::min(count - 1, (time - first) * count / length)));
   return true;
 }
 
@@ -237,44 +241,17 @@ void CloudPipeline::State::take(const CloudLabels& found, const Scan& scan) {
   }
 }
 
-/// Returns the pose of a target's frame in the points' frame, in the scan's first part.
-Eigen::Isometry3d CloudPipeline::State::frame_of(const ReferenceFrame& frame) const {
-  if (frame.kind == ReferenceFrame::Kind::camera) return Eigen::Isometry3d::Identity();
-  if (frame.kind == ReferenceFrame::Kind::root) return T_sensor_body[0];
-  const auto link = robot.find_link(frame.link);
-  if (!link) throw InputError("there is no link '" + frame.link + "'");
-  if (!reaches.empty()) throw InputError("the poses of all links are not known");
-  return T_sensor_body[*link];
-}
-
-TargetReport CloudPipeline::State::judge(const Scan& scan, const Target& target) {
-  TargetReport result;
-  result.name = target.name;
-  result.stamp = scan.stamp;
-  try {
-    if (!is_labelled) throw InputError(report.message);
-    if (!target.fault.empty()) throw InputError(target.fault);
-    if (target.stamp && target.stamp != scan.stamp) throw InputError("its stamp is not the scan's");
-    if (!target.has_identity) memories.erase(target.name);
-    result.note = millimetres_note(target, [&](const ReferenceFrame& of) { return frame_of(of); });
-    if (!scan.origin) throw InputError("clouds without rays do not show what is hidden");
-    result.judgement = cloud::judge_on_rays(
-        {scan.points, *scan.origin, labels, links, poses.links().size(), config.rule.tolerance},
-        target, frame_of(placement_of(target.shape).value_or(ShapePlacement()).frame),
-        memories[target.name]);
-    result.verdict = result.judgement->verdict;
-    result.reason = result.judgement->reason;
-    for (Blame& blame : result.judgement->blame) blame.name = poses.links()[blame.link];
-  } catch (const InputError& error) {
-    result.reason = error.what();
-  }
-  return result;
-}
-
-void CloudPipeline::State::judge(const Scan& scan) {
-  targets.clear();
-  for (const Target& target : scan.targets) targets.push_back(judge(scan, target));
-  report.targets = targets;
+Judgement CloudPipeline::State::judge(const LabelledFrame& frame, const Target& target,
+                                      TargetMemory* memory,
+                                      const std::optional<Eigen::Vector2d>& /*motion*/) {
+  if (!is_labelled) throw InputError(frame.fault());
+  if (!judged->origin) throw InputError("clouds without rays do not show what is hidden");
+  const auto at = placement_of(target.shape).value_or(ShapePlacement());
+  TargetMemory none;
+  return cloud::judge_on_rays(
+      {judged->points, *judged->origin, labels, links, poses.links().size(), config.rule.tolerance},
+      target, frame.poses->T_root_camera.inverse() * pose_of(at.frame, *frame.poses, robot),
+      memory != nullptr ? *memory : none);
 }
 
 CloudPipeline::CloudPipeline(Robot robot, const CloudConfig& config)
@@ -307,7 +284,13 @@ const CloudReport& CloudPipeline::process(const Scan& scan, const PoseAt& pose_a
   s.report.links = s.poses.links();
   if (s.T_sensor_body.size() >= s.robot.links().size())
     s.report.T_sensor_link = std::span(s.T_sensor_body).first(s.robot.links().size());
-  s.judge(scan);
+  s.judged = &scan;
+  s.begin_poses.stamp = scan.stamp;
+  const LabelledFrame frame{
+      .poses = &s.begin_poses, .status = s.report.status, .message = s.report.message};
+  s.targets.judge(scan.targets, frame);
+  s.targets.track(scan.targets, frame);
+  s.report.targets = s.targets.reports();
   return s.report;
 }
 

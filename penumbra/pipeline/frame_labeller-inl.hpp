@@ -17,11 +17,11 @@
 #include <penumbra/labels/label_work-inl.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/pipeline/labelled_frame-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/poses/attached_bodies-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/targets/labelled_frame-inl.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {

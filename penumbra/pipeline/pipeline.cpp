@@ -8,12 +8,13 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
+#include <penumbra/pipeline/image_judge-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/target_stage-inl.hpp>
 #include <penumbra/poses/pose_stage-inl.hpp>
 #include <penumbra/render/near_plane_check.hpp>
 #include <penumbra/robot/drawn_links-inl.hpp>
 #include <penumbra/targets/attach_target-inl.hpp>
+#include <penumbra/targets/target_stage-inl.hpp>
 
 namespace penumbra {
 namespace {
@@ -64,6 +65,7 @@ struct Pipeline::State {
   PoseStage poses;
   FrameLabeller labeller;
   NearPlaneCheck near_plane;
+  ImageJudge judge;
   TargetStage targets;
   const PoseResult* last_poses = nullptr;  // of the last frame, if it was judged
   std::size_t calls = 0;
@@ -79,7 +81,8 @@ Pipeline::State::State(Robot robot_, const Camera& camera_, const PipelineConfig
       poses(robot, config.camera_parent, config.T_parent_camera, missing_links),
       labeller(robot, camera, pointer_to(rectification), config),
       near_plane(labeller.render_intrinsics(), bodies_of(robot)),
-      targets(robot, camera, pointer_to(rectification), labeller, config) {}
+      judge(robot, camera, pointer_to(rectification), labeller, config),
+      targets(robot, judge, camera.frame_id) {}
 
 Pipeline::Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config)
     : state_(std::make_unique<State>(std::move(robot), camera, config)) {}

@@ -356,6 +356,43 @@ TEST(CloudPipeline, JudgesPointsAndNoPixels) {
   EXPECT_TRUE(holds(pipeline.process(scan, standing({})).targets[0].reason, "without rays"));
 }
 
+TEST(CloudPipeline, FollowsAndForgetsTargetsAsInImages) {
+  constexpr double fall = 0.05, accuracy = 0.02;  // metres: in 0.1 s, of the prediction
+  CloudPipeline pipeline(bar_robot(), config());
+  // A box comes down behind the bar.
+  const auto at_step = [&](int step, std::size_t times = 1, int shift_ms = 0) {
+    BoxScene scene{.centre = {0.5, 3.0, 0.35 - fall * step}, .half = {0.1, 0.1, 0.03}};
+    const Cloud cloud = scene.scan();
+    const Vector3d centre = scene.centre - Vector3d(0, 2, 0);
+    const std::vector<Target> targets(times,
+                                      {.name = "box",
+                                       .shape = BoxTarget{.pose = Isometry3d(Translation3d(centre)),
+                                                          .size = 2.0 * scene.half,
+                                                          .frame = ReferenceFrame::root()},
+                                       .handling = PoseTrackerConfig{}});
+    Scan scan = cloud.scan();
+    *scan.stamp += ms * (100 * step + shift_ms);
+    scan.targets = targets;
+    const CloudReport& report = pipeline.process(scan, standing({}));
+    return report.targets.back();
+  };
+  for (int step = 0; step < 5; ++step) {
+    const TargetReport seen = at_step(step);
+    EXPECT_EQ(seen.verdict, Verdict::visible);
+    ASSERT_TRUE(seen.handled);
+    EXPECT_EQ(seen.handled->source, Source::measured);
+  }
+  const TargetReport behind = at_step(7);
+  EXPECT_EQ(behind.verdict, Verdict::hidden);
+  EXPECT_EQ(behind.estimate, Outcome::refused_verdict);
+  EXPECT_EQ(behind.handled->source, Source::predicted);
+  EXPECT_LT((*behind.handled->position - Vector3d(0.5, 1.0, 0.0)).norm(), accuracy);
+  EXPECT_EQ(at_step(3).verdict, Verdict::visible) << "a scan that comes late";
+  EXPECT_TRUE(holds(at_step(8, 2).reason, "twice"));
+  EXPECT_EQ(at_step(8).handled->source, Source::predicted);
+  EXPECT_EQ(at_step(8, 1, -2'000).handled->source, Source::lost) << "the clock was set back";
+}
+
 TEST(CloudPipeline, BadConfigurationsAreRefused) {
   CloudConfig wrong = config();
   wrong.sensor_parent = "nobody";

@@ -11,14 +11,44 @@
 #include <unordered_map>
 #include <vector>
 
-#include <penumbra/pipeline/frame_labeller-inl.hpp>
-#include <penumbra/pipeline/recent_depth-inl.hpp>
+#include <Eigen/Core>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/robot/robot.hpp>
+#include <penumbra/targets/labelled_frame-inl.hpp>
+#include <penumbra/targets/recent_values-inl.hpp>
 #include <penumbra/targets/target.hpp>
 #include <penumbra/targets/target_judge.hpp>
 #include <penumbra/targets/target_track-inl.hpp>
-#include <penumbra/targets/target_views-inl.hpp>
 
 namespace penumbra {
+
+/// Judges targets on one kind of samples: the pixels of images, or the rays of scans.
+class SampleJudge {
+ public:
+  SampleJudge() = default;
+  SampleJudge(const SampleJudge&) = delete;
+  SampleJudge& operator=(const SampleJudge&) = delete;
+  virtual ~SampleJudge() = default;
+
+  /// Judges a checked target on a frame whose pose is known. `memory`: null for a target that is
+  /// judged alone. `motion`: TargetView::motion. Throws InputError for why it is unknown.
+  virtual Judgement judge(const LabelledFrame& frame, const Target& target, TargetMemory* memory,
+                          const std::optional<Eigen::Vector2d>& motion) = 0;
+
+  /// Returns the pixel of a point in the sensor's frame; null if there is none.
+  [[nodiscard]] virtual std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& /*p*/) const {
+    return std::nullopt;
+  }
+  /// A new frame is judged. Its depth may be kept for targets that come late.
+  virtual void begin(const LabelledFrame& /*frame*/) {}
+  /// Returns the frame of an earlier stamp. `poses`: of it; null: not known. Throws InputError if
+  /// it is not kept.
+  virtual const LabelledFrame& earlier(std::int64_t /*stamp*/, const PoseResult* /*poses*/) {
+    throw InputError("its stamp is not the frame's");
+  }
+  virtual void forget() {}
+};
 
 /// Judges a frame's targets and follows those with handling.
 class TargetStage {
@@ -26,10 +56,9 @@ class TargetStage {
   /// A target is forgotten after so many calls without it.
   static constexpr std::size_t forgotten_after = 300;
 
-  /// `labeller`: made with the same arguments. Robot and rectification (null without lens
-  /// distortion) must outlive this. Throws InputError for a target_history out of range.
-  TargetStage(const Robot& robot, const Camera& camera, const Rectification* rectification,
-              const FrameLabeller& labeller, const PipelineConfig& config);
+  /// `image_frame`: of the camera; null: targets of any image frame are judged. Robot and judge
+  /// must outlive this.
+  TargetStage(const Robot& robot, SampleJudge& judge, std::optional<std::string> image_frame);
 
   /// Judges the targets on the frame, or late ones on an earlier frame. Stores the frame.
   void judge(std::span<const Target> targets, const LabelledFrame& frame);
@@ -68,7 +97,6 @@ class TargetStage {
              TargetReport& report);
   void check(const Target& target, Record& record) const;
   const LabelledFrame& frame_of(const Target& target, const LabelledFrame& frame);
-  const LabelledFrame& late_frame(std::int64_t stamp);
   static void hold(const PlacedBody& body, const LabelledFrame& frame, Record& record,
                    TargetReport& report);
   Judgement judge_on(const LabelledFrame& frame, const Target& target, Record& record);
@@ -79,20 +107,14 @@ class TargetStage {
   Outcome feed(const TargetEstimate& estimate, std::int64_t stamp, TargetTrack& track);
 
   const Robot& robot_;
-  Camera camera_;  // of the judged images
-  TargetJudge judge_;
-  ObjectRenderers renderers_;
-  TargetViews views_;
+  SampleJudge& samples_;
+  std::optional<std::string> image_frame_;
   RecentValues<PoseResult> recent_poses_;
-  RecentDepth recent_depth_;
-  std::optional<FrameLabeller> late_labeller_;       // if target_history > 0
-  std::optional<LabelledFrame> late_;                // the last late frame labelled in this call
   std::unordered_map<std::string, Record> records_;  // by name
   std::deque<Record> nameless_;                      // of this call's targets without identity
   std::size_t calls_ = 0;
   std::optional<std::int64_t> newest_stamp_;
-  const LabelledFrame* judged_ = nullptr;  // the frame of the judge's begin()
-  std::vector<Record*> given_;             // of this call's targets
+  std::vector<Record*> given_;  // of this call's targets
   std::vector<TargetReport> reports_;
   std::optional<double> judge_ms_, track_ms_;
 };

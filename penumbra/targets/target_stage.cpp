@@ -5,31 +5,13 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/stamps.hpp>
-#include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/target_stage-inl.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/targets/attach_target-inl.hpp>
+#include <penumbra/targets/target_stage-inl.hpp>
+#include <penumbra/targets/target_views-inl.hpp>
 
 namespace penumbra {
 namespace {
-
-std::int64_t history_span(double seconds) {
-  if (seconds >= 0.0 && seconds <= PipelineConfig::max_target_history)
-    return static_cast<std::int64_t>(std::llround(seconds * 1e9));
-  throw InputError("target_history is " + std::to_string(seconds) + " s; expected 0 to " +
-                   std::to_string(PipelineConfig::max_target_history));
-}
-
-/// Returns the pixels of a rectified image that show nothing of the camera's image.
-ImageView<const std::uint8_t> unseen_pixels(const FrameLabeller& labeller) {
-  const auto& uncovered = labeller.uncovered();
-  return uncovered && labeller.rectifies() ? uncovered->mask() : ImageView<const std::uint8_t>{};
-}
-
-Camera without_distortion(Camera camera, const Intrinsics& intrinsics) {
-  camera.intrinsics = intrinsics;
-  camera.distortion = {};
-  return camera;
-}
 
 PoseResult poses_of_size(std::size_t links) {
   PoseResult poses;
@@ -41,20 +23,6 @@ PoseResult poses_of_size(std::size_t links) {
 bool is_modal(const Target& target) {
   const auto* region = std::get_if<RegionTarget>(&target.shape);
   return region != nullptr && region->extent == Extent::modal;
-}
-
-/// Returns whether its depth is known without a measurement.
-bool is_expected(const Target& target) {
-  if (const auto* region = std::get_if<RegionTarget>(&target.shape))
-    return region->expected_depth.has_value() || region->height.has_value();
-  if (const auto* keypoint = std::get_if<KeypointTarget>(&target.shape))
-    return keypoint->expected_depth.has_value();
-  return !std::holds_alternative<std::monostate>(target.shape);
-}
-
-std::string fault_of(const LabelledFrame& frame) {
-  if (frame.status == FrameStatus::ok) return std::string(frame.message);
-  return std::string(to_string(frame.status)) + ": " + std::string(frame.message);
 }
 
 /// Returns whether an estimate lies in the camera, as one computed from depth 0 does.
@@ -102,21 +70,12 @@ std::optional<TargetEstimate> own_estimate(const Target& target, const TargetRep
 
 }  // namespace
 
-TargetStage::TargetStage(const Robot& robot, const Camera& camera,
-                         const Rectification* rectification, const FrameLabeller& labeller,
-                         const PipelineConfig& config)
+TargetStage::TargetStage(const Robot& robot, SampleJudge& judge,
+                         std::optional<std::string> image_frame)
     : robot_(robot),
-      camera_(labeller.rectifies() ? without_distortion(camera, labeller.intrinsics()) : camera),
-      judge_(camera_, labeller.rule(), robot.links().size() + max_attached,
-             unseen_pixels(labeller)),
-      renderers_(labeller.render_intrinsics(), config.backend, config.renderer,
-                 labeller.rectifies() ? nullptr : rectification, camera),
-      views_(robot_, camera_, renderers_, labeller.rule(),
-             labeller.rectifies() ? nullptr : rectification),
-      recent_poses_(poses_of_size(robot.links().size())),
-      recent_depth_(history_span(config.target_history)) {
-  if (recent_depth_.is_enabled()) late_labeller_.emplace(robot, camera, rectification, config);
-}
+      samples_(judge),
+      image_frame_(std::move(image_frame)),
+      recent_poses_(poses_of_size(robot.links().size())) {}
 
 void TargetStage::judge(std::span<const Target> targets, const LabelledFrame& frame) {
   const StageTimer timer(judge_ms_);
@@ -136,14 +95,12 @@ void TargetStage::track(std::span<const Target> targets, const LabelledFrame& fr
 }
 
 void TargetStage::begin(std::span<const Target> targets, const LabelledFrame& frame) {
-  judged_ = nullptr;
-  late_.reset();
   if (const auto stamp = frame.stamp()) {
     if (newest_stamp_ && is_clock_jump(*stamp, *newest_stamp_)) forget_all();
     newest_stamp_ = std::max(newest_stamp_.value_or(*stamp), *stamp);
     recent_poses_.at(*stamp) = *frame.poses;
-    recent_depth_.keep(*stamp, frame.depth);
   }
+  samples_.begin(frame);
   std::erase_if(records_,
                 [&](const auto& known) { return calls_ - known.second.call > forgotten_after; });
   nameless_.clear();
@@ -202,9 +159,9 @@ void TargetStage::check(const Target& target, Record& record) const {
     record.track.emplace(target.handling);
   record.is_new = false;
   if (!target.fault.empty()) throw InputError(std::string(target.fault));
-  if (!target.frame_id.empty() && target.frame_id != camera_.frame_id)
-    throw InputError("belongs to image frame '" + std::string(target.frame_id) +
-                     "', the camera's is '" + camera_.frame_id + "'");
+  if (!target.frame_id.empty() && image_frame_ && target.frame_id != *image_frame_)
+    throw InputError("belongs to image frame '" + target.frame_id + "', the camera's is '" +
+                     *image_frame_ + "'");
   check_target(target);
   if (!target.estimate) return;
   const ReferenceFrame& frame = target.estimate->frame;
@@ -215,21 +172,10 @@ void TargetStage::check(const Target& target, Record& record) const {
 
 const LabelledFrame& TargetStage::frame_of(const Target& target, const LabelledFrame& frame) {
   const bool is_late = target.stamp && target.stamp != frame.stamp();
-  const LabelledFrame& seen = is_late ? late_frame(*target.stamp) : frame;
-  if (!seen.poses->known()) throw InputError(fault_of(seen));
+  const LabelledFrame& seen =
+      is_late ? samples_.earlier(*target.stamp, recent_poses_.find(*target.stamp)) : frame;
+  if (!seen.poses->known()) throw InputError(seen.fault());
   return seen;
-}
-
-/// Returns a stored frame, labelled again.
-const LabelledFrame& TargetStage::late_frame(std::int64_t stamp) {
-  if (!late_labeller_)
-    throw InputError("its stamp is not the frame's, and no frames are stored (target_history)");
-  if (late_ && late_->stamp() == stamp) return *late_;
-  const auto depth = recent_depth_.find(stamp);
-  const PoseResult* const poses = recent_poses_.find(stamp);
-  if (!depth || poses == nullptr) throw InputError("no frame of its stamp is stored");
-  judged_ = nullptr;
-  return late_.emplace(late_labeller_->label(*depth, *poses));
 }
 
 /// An attached body would hide itself. Afterwards the target is judged as a new one.
@@ -244,25 +190,19 @@ void TargetStage::hold(const PlacedBody& body, const LabelledFrame& frame, Recor
 }
 
 Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target, Record& record) {
-  if (frame.images.is_blind && !is_expected(target)) throw InputError(fault_of(frame));
-  const bool is_late = record.is_late(frame);
-  if (is_late && is_modal(target))
-    throw InputError("its stamp is before one that was judged: modal extents need stamps in order");
-  auto view = views_.view(target, frame.images, *frame.poses);
-  if (!view) {
-    Judgement outside;
-    outside.verdict = Verdict::out_of_view;
-    return outside;
+  if (record.is_late(frame)) {
+    if (is_modal(target))
+      throw InputError(
+          "its stamp is before one that was judged: modal extents need stamps in order");
+    return samples_.judge(frame, target, nullptr, {});  // the memory is of later frames
   }
-  if (judged_ != &frame) judge_.begin(frame.images);
-  judged_ = &frame;
-  if (is_late) return judge_.judge(*view);  // the memory is of later frames
+  std::optional<Eigen::Vector2d> motion;
+  if (is_modal(target) && record.good_pixel)
+    if (const auto pixel = track_pixel(*frame.poses, record)) motion = *pixel - *record.good_pixel;
+  Judgement judgement = samples_.judge(frame, target, &record.memory, motion);
   record.judged_poses = frame.poses;
   record.last_stamp = frame.stamp();
-  if (view->extent == Extent::modal && record.good_pixel)
-    if (const auto pixel = track_pixel(*frame.poses, record))
-      view->motion = *pixel - *record.good_pixel;
-  return judge_.judge(*view, record.memory);
+  return judgement;
 }
 
 /// With a missing link, anything that seems visible may be hidden by it, and any depth may be its
@@ -271,7 +211,7 @@ Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target
 void TargetStage::lower_trust(const LabelledFrame& frame, TargetReport& report) {
   if ((frame.images.is_blind || !frame.poses->reaches.empty()) &&
       report.verdict == Verdict::unknown)
-    report.reason = fault_of(frame);
+    report.reason = frame.fault();
   if (frame.poses->missing_links.empty()) return;
   Judgement& judgement = *report.judgement;
   report.point.reset();
@@ -290,7 +230,7 @@ std::optional<Eigen::Vector2d> TargetStage::track_pixel(const PoseResult& poses,
   if (!record.track || !poses.stamp) return std::nullopt;
   const HandledTarget handled = record.track->at(*poses.stamp, false);
   if (!handled.position) return std::nullopt;
-  return views_.project(poses.T_root_camera.inverse() * *handled.position);
+  return samples_.project(poses.T_root_camera.inverse() * *handled.position);
 }
 
 void TargetStage::track(const Target& target, const PoseResult& poses, Record& record,
@@ -336,7 +276,7 @@ void TargetStage::forget(std::string_view name) { records_.erase(std::string(nam
 void TargetStage::forget_all() {
   records_.clear();
   recent_poses_.clear();
-  recent_depth_.clear();
+  samples_.forget();
   newest_stamp_.reset();
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values that the pipeline's stages pass on. Each is complete when it is made.
+// The value that the pipeline's stages pass on. It is complete when it is made.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include <penumbra/base/image.hpp>
@@ -13,19 +14,24 @@
 
 namespace penumbra {
 
-/// A frame with its labels. Without a pose every pixel is unknown.
+/// A frame with its labels. Without a pose every pixel is unknown. A scan has no images.
 struct LabelledFrame {
   const PoseResult* poses = nullptr;
   FrameStatus status = FrameStatus::ok;
   std::string_view message;       ///< empty if the status is ok
   bool nothing_measured = false;  ///< the depth image has no pixel within the sensor's range
-  DepthView depth;                ///< the camera's image
+  DepthView depth = {};           ///< the camera's image
   LabelledImages images = {};     ///< for targets, which know why something is not drawn
   LabelView labels = {};          ///< the report's
   std::size_t uncovered = 0;      ///< PixelCounts::uncovered
   std::optional<double> render_ms = {}, classify_ms = {};
 
   [[nodiscard]] std::optional<std::int64_t> stamp() const { return poses->stamp; }
+  /// Returns one line about its fault.
+  [[nodiscard]] std::string fault() const {
+    return (status == FrameStatus::ok ? "" : std::string(to_string(status)) + ": ") +
+           std::string(message);
+  }
 };
 
 }  // namespace penumbra
