@@ -87,12 +87,6 @@ PixelState state_of(Label label, double range, const DepthLimits& limits, bool b
   }
 }
 
-std::string reason_of(const Visibility& seen, const TargetThresholds& thresholds) {
-  if (seen.is_passed(thresholds.past_limit))
-    return "the sensor looks past where most of it is expected";
-  return "too many of its rays are robot at its own distance, or fringe";
-}
-
 }  // namespace
 
 Judgement judge_on_rays(const LabelledRays& rays, const Target& target,
@@ -125,16 +119,13 @@ Judgement judge_on_rays(const LabelledRays& rays, const Target& target,
     if (range > static_cast<double>(limits.far)) ++seen.past;
   }
   seen.covered = seen.inside;
-  Judgement judgement = seen.judgement();
-  judgement.measured = seen.share(seen.measured);
-  judgement.hidden_by_other = seen.fraction(PixelState::other);
-  judgement.seen_past = seen.share(seen.past);
-  if (seen.inside < target.thresholds.point_min_pixels) {
+  const bool is_met = seen.inside >= target.thresholds.point_min_pixels;
+  TargetMemory unchanged = memory;
+  Judgement judgement = seen.judge(target.thresholds, is_met ? memory : unchanged);
+  if (!is_met) {
+    judgement.verdict = Verdict::unknown;
     judgement.reason = std::to_string(seen.inside) + " measured rays of the scan meet it";
-    return judgement;
   }
-  judgement.verdict = decide(seen, target.thresholds, memory);
-  if (judgement.verdict == Verdict::unknown) judgement.reason = reason_of(seen, target.thresholds);
   return judgement;
 }
 

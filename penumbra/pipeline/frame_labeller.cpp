@@ -72,14 +72,15 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
   LabelledFrame frame{
       .poses = &poses, .status = poses.status, .message = poses.message, .depth = depth};
   LabelledImages& images = frame.images;
-  images.is_blind = true;
+  images.evidence = Evidence::none;
   if (!poses.known()) {
     images.labels = frame.labels = unknown_labels();
     frame.uncovered = uncovered_ ? uncovered_->count() : 0;
     return frame;
   }
   if (has_depth_ && has_depth(frame.status)) frame.status = worse(frame.status, check(frame));
-  images.is_blind = !has_depth(frame.status);
+  if (has_depth(frame.status))
+    images.evidence = has_depth_ ? Evidence::measured : Evidence::assumed_free;
   VirtualDepthView robot;
   {
     const StageTimer timer(frame.render_ms);
@@ -88,13 +89,13 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
   }
   {
     const StageTimer timer(frame.classify_ms);
-    if (has_depth_ && !images.is_blind)
+    if (images.evidence == Evidence::measured)
       images.measured = rectified_depth_ ? rectified_depth_->rectify(depth) : depth;
     images.labels = classify(images.virtual_depth, images.measured);
     if (!poses.reaches.empty()) add_reaches(images, robot, poses);
   }
   frame.labels = images.labels;
-  if (!poses.missing_links.empty() || (has_depth_ && images.is_blind))
+  if (!poses.missing_links.empty() || (has_depth_ && images.evidence == Evidence::none))
     frame.labels = without_trusted(images.labels);
   frame.uncovered = uncovered_ ? uncovered_->marked() : 0;
   return frame;

@@ -54,7 +54,8 @@ ImageJudge::ImageJudge(const Robot& robot, const Camera& camera, const Rectifica
 
 Judgement ImageJudge::judge(const LabelledFrame& frame, const Target& target, TargetMemory* memory,
                             const std::optional<Eigen::Vector2d>& motion) {
-  if (frame.images.is_blind && !is_expected(target)) throw InputError(frame.fault());
+  if (frame.images.evidence == Evidence::none && !is_expected(target))
+    throw InputError(frame.fault());
   auto view = views_.view(target, frame.images, *frame.poses);
   if (!view) {
     Judgement outside;

@@ -30,13 +30,6 @@ Camera rectified(Camera camera, const std::optional<Rectification>& rectificatio
   return camera;
 }
 
-/// Nothing is measured, so that nothing can be missed or passed.
-TargetThresholds without_measurements(TargetThresholds thresholds) {
-  thresholds.past_limit = 1.0;
-  thresholds.min_measured = 0.0;
-  return thresholds;
-}
-
 LabelRule within_range(LabelRule rule) {
   rule.range = {};
   return rule;
@@ -119,7 +112,6 @@ AnchoredTarget anchored(const ForecastTarget& given, const Camera& camera,
   target.has_identity = false;  // each time is judged alone
   target.handling = {};
   target.estimate.reset();
-  target.thresholds = without_measurements(target.thresholds);
   const auto at = placement_of(target.shape);
   if (at && at->frame.kind == ReferenceFrame::Kind::camera)
     place(target.shape, {T_root_camera * at->pose, ReferenceFrame::root()});
@@ -325,7 +317,8 @@ void CameraPredictor::set_limits(const TargetView& view, double depth, SeenTarge
   shown.spans.assign(spans_.spans().begin(), spans_.spans().end());
   if (shown.spans.empty()) return;
   shown.region = rectangle_of(shown.spans);
-  shown.whole = {.covered = spans_.covered(), .inside = spans_.inside()};
+  shown.whole = {
+      .evidence = Evidence::assumed_free, .covered = spans_.covered(), .inside = spans_.inside()};
   shown.whole.pixels[PixelState::clear] = spans_.inside();
   shown.whole.is_expected = std::isfinite(depth);
   const LimitRule rule(label_rule_, view.depth_margin);
@@ -348,17 +341,14 @@ Prediction CameraPredictor::judge(std::size_t target, bool is_near) {
   Prediction prediction{.verdict = Verdict::out_of_view, .clearance = free_};
   if (shown.spans.empty()) return prediction;
   links_.clear();
-  const Visibility visibility = is_near ? tally(shown) : shown.whole;
+  Visibility visibility = is_near ? tally(shown) : shown.whole;
+  visibility.links = &links_;
   TargetMemory none;
-  prediction.verdict = decide(visibility, targets_[target].thresholds, none);
-  prediction.hidden = visibility.fraction(PixelState::occluded);
-  if (prediction.hidden > 0.0)
-    prediction.by = parts_[links_.blame(visibility.inside).front().link].name;
-  if (prediction.verdict == Verdict::unknown)
-    prediction.reason =
-        visibility.is_expected
-            ? "too much of it is at the robot's own depth"
-            : "the robot is before or behind it: give its expected_depth, or its height";
+  Judgement judgement = visibility.judge(targets_[target].thresholds, none);
+  prediction.verdict = judgement.verdict;
+  prediction.hidden = judgement.occluded;
+  prediction.reason = std::move(judgement.reason);
+  if (prediction.hidden > 0.0) prediction.by = parts_[judgement.blame.front().link].name;
   const PixelState blocked = visibility.is_expected ? PixelState::occluded : PixelState::unknown;
   if (is_near && clearance_ > 0)
     prediction.clearance =

@@ -70,9 +70,7 @@ struct TalliedFrame {
   TalliedFrame(const LabelledImages& judged, const labelling::Rule& label_rule, bool has_outside);
 
   [[nodiscard]] bool has_pose() const { return !images.virtual_depth.depth.empty(); }
-  [[nodiscard]] bool is_measured() const {
-    return std::visit([](const auto& depth) { return !depth.empty(); }, images.measured);
-  }
+  [[nodiscard]] bool is_measured() const { return images.evidence == Evidence::measured; }
   /// Returns whether the robot may lie in the pixels [u0, u1] x [v0, v1], clipped to the image. It
   /// may lie anywhere outside the lens model.
   [[nodiscard]] bool robot_may_lie_in(int u0, int u1, int v0, int v1) const;

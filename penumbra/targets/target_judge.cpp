@@ -47,27 +47,6 @@ bool is_uncovered(const TalliedFrame& frame, std::span<const RowSpan> extent, st
   return 2 * uncovered > unknown;
 }
 
-std::string_view reason_for_unknown(const Visibility& visibility,
-                                    const TargetThresholds& thresholds, bool is_uncovered) {
-  if (!visibility.has_pose) return "the robot's pose is not known in this frame";
-  if (!visibility.has_whole)
-    return "it was not seen whole away from the robot: how much of it the robot hides is not "
-           "known; "
-           "give its expected_depth or height, or the full extent as amodal";
-  if (visibility.is_missing)
-    return "its mask is smaller than the whole target, and the robot is next to it";
-  if (visibility.is_expected && visibility.is_passed(thresholds.past_limit))
-    return "the sensor looks past where most of it is expected: it is absent or transparent, or "
-           "its "
-           "expected depth is wrong";
-  if (visibility.is_expected && visibility.is_unmeasured(thresholds.min_measured))
-    return "hardly anything is measured where it is expected; min_measured: 0 allows that";
-  if (is_uncovered) return "too much of it lies where the lens model does not reach";
-  if (visibility.is_expected)
-    return "too much of it is robot without measurement, or at the robot's own depth";
-  return "too much of it is robot without measurement; give expected_depth, or its height";
-}
-
 /// As detail::median(), for values of at least 0, in a third of the time: counts them by the bits
 /// of the range that they lie in, and keeps those of the median's bits.
 float median_size(std::vector<float>& values) {
@@ -174,7 +153,9 @@ void TargetJudge::begin(const LabelledImages& images) {
   check("label image", images.labels.labels, false);
   check("virtual depth image", images.virtual_depth.depth, true);
   check("link image", images.virtual_depth.links, true);
-  std::visit([&](const auto& depth) { check("depth image", depth, true); }, images.measured);
+  const bool is_measured = images.evidence == Evidence::measured;
+  std::visit([&](const auto& depth) { check("depth image", depth, !is_measured); },
+             images.measured);
   state_->frame = TalliedFrame(images, state_->rule, state_->frame.is_outside_undrawn);
   state_->robot.begin(state_->frame);
   state_->has_frame = true;
@@ -206,20 +187,10 @@ Judgement TargetJudge::State::judge_at_depth(const TargetView& target, TargetMem
   const bool wants_depths = target.wants_point && frame.is_measured();
   const Visibility visibility =
       observer.observe({frame, target, expected, robot, wants_depths}, memory);
-  Judgement judgement = visibility.judgement();
-  judgement.verdict = decide(visibility, target.thresholds, memory);
-  if (frame.is_measured() && visibility.has_pose) {
-    judgement.measured = visibility.share(visibility.measured);
-    if (expected.known()) judgement.hidden_by_other = visibility.fraction(PixelState::other);
-    if (expected.known()) judgement.seen_past = visibility.share(visibility.past);
-  }
-  if (judgement.verdict == Verdict::unknown) {
-    const bool has_lens = !camera.distortion.is_none();
-    judgement.reason =
-        reason_for_unknown(visibility, target.thresholds,
-                           has_lens && is_uncovered(frame, observer.seen().spans(),
-                                                    visibility.pixels[PixelState::unknown]));
-  }
+  Judgement judgement = visibility.judge(target.thresholds, memory);
+  if (judgement.verdict == Verdict::unknown && !camera.distortion.is_none() &&
+      is_uncovered(frame, observer.seen().spans(), visibility.pixels[PixelState::unknown]))
+    judgement.reason = "too much of it lies where the lens model does not reach";
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
     observer.remember(target, memory);
   if (wants_depths) add_point(target, judgement);

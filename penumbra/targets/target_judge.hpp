@@ -21,13 +21,19 @@
 
 namespace penumbra {
 
+/// What a frame tells of things other than the robot.
+enum class Evidence {
+  measured,     ///< their depth is measured
+  none,         ///< it is not, though it should be: what the robot does not hide is unknown
+  assumed_free  ///< nothing else hides anything: a camera without depth, and what is planned
+};
+
 /// One frame's images, all of one size. They must stay valid until the next frame's are passed.
 struct LabelledImages {
   LabelView labels;
   VirtualDepthView virtual_depth;  ///< empty if the robot's pose is unknown: all is unknown
-  DepthView measured;              ///< empty: no points, nothing is hidden by other objects, and
-                                   ///< nothing need be measured
-  bool is_blind = false;           ///< no usable depth: whatever the robot does not hide is unknown
+  DepthView measured;              ///< empty unless that is the evidence
+  Evidence evidence = Evidence::measured;
   /// Values of the link image where a link of unknown pose could be: it may hide the target or not.
   std::span<const std::uint16_t> unplaced = {};
 };

@@ -209,7 +209,7 @@ Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target
 /// own. Without depth, whatever the robot does not hide is unknown, and so is what a link of
 /// unknown pose could hide.
 void TargetStage::lower_trust(const LabelledFrame& frame, TargetReport& report) {
-  if ((frame.images.is_blind || !frame.poses->reaches.empty()) &&
+  if ((frame.images.evidence == Evidence::none || !frame.poses->reaches.empty()) &&
       report.verdict == Verdict::unknown)
     report.reason = frame.fault();
   if (frame.poses->missing_links.empty()) return;

@@ -38,12 +38,13 @@ struct Visibility {
   [[nodiscard]] bool is_unmeasured(double least) const {
     return static_cast<double>(measured) < least * static_cast<double>(measured + unmeasured);
   }
-  /// Returns the counts and shares of a judgement.
-  [[nodiscard]] Judgement judgement() const;
+  /// Returns the judgement by these thresholds, without a point, and updates `memory.level`.
+  [[nodiscard]] Judgement judge(const TargetThresholds& thresholds, TargetMemory& memory) const;
   /// Turns up to `count` pixels of a state into unknown, and subtracts them from `count`.
   void mark_unknown(PixelState state, std::size_t& count);
   void mark_all_unknown();  ///< all clear and front pixels
 
+  Evidence evidence = Evidence::measured;
   std::size_t covered = 0, inside = 0;
   StateCounts pixels{};                ///< inside
   std::size_t measured = 0, past = 0;  ///< as in ExtentTally
@@ -121,9 +122,5 @@ class ExtentObserver {
   Eigen::Vector2d moved_{0, 0};      // of that
   bool is_near_robot_ = false;
 };
-
-/// Returns the verdict and updates `memory.level`.
-[[nodiscard]] Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
-                             TargetMemory& memory);
 
 }  // namespace penumbra

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include <penumbra/targets/target_visibility-inl.hpp>
 
@@ -36,6 +37,47 @@ bool is_seen_enough(const Visibility& visibility, Verdict level, const TargetThr
   if (visibility.seen() <= least) return false;
   return !visibility.is_expected ||
          !(visibility.is_passed(t.past_limit) || visibility.is_unmeasured(t.min_measured));
+}
+
+Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
+               TargetMemory& memory) {
+  if (is_out_of_view(visibility, thresholds)) return Verdict::out_of_view;
+  if (!visibility.has_pose) return Verdict::unknown;
+  const double hidden = visibility.hidden(thresholds.others_hide);
+  const double unknown =
+      visibility.has_whole ? visibility.fraction(PixelState::unknown) : 1 - hidden;
+  // Missing pixels are not seen: unknown_limit does not apply then.
+  const bool is_uncertain = !visibility.has_whole || visibility.is_missing;
+  const double limit =
+      is_uncertain ? 0 : thresholds.unknown_limit.value_or(thresholds.partial_enter);
+  const Verdict level = next_level(memory.level, hidden, thresholds);
+  if (unknown > limit && next_level(memory.level, hidden + unknown, thresholds) != level)
+    return Verdict::unknown;
+  if (!is_seen_enough(visibility, level, thresholds)) return Verdict::unknown;
+  memory.level = level;
+  return level;
+}
+
+std::string_view reason_for_unknown(const Visibility& visibility,
+                                    const TargetThresholds& thresholds) {
+  if (!visibility.has_pose) return "the robot's pose is not known in this frame";
+  if (!visibility.has_whole)
+    return "it was not seen whole away from the robot: how much of it the robot hides is not "
+           "known; give its expected_depth or height, or the full extent as amodal";
+  if (visibility.is_missing)
+    return "its mask is smaller than the whole target, and the robot is next to it";
+  const bool is_assumed = visibility.evidence == Evidence::assumed_free;
+  if (!visibility.is_expected)
+    return is_assumed
+               ? "the robot is before or behind it: give its expected_depth, or its height"
+               : "too much of it is robot without measurement; give expected_depth, or its height";
+  if (visibility.is_passed(thresholds.past_limit))
+    return "the sensor looks past where most of it is expected: it is absent or transparent, or "
+           "its expected depth is wrong";
+  if (visibility.is_unmeasured(thresholds.min_measured))
+    return "hardly anything is measured where it is expected; min_measured: 0 allows that";
+  return is_assumed ? "too much of it is at the robot's own depth"
+                    : "too much of it is robot without measurement, or at the robot's own depth";
 }
 
 Eigen::Array2d first_of(const SpanBox& box) { return {box.u0, box.v0}; }
@@ -106,7 +148,8 @@ Visibility ExtentObserver::observe_extent(const TargetInFrame& at, const RegionS
                                           RobotSurroundings* robot, ExtentTally& tally) {
   tally_extent(at.frame, extent.spans(), at.expected, at.target.thresholds.beyond_hides, robot,
                tally);
-  Visibility visibility{.covered = extent.covered(),
+  Visibility visibility{.evidence = at.frame.images.evidence,
+                        .covered = extent.covered(),
                         .inside = extent.inside(),
                         .pixels = tally.pixels,
                         .measured = tally.measured,
@@ -114,7 +157,7 @@ Visibility ExtentObserver::observe_extent(const TargetInFrame& at, const RegionS
                         .is_expected = at.expected.known(),
                         .links = &tally.links};
   if (at.frame.is_measured()) visibility.unmeasured = visibility.seen() - visibility.measured;
-  if (at.frame.images.is_blind) visibility.mark_all_unknown();
+  if (visibility.evidence == Evidence::none) visibility.mark_all_unknown();
   return visibility;
 }
 
@@ -138,7 +181,8 @@ std::optional<double> ExtentObserver::depth_by_height(const TargetInFrame& at,
 Visibility ExtentObserver::observe(const TargetInFrame& at, TargetMemory& memory) {
   if (!at.frame.has_pose()) {
     seen_tally_.clear();
-    Visibility none{.covered = seen_.covered(),
+    Visibility none{.evidence = at.frame.images.evidence,
+                    .covered = seen_.covered(),
                     .inside = seen_.inside(),
                     .links = &seen_tally_.links,
                     .has_pose = false};
@@ -233,8 +277,11 @@ void ExtentObserver::remember(const TargetView& target, TargetMemory& memory) co
   memory.moved.setZero();
 }
 
-Judgement Visibility::judgement() const {
+Judgement Visibility::judge(const TargetThresholds& thresholds, TargetMemory& memory) const {
   Judgement judgement;
+  judgement.verdict = decide(*this, thresholds, memory);
+  if (judgement.verdict == Verdict::unknown)
+    judgement.reason = reason_for_unknown(*this, thresholds);
   judgement.covered = covered;
   judgement.inside = inside;
   judgement.occluded = fraction(PixelState::occluded);
@@ -242,26 +289,12 @@ Judgement Visibility::judgement() const {
   judgement.unknown = fraction(PixelState::unknown);
   judgement.clear = fraction(PixelState::clear);
   judgement.blame = links->blame(inside);
+  if (evidence != Evidence::measured || !has_pose) return judgement;
+  judgement.measured = share(measured);
+  if (!is_expected) return judgement;
+  judgement.hidden_by_other = fraction(PixelState::other);
+  judgement.seen_past = share(past);
   return judgement;
-}
-
-Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
-               TargetMemory& memory) {
-  if (is_out_of_view(visibility, thresholds)) return Verdict::out_of_view;
-  if (!visibility.has_pose) return Verdict::unknown;
-  const double hidden = visibility.hidden(thresholds.others_hide);
-  const double unknown =
-      visibility.has_whole ? visibility.fraction(PixelState::unknown) : 1 - hidden;
-  // Missing pixels are not seen: unknown_limit does not apply then.
-  const bool is_uncertain = !visibility.has_whole || visibility.is_missing;
-  const double limit =
-      is_uncertain ? 0 : thresholds.unknown_limit.value_or(thresholds.partial_enter);
-  const Verdict level = next_level(memory.level, hidden, thresholds);
-  if (unknown > limit && next_level(memory.level, hidden + unknown, thresholds) != level)
-    return Verdict::unknown;
-  if (!is_seen_enough(visibility, level, thresholds)) return Verdict::unknown;
-  memory.level = level;
-  return level;
 }
 
 }  // namespace penumbra

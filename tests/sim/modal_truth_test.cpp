@@ -120,7 +120,8 @@ class ModalBench {
   void judge_alone(const SimFrame& frame, const std::vector<Case>& cases) {
     const Mask labels(frame.ids.width(), frame.ids.height());
     const Image<float> nothing(frame.ids.width(), frame.ids.height());
-    judge_.begin({{labels.view(), {}, nullptr}, {nothing.view(), {}, nullptr}, {}});
+    judge_.begin(
+        {{labels.view(), {}, nullptr}, {nothing.view(), {}, nullptr}, {}, Evidence::assumed_free});
     for (const Case& one : cases) {
       memories_[one.name] = {};
       EXPECT_EQ(judge_.judge(target_of(one.before), memories_[one.name]).verdict, Verdict::visible)

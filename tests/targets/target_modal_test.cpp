@@ -115,7 +115,8 @@ TEST_F(ModalTargets, AreAsLargeAsTheirDepthSays) {
     target.expected_depth = z;
     target.thresholds.min_measured = 0;
     LabelledImages images = frame.images();
-    images.measured = {};  // the wall would not move with the target
+    images.evidence = Evidence::assumed_free;  // the wall would not move with the target
+    images.measured = {};
     judge.begin(images);
     return judge.judge(target, memory);
   };
