@@ -13,6 +13,8 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/assembly/bag_topics.hpp>
+#include <io/assembly/joint_names.hpp>
+#include <io/files/recording.hpp>
 #include <io/files/settings.hpp>
 #include <io/live/cloud_text.hpp>
 
@@ -70,15 +72,19 @@ class Declaration {
                        described.additional_constraints);
     return found->second;
   }
-  /// Declares a list of "KEY=VALUE".
-  std::map<std::string, std::string> pairs(const std::string& name,
-                                           const std::string& description) {
-    std::map<std::string, std::string> pairs;
+  /// Declares a list of "KEY=VALUE". `repeats`: a key may have several values.
+  std::multimap<std::string, std::string> pairs(const std::string& name,
+                                                const std::string& description,
+                                                bool repeats = false) {
+    std::multimap<std::string, std::string> pairs;
     for (const std::string& text : (*this)(name, Texts{}, description)) {
       const auto mark = text.find('=');
       if (mark == 0 || mark == std::string::npos)
         throw InputError("parameter '" + name + "': '" + text + "' is not of the form NAME=VALUE");
-      pairs[text.substr(0, mark)] = text.substr(mark + 1);
+      const std::string key = text.substr(0, mark);
+      if (!repeats && pairs.count(key) > 0)
+        throw InputError("parameter '" + name + "': '" + key + "' is given twice");
+      pairs.emplace(key, text.substr(mark + 1));
     }
     return pairs;
   }
@@ -159,7 +165,7 @@ penumbra::RobotOptions declare_robot(Declaration& declare) {
        declare.pairs("margins", "LINK=METRES: by how much links are drawn larger; patterns"))
     robot.margins[link] = to_number("margins", metres);
   for (const auto& [link, mesh] :
-       declare.pairs("extra", "LINK=FILE: meshes that links carry and the URDF lacks"))
+       declare.pairs("extra", "LINK=FILE: meshes that links carry and the URDF lacks", true))
     robot.extra.push_back({link, mesh});
   return robot;
 }
@@ -179,6 +185,7 @@ penumbra::io::CameraInputOptions declare_poses(Declaration& declare,
       declare("joint_names", std::string(),
               "the joints' names in joint states, if they differ: left/*=* if those begin with "
               "left/");
+  static_cast<void>(penumbra::io::JointNames(live.robot.joint_names));  // throws
   common.mount.frame_prefix =
       declare("frame_prefix", std::string(), "before link names in TF, as robot_state_publisher's");
   using penumbra::io::HiddenTargets;
@@ -224,9 +231,11 @@ void declare_topics(rclcpp_lifecycle::LifecycleNode& node, Declaration& declare,
   const Texts robots =
       declare("robot_namespaces", Texts{},
               "of several robots: topics NS/robot_description, NS/joint_states, frames NS/LINK");
-  if (!robots.empty())
+  if (!robots.empty()) {
+    penumbra::io::check_robots_of(live.robot.robot.joints, robots);
     penumbra::io::set_robots(live, robots,
                              [&](const std::string& name) { return resolved(node, name); });
+  }
   live.target_topics = resolved(
       node, declare("target_topics", Texts{},
                     "Detection2DArray, Detection3DArray, Keypoints or PoseStamped to judge"));

@@ -5,8 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <mutex>
 
@@ -16,31 +14,24 @@
 #include <lifecycle_msgs/msg/state.hpp>
 #include <rclcpp_components/node_factory.hpp>
 
-#include <io/files/png.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 
 namespace penumbra_ros::test {
 namespace {
 
-TEST_F(NodeTest, LabelsAreThoseOfTheCommandLine) {
-  const auto out =
-      std::filesystem::temp_directory_path() / ("penumbra_" + std::to_string(getpid()));
-  ASSERT_EQ(std::system((PENUMBRA_PROGRAM " run " + example + " -o " + out.string() +
-                         " --save labels >/dev/null")
-                            .c_str()),
-            0);
+TEST_F(NodeTest, LabelsAreThoseOfTheLibrary) {
   start();
+  penumbra::Pipeline pipeline(player_->robot, player_->recording.camera.camera,
+                              player_->recording.pipeline_config());
   for (std::size_t i = 0; i < player_->reader.size(); ++i) {
     const auto labels = labels_of(i);
     ASSERT_TRUE(labels) << i;
-    char name[16];
-    std::snprintf(name, sizeof(name), "%06d.png", static_cast<int>(player_->reader.index(i)));
-    penumbra::Image<std::uint8_t> expected;
-    const auto read = penumbra::io::read_png(out / "labels" / name, expected);
     ASSERT_EQ(labels->encoding, "8UC1");
-    const auto* first = expected.view().data;
-    EXPECT_TRUE(std::equal(labels->data.begin(), labels->data.end(), first)) << i;
+    const penumbra::Frame frame = player_->reader.read(i, false);
+    const auto expected = pipeline.process(frame).labels;
+    ASSERT_EQ(labels->data.size(), std::size_t(expected.width) * expected.height);
+    EXPECT_TRUE(std::equal(labels->data.begin(), labels->data.end(), expected.data)) << i;
   }
-  std::filesystem::remove_all(out);
 }
 
 TEST_F(NodeTest, CameraInfoAndMarkersComeWithTheLabels) {
@@ -133,6 +124,31 @@ TEST_F(NodeTest, ReadsItsParametersWhenItIsConfigured) {
   EXPECT_TRUE(spin_until([&] { return player_->node->count_subscribers("/other") == 1; }));
 }
 
+TEST_F(NodeTest, HoldsAJointOfNoTopicAndReadsOtherNamesAndUnits) {
+  start();
+  const auto usual = labels_of(0);
+  ASSERT_TRUE(usual);
+  const auto labels_with = [&](const rclcpp::Parameter& parameter) {
+    node_->deactivate();
+    node_->cleanup();
+    EXPECT_TRUE(node_->set_parameter(parameter).successful) << parameter;
+    node_->configure();
+    node_->activate();
+    EXPECT_TRUE(spin_until([&] { return player_->is_heard(); }));
+    const auto labels = labels_of(0);
+    return labels ? labels->data : Image::_data_type();
+  };
+  player_->unheard = "gripper_left";
+  player_->before_names = "left/";
+  const auto without = labels_with({"joint_names", "left/*=*"});
+  ASSERT_EQ(without.size(), usual->data.size());
+  EXPECT_NE(without, usual->data) << "the fingers are not known";
+  EXPECT_EQ(labels_with({"joints", std::vector<std::string>{"gripper_left=0.01"}}), usual->data);
+  const auto twice_as_far = labels_with({"depth_scale", 0.002});
+  ASSERT_EQ(twice_as_far.size(), usual->data.size());
+  EXPECT_NE(twice_as_far, usual->data);
+}
+
 /// Moves the arm's first joint to an angle in two seconds.
 trajectory_msgs::msg::JointTrajectory turn(double angle) {
   trajectory_msgs::msg::JointTrajectory motion;
@@ -155,10 +171,11 @@ TEST_F(NodeTest, LooksAheadAtMotions) {
   // The can has no expected depth: behind the arm it is unknown, away from it visible.
   LookAhead::Response::SharedPtr found;
   ASSERT_TRUE(spin_until([&] {  // the first detections may be lost
-    found = labels_of(0) ? ask({turn(0.3), turn(-1.5)}) : nullptr;
+    found = labels_of(0) ? ask({turn(0.3), turn(-3.2)}) : nullptr;
     return found && !found->forecasts.empty() && !found->forecasts[0].targets.empty();
   }));
   ASSERT_TRUE(found->success) << found->message;
+  EXPECT_EQ(found->message.find("trajectories[1]: "), 0U) << "it goes beyond the joint's limit";
   ASSERT_EQ(found->forecasts.size(), 2U);
   EXPECT_EQ(found->order, (std::vector<std::uint32_t>{1, 0}));
   EXPECT_GT(found->forecasts[1].seen, found->forecasts[0].seen);
@@ -380,7 +397,11 @@ TEST(Node, RefusesWhatItDoesNotUnderstandInOneLine) {
   for (const std::string arguments :
        {"--fast", "--ros-args -p geometry:=both", "--ros-args -p robot:=/none.urdf",
         "--ros-args -p margins:=\"['gripper']\"", "--ros-args -p has_depth:=false",
-        "--ros-args -p front_min_width:=-5", "--ros-args -p clouds:=\"['/points sensor=eyes']\"",
+        "--ros-args -p joints:=\"['gripper_left=wide']\"",
+        "--ros-args -p joints:=\"['elbow=0', 'elbow=1']\"", "--ros-args -p joint_names:=left/",
+        "--ros-args -p robot_namespaces:=\"['left']\" -p joints:=\"['elbow=0']\"",
+        "--ros-args -p depth_scale:=-0.001", "--ros-args -p front_min_width:=-5",
+        "--ros-args -p clouds:=\"['/points sensor=eyes']\"",
         "--ros-args -p cameras.left.color_topic:=/image"}) {
     const std::string command = PENUMBRA_NODE " " + arguments + " 2>&1";
     FILE* pipe = popen(command.c_str(), "r");

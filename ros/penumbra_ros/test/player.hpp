@@ -78,8 +78,11 @@ class Player {
     const rclcpp::Time stamp(*data.stamp + later);
     sensor_msgs::msg::JointState joints;
     joints.header.stamp = stamp;
-    joints.name.assign(robot.variables().begin(), robot.variables().end());
-    joints.position = data.pose.positions;
+    for (std::size_t i = 0; i < robot.variables().size(); ++i) {
+      if (robot.variables()[i] == unheard) continue;
+      joints.name.push_back(before_names + robot.variables()[i]);
+      joints.position.push_back(data.pose.positions[i]);
+    }
     joints_->publish(joints);
     const auto pixels = std::get<penumbra::ImageView<const std::uint16_t>>(data.depth.view);
     sensor_msgs::msg::CameraInfo info;
@@ -152,6 +155,8 @@ class Player {
   penumbra::io::Recording recording;
   penumbra::Robot robot;
   penumbra::io::FrameReader reader;
+  std::string unheard;       ///< a joint that no joint state has
+  std::string before_names;  ///< of the others in joint states
 
  private:
   rclcpp::Publisher<std_msgs::msg::String>::SharedPtr description_;
