@@ -114,7 +114,7 @@ std::shared_ptr<CloudSetup> CloudInput::make_setup(CameraMount mount) {
                                           .camera_parent = mount.parent,
                                           .camera_frame = mount.frame}};
   return std::make_shared<CloudSetup>(
-      robot_.posed(), std::move(mount), frame_, queue,
+      robot_.posed(), std::move(mount), frame_, queue, options_.hidden_targets,
       [this](std::shared_ptr<Frame> cloud, DropReason reason) {
         if (!options_.known) return counts_.drop(reason);
         cloud->source_message = "not labelled: " + std::string(to_string(reason));

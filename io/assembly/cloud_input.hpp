@@ -40,6 +40,7 @@ struct CloudInputOptions {
   std::size_t max_frames = 8;  ///< likewise
   CloudOutput output = {};     ///< what LiveRunner publishes
   bool has_targets = false;    ///< keeps clouds for targets that come later
+  HiddenTargets hidden_targets = HiddenTargets::not_handled;
   /// Set for bags: every cloud is given out; one that cannot be labelled says so
   /// (DropPolicy::every). Not set for live topics: the setup follows what is received, and the
   /// newest cloud is given (DropPolicy::newest).
@@ -55,12 +56,12 @@ struct CloudInputOptions {
 struct CloudSetup {
   /// `frame`: of the clouds.
   CloudSetup(std::shared_ptr<PosedRobot> of, CameraMount where, const std::string& frame,
-             const FrameQueueOptions& options, FrameQueue::OnDrop on_drop)
+             const FrameQueueOptions& options, HiddenTargets hidden, FrameQueue::OnDrop on_drop)
       : posed(std::move(of)),
         mount(std::move(where)),
         poses(options.poses),
         queue(posed->robot, posed->history, options, std::move(on_drop)),
-        targets(posed->robot, frame, options.poses.frame_prefix) {}
+        targets(posed->robot, frame, options.poses.frame_prefix, hidden) {}
 
   const std::shared_ptr<PosedRobot> posed;
   const CameraMount mount;

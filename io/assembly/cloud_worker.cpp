@@ -39,7 +39,7 @@ void CloudWorker::with_scan(const ReceivedCloud& cloud,
   };
   PoseHistory& history = setup_->posed->history;
   const auto pose_stamp = [this](std::int64_t stamp) { return setup_->queue.pose_stamp(stamp); };
-  Scan scan{.stamp = cloud.header.stamp,
+  Scan scan{.stamp = cloud.header.stamp > 0 ? std::optional(cloud.header.stamp) : std::nullopt,
             .points = cloud.points.points,
             .times = cloud.points.times,
             .targets = cloud.targets};

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -36,7 +35,7 @@ std::string DepthInput::read(AssembledFrame& job) {
   if (fault.empty()) fault = bring(job, job.depth.view);
   if (!fault.empty()) {
     job.source_status = FrameStatus::bad_depth;
-    job.depth = empty_;
+    job.depth = DepthView();
   }
   return undecoded;
 }
@@ -51,7 +50,6 @@ std::string DepthInput::decode(const KeptImage& image, DepthView& depth) {
         [this](const auto& view) { return shared_depth_of(copy_of(view), scale_); }, depth);
     depth = scaled_.view;
   }
-  std::visit([this](const auto& view) { empty_ = std::decay_t<decltype(view)>(); }, depth);
   return {};
 }
 
@@ -67,7 +65,7 @@ std::string DepthInput::bring(const AssembledFrame& from, DepthView& depth) {
   }
   if (!registration_) return {};
   if (!has_pose(from.pose.status)) {
-    depth = empty_;  // the depth camera's position is not known
+    depth = DepthView();  // the depth camera's position is not known
     return {};
   }
   if (from.T_judged_depth.status != TransformStatus::ok)

@@ -36,7 +36,6 @@ class DepthInput {
   Image<float> z_of_ray_;        // as in FrameReader
   DecodedDepth decoded_;
   SharedDepth scaled_, along_z_;
-  DepthView empty_;  // of the images' pixel type
 };
 
 }  // namespace penumbra::io

@@ -13,4 +13,7 @@ namespace penumbra::io {
 [[nodiscard]] Json cloud_frame_json(const CloudReport& report, std::uint64_t index,
                                     const std::string& fault);
 
+/// Returns "summary" of report.json.
+[[nodiscard]] Json cloud_summary_json(const CloudSummary& summary);
+
 }  // namespace penumbra::io

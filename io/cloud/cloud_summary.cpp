@@ -14,6 +14,7 @@ void CloudSummary::add(const CloudReport& report, const std::string& fault, doub
   if (body_note.empty()) body_note = report.note;
   for (const TargetReport& target : report.targets)
     if (target_note.empty()) target_note = target.note;
+  not_handled += std::ranges::any_of(report.targets, &TargetReport::wants_stamp) ? 1 : 0;
   for (std::size_t i = 0; i < label_count; ++i) points[i] += report.points[i];
   parts = std::max(parts, report.parts);
   milliseconds += elapsed;
@@ -30,6 +31,9 @@ std::vector<std::string> CloudSummary::warnings() const {
   std::vector<std::string> lines;
   for (const std::string& note : {body_note, target_note})
     if (!note.empty()) lines.push_back(note);
+  if (not_handled > 0)
+    lines.push_back("targets that want handling in " + std::to_string(not_handled) +
+                    " clouds without a stamp: they are not handled there");
   const auto of = [&](Label label) {
     return static_cast<double>(points[static_cast<std::size_t>(label)]);
   };
@@ -63,6 +67,20 @@ Json counts_by_label(const std::array<std::size_t, label_count>& points) {
   for (std::size_t i = 0; i < label_count; ++i)
     counts[std::string(point_label_names[i])] = points[i];
   return counts;
+}
+
+Json cloud_summary_json(const CloudSummary& summary) {
+  Json faults = Json::array();
+  for (const auto& [status, clouds] : summary.statuses)
+    if (status != FrameStatus::ok)
+      faults.push_back({{"status", to_string(status)},
+                        {"clouds", clouds},
+                        {"first_message", summary.messages.at(status)}});
+  return {{"clouds", summary.clouds},
+          {"labelled", summary.labelled()},
+          {"points", counts_by_label(summary.points)},
+          {"faults", std::move(faults)},
+          {"notes", summary.notes()}};
 }
 
 Json cloud_frame_json(const CloudReport& report, std::uint64_t index, const std::string& fault) {

@@ -25,6 +25,7 @@ struct CloudSummary {
   std::array<std::size_t, label_count> points{};     ///< by label, of all clouds
   std::string time_note = {};                        ///< CloudPoints::time_note of the first
   std::string body_note = {}, target_note = {};      ///< the first of each in the reports
+  std::size_t not_handled = 0;                       ///< clouds with TargetReport::wants_stamp
   std::size_t parts = 0;                             ///< the most of a scan
   double milliseconds = 0;                           ///< all labelling
 

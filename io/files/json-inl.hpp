@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
+#include <penumbra/base/setting.hpp>
 #include <penumbra/calibration/watch.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/targets/target.hpp>
@@ -33,6 +34,20 @@ inline Json pose_json(const Eigen::Isometry3d& pose) {
   const Eigen::Quaterniond q(pose.linear());
   const auto& t = pose.translation();
   return {t.x(), t.y(), t.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+/// Returns the settings of a LabelRule or CloudRule by their names.
+template <typename Rule>
+Json rule_json(const Rule& rule) {
+  Json json;
+  for_each_setting<Rule>([&](const auto& setting) {
+    const auto& value = rule.*setting.member;
+    if constexpr (requires { value.a; })
+      json[setting.name] = {value.a, value.b, value.c};
+    else
+      json[setting.name] = value;
+  });
+  return json;
 }
 
 /// Returns "renderer" of report.json.

@@ -6,7 +6,6 @@
 
 #include <penumbra/base/version.hpp>
 
-#include <io/files/disk_file.hpp>
 #include <io/files/json-inl.hpp>
 #include <io/files/report_json.hpp>
 
@@ -115,14 +114,7 @@ Json settings_json(const UsedSettings& used) {
   for (const auto& [pattern, margin] : used.robot.margins) margins[pattern] = margin;
   for (const ExtraMesh& extra : used.robot.extra)
     extras.push_back({{"link", extra.link}, {"mesh", extra.mesh.string()}});
-  Json json;
-  for_each_setting<LabelRule>([&](const auto& setting) {
-    const auto& value = used.rule.*setting.member;
-    if constexpr (requires { value.a; })
-      json[setting.name] = {value.a, value.b, value.c};
-    else
-      json[setting.name] = value;
-  });
+  Json json = rule_json(used.rule);
   json.update({{"labels", used.paper_labels ? "paper" : "full"},
                {"beyond", used.beyond == BeyondMeans::visible ? "visible" : "occluded"},
                {"targets", or_null(used.targets)},
@@ -317,42 +309,22 @@ std::string report_end(const Statistics& statistics, std::span<const std::string
 
 std::string unfinished_report_end() { return "\n],\n\"summary\": null}\n"; }
 
-struct ReportWriter::State {
-  explicit State(const std::filesystem::path& file) : output(file) {}
+ReportWriter::ReportWriter(const std::filesystem::path& file, std::string start)
+    : output_(file), waiting_(std::move(start)) {}
 
-  void write(std::string_view text, bool now = false) {
-    waiting += text;
-    if (!now && waiting.size() < write_size) return;
-    output.write(waiting.data(), waiting.size());
-    waiting.clear();
-  }
-
-  OutputFile output;
-  std::string waiting;
-  std::vector<std::string> missing_links;
-  std::vector<std::string> notes;
-  bool first = true;
-};
-
-ReportWriter::ReportWriter(const std::filesystem::path& file, const ReportHead& head)
-    : state_(std::make_unique<State>(file)) {
-  state_->missing_links.assign(head.missing_links.begin(), head.missing_links.end());
-  state_->notes.assign(head.notes.begin(), head.notes.end());
-  state_->write(report_start(head));
+void ReportWriter::add(std::string_view frame) {
+  waiting_ += is_first_ ? "\n" : ",\n";
+  waiting_ += frame;
+  is_first_ = false;
+  if (waiting_.size() < write_size) return;
+  output_.write(waiting_.data(), waiting_.size());
+  waiting_.clear();
 }
 
-ReportWriter::~ReportWriter() = default;
-
-void ReportWriter::add(const FrameReport& report) {
-  state_->write((state_->first ? "\n" : ",\n") + report_frame(report));
-  state_->first = false;
-}
-
-void ReportWriter::finish(const Statistics& statistics, std::span<const std::string> notes) {
-  State& s = *state_;
-  s.notes.insert(s.notes.end(), notes.begin(), notes.end());
-  s.write(report_end(statistics, s.missing_links, s.notes), true);
-  s.output.close();
+void ReportWriter::finish(std::string_view end) {
+  waiting_ += end;
+  output_.write(waiting_.data(), waiting_.size());
+  output_.close();
 }
 
 std::string robot_json(const Robot& robot) {

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +15,7 @@
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
 
+#include <io/files/disk_file.hpp>
 #include <io/files/recording.hpp>
 #include <io/files/statistics.hpp>
 
@@ -63,26 +63,22 @@ struct ReportHead {
 /// The first bytes of every report.
 inline constexpr std::string_view report_json_start = "{\"penumbra\": ";
 
-/// Writes report.json (docs/recording.md) frame by frame. Values that do not apply are null.
-/// Members throw InputError if the file cannot be written.
+/// Writes report.json (docs/recording.md) frame by frame. Members throw InputError if the file
+/// cannot be written.
 class ReportWriter {
  public:
-  ReportWriter(const std::filesystem::path& file, const ReportHead& head);
-  ~ReportWriter();
-  ReportWriter(const ReportWriter&) = delete;
-  ReportWriter& operator=(const ReportWriter&) = delete;
-
-  void add(const FrameReport& report);
-
-  /// `notes`: follow the head's.
-  void finish(const Statistics& statistics, std::span<const std::string> notes = {});
+  ReportWriter(const std::filesystem::path& file, std::string start);
+  void add(std::string_view frame);
+  void finish(std::string_view end);
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  OutputFile output_;
+  std::string waiting_;
+  bool is_first_ = true;
 };
 
-/// Return the parts of a report's text: start, frames with "," between them, end.
+/// Return the parts of a report's text: start, frames with "," between them, end. Values that do
+/// not apply are null.
 [[nodiscard]] std::string report_start(const ReportHead& head);
 [[nodiscard]] std::string report_frame(const FrameReport& report);
 /// `notes`: all of them.

@@ -106,6 +106,7 @@ class RecordedRun {
   }
   [[nodiscard]] bool is_wanted(const JointRow& row) const;
   [[nodiscard]] ResultFolderOptions results() const;
+  [[nodiscard]] std::string report_head() const;
   void label(const JointRow& row, CloudSummary& summary);
   void label_all(const std::function<bool()>& go_on, CloudRunResult& result);
   [[nodiscard]] RobotPose pose_at(std::int64_t stamp, const JointRow& row);
@@ -120,7 +121,7 @@ class RecordedRun {
   CloudPipeline pipeline_;
   std::optional<SensorTuner> tuner_;    // if the rule is measured
   std::optional<ResultFolder> folder_;  // if it writes
-  Json clouds_ = Json::array();
+  std::optional<ReportWriter> report_;  // likewise
 };
 
 /// The row's pose at its own stamp, else the pose between the rows.
@@ -166,7 +167,7 @@ void RecordedRun::label(const JointRow& row, CloudSummary& summary) {
       timed(summary, fault, [&]() -> const CloudReport& { return pipeline_.process(scan, pose); });
   if (summary.time_note.empty()) summary.time_note = points.time_note;
   const auto index = static_cast<std::uint64_t>(row.index);
-  clouds_.push_back(cloud_frame_json(report, index, fault));
+  if (report_) report_->add(json_text(cloud_frame_json(report, index, fault)));
   if (options_.on_cloud) options_.on_cloud(0, index, points.points, report, fault);
   if (!fault.empty() || !folder_) return;
   std::vector<std::byte> data;
@@ -200,7 +201,7 @@ ResultFolderOptions RecordedRun::results() const {
   const FramePattern own = recording_.clouds.moved_to(clouds);
   ResultFolderOptions results{
       .path = options_.output,
-      .report = {"report.json", json_begin},
+      .report = {"report.json", std::string(report_json_start)},
       .frames = {{own}},
       .force = options_.force,
       .advice = "choose another folder with -o, or write into this one with --force"};
@@ -212,6 +213,18 @@ ResultFolderOptions RecordedRun::results() const {
                        ": is no cloud of this recording; move it away, or " + results.advice);
   }
   return results;
+}
+
+/// Returns the report up to its first cloud.
+std::string RecordedRun::report_head() const {
+  Json settings = rule_json(changed_rule(recording_.rule, options_));
+  settings["merged"] = !recording_.has_rays;
+  settings["times"] = options_.use_times;
+  settings["targets"] = recording_.targets ? Json(recording_.targets->string()) : Json();
+  return std::string(report_json_start) + json_text(PENUMBRA_VERSION) +
+         ",\n\"input\": " + json_text(options_.input.path.string()) +
+         ",\n\"settings\": " + json_text(settings) +
+         ",\n\"links\": " + json_text(Json(robot_.links())) + ",\n\"clouds\": [";
 }
 
 CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
@@ -231,14 +244,12 @@ CloudRunResult RecordedRun::run(const std::function<bool()>& go_on) {
   if (!options_.output.empty()) {
     folder_.emplace(results());
     folder_->begin();
+    folder_->add("report.json",
+                 [&](const fs::path& part) { report_.emplace(part, report_head()); });
   }
   label_all(go_on, result);
   if (!folder_) return result;
-  Json report{{"penumbra", PENUMBRA_VERSION}, {"clouds", std::move(clouds_)}, {"links", Json()}};
-  report["links"] = robot_.links();
-  report["notes"] = result.sensors[0].notes();
-  folder_->add_text("report.json",
-                    report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  report_->finish("\n],\n\"summary\": " + json_text(cloud_summary_json(result.sensors[0])) + "}\n");
   folder_->finish();
   return result;
 }

@@ -114,8 +114,10 @@ OutputFolder::OutputFolder(const OutputOptions& options, ResultFolder& folder,
 void OutputFolder::begin(const ReportHead& head) {
   folder_.add("report.json", [&](const fs::path& part) {
     report_file_ = part;
-    report_.emplace(part, head);
+    report_.emplace(part, report_start(head));
   });
+  missing_links_.assign(head.missing_links.begin(), head.missing_links.end());
+  notes_.assign(head.notes.begin(), head.notes.end());
   if (!options_.saves.links) return;
   Json links = Json::object();
   for (std::size_t i = 0; i < head.links.size(); ++i)
@@ -125,7 +127,8 @@ void OutputFolder::begin(const ReportHead& head) {
 
 void OutputFolder::finish(const Statistics& statistics, std::span<const std::string> notes) {
   writers_.finish();
-  report_->finish(statistics, notes);
+  notes_.insert(notes_.end(), notes.begin(), notes.end());
+  report_->finish(report_end(statistics, missing_links_, notes_));
   const std::string fault = options_.report_page ? add_page() : std::string();
   folder_.finish();
   if (!fault.empty()) throw InputError(fault);
@@ -146,7 +149,7 @@ std::string OutputFolder::add_page() {
 
 void OutputFolder::save(const FrameReport& report, const Frame& frame,
                         const ShownTargets& targets) {
-  report_->add(report);
+  report_->add(report_frame(report));
   const VirtualDepthView& virtual_depth = report.virtual_depth;
   const std::size_t index = report.index;
   const auto plain_png = [](const auto& to, const auto& image) { write_png(to, image); };

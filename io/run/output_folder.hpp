@@ -70,7 +70,8 @@ class OutputFolder final : public RunOutput {
   KeyFrames key_frames_;
   std::filesystem::path report_file_;  // unfinished
   std::optional<ReportWriter> report_;
-  BackgroundJobs writers_;  // the first to end
+  std::vector<std::string> missing_links_, notes_;  // of the head
+  BackgroundJobs writers_;                          // the first to end
 };
 
 /// Throws InputError if results would replace the input, or what is no result.

@@ -174,12 +174,13 @@ bool CloudPipeline::State::place_parts(const Scan& scan, const PoseAt& pose_at) 
   report.parts = 1;
   const bool is_at_once = scan.times.empty() || !scan.origin;
   const std::int64_t first = is_at_once ? 0 : std::ranges::min(scan.times);
-  if (!place_at(first)) return false;
+  const bool is_placed = place_at(first);
   if (!scan.times.empty() && scan.times.size() != scan.points.count)
     return refuse(FrameStatus::bad_depth, std::to_string(scan.times.size()) + " times for " +
                                               std::to_string(scan.points.count) + " points");
   if (std::string fault = fault_of(scan); !fault.empty())
     return refuse(FrameStatus::bad_depth, std::move(fault));
+  if (!is_placed) return false;
   const std::int64_t length = is_at_once ? 0 : std::int64_t{std::ranges::max(scan.times)} - first;
   if (length == 0) return true;
   constexpr std::int64_t instants = 8;  // of the motion

@@ -91,7 +91,6 @@ PixelState state_of(Label label, double range, const DepthLimits& limits, bool b
 
 Judgement judge_on_rays(const LabelledRays& rays, const Target& target,
                         const Eigen::Isometry3d& T_points_frame, TargetMemory& memory) {
-  check_target(target);
   const RayTarget shape(target.shape, T_points_frame, rays.origin);
   Visibility seen;
   LinkCounts links(rays.link_count);

@@ -185,12 +185,11 @@ Judgement TargetJudge::State::judge_at_depth(const TargetView& target, TargetMem
   const ExpectedDepth expected = expected_of(target);
   observer.fill(target.region);
   const bool wants_depths = target.wants_point && frame.is_measured();
-  const Visibility visibility =
-      observer.observe({frame, target, expected, robot, wants_depths}, memory);
+  Visibility visibility = observer.observe({frame, target, expected, robot, wants_depths}, memory);
+  const std::size_t unknown = visibility.pixels[PixelState::unknown];
+  visibility.is_uncovered = unknown > 0 && !camera.distortion.is_none() &&
+                            is_uncovered(frame, observer.seen().spans(), unknown);
   Judgement judgement = visibility.judge(target.thresholds, memory);
-  if (judgement.verdict == Verdict::unknown && !camera.distortion.is_none() &&
-      is_uncovered(frame, observer.seen().spans(), visibility.pixels[PixelState::unknown]))
-    judgement.reason = "too much of it lies where the lens model does not reach";
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
     observer.remember(target, memory);
   if (wants_depths) add_point(target, judgement);

@@ -52,8 +52,9 @@ struct Visibility {
   bool is_expected = false;            ///< its depth is known
   const LinkCounts* links = nullptr;
   bool has_pose = true;
-  bool has_whole = true;    ///< how much of it the robot may hide is known
-  bool is_missing = false;  ///< its mask lacks pixels near the robot
+  bool has_whole = true;      ///< how much of it the robot may hide is known
+  bool is_missing = false;    ///< its mask lacks pixels near the robot
+  bool is_uncovered = false;  ///< most that is unknown lies where the lens model does not reach
 };
 
 /// A target and its frame.

@@ -66,18 +66,20 @@ std::string_view reason_for_unknown(const Visibility& visibility,
            "known; give its expected_depth or height, or the full extent as amodal";
   if (visibility.is_missing)
     return "its mask is smaller than the whole target, and the robot is next to it";
-  const bool is_assumed = visibility.evidence == Evidence::assumed_free;
-  if (!visibility.is_expected)
-    return is_assumed
-               ? "the robot is before or behind it: give its expected_depth, or its height"
-               : "too much of it is robot without measurement; give expected_depth, or its height";
-  if (visibility.is_passed(thresholds.past_limit))
+  if (visibility.is_expected && visibility.is_passed(thresholds.past_limit))
     return "the sensor looks past where most of it is expected: it is absent or transparent, or "
            "its expected depth is wrong";
-  if (visibility.is_unmeasured(thresholds.min_measured))
+  if (visibility.is_expected && visibility.is_unmeasured(thresholds.min_measured))
     return "hardly anything is measured where it is expected; min_measured: 0 allows that";
-  return is_assumed ? "too much of it is at the robot's own depth"
-                    : "too much of it is robot without measurement, or at the robot's own depth";
+  if (visibility.is_uncovered) return "too much of it lies where the lens model does not reach";
+  const bool is_assumed = visibility.evidence == Evidence::assumed_free;
+  if (visibility.is_expected)
+    return is_assumed ? "too much of it is at the robot's own depth"
+                      : "too much of it is robot without measurement, at the robot's own depth or "
+                        "at its outline";
+  return is_assumed
+             ? "the robot is before or behind it: give its expected_depth, or its height"
+             : "too much of it is robot without measurement; give expected_depth, or its height";
 }
 
 Eigen::Array2d first_of(const SpanBox& box) { return {box.u0, box.v0}; }

@@ -178,7 +178,11 @@ TEST_F(CloudFolder, LosesTheRobot) {
   expect_values(json, {{"/clouds/0/targets/0/name", "knob"},
                        {"/clouds/0/targets/0/verdict", "unknown"},  // of one ray
                        {"/clouds/0/points/occluded", 1},
-                       {"/clouds/0/status", "ok"}});
+                       {"/clouds/0/status", "ok"},
+                       {"/input", path("clouds.yaml").string()},
+                       {"/settings/beam", 0.003},
+                       {"/summary/clouds", 3},
+                       {"/summary/points/occluded", 3}});
   succeed(cloud({"--label", "--frames", "1:2"}));  // replaces former results
   expect_refused(penumbra({"cloud", path("clouds.yaml"), "-o", path(), "--force"}), {"own folder"});
   EXPECT_FALSE(fs::exists(out("clouds/0.pcd")));
@@ -188,11 +192,11 @@ TEST_F(CloudFolder, LosesTheRobot) {
 TEST_F(CloudFolder, NamesBodiesAndTargetsInMillimetres) {
   write_file(path("knob.yaml"), "targets: [{name: knob, point: [300, 0, 1500]}]\n");
   succeed(cloud());
-  expect_has(report()["notes"].dump(), {"'knob': it is 1530 m away"});
+  expect_has(report()["summary"]["notes"].dump(), {"'knob': it is 1530 m away"});
   write_file(path("clouds.yaml"), read_file(path("clouds.yaml")) +
                                       "attached: [{name: part, link: board, box: [90, 50, 9]}]\n");
   cloud();
-  expect_has(report()["notes"].dump(), {"'part' reaches 51.7 m"});
+  expect_has(report()["summary"]["notes"].dump(), {"'part' reaches 51.7 m"});
 }
 
 TEST_F(CloudFolder, CloudsOfOthersStay) {

@@ -324,6 +324,7 @@ void declare_clouds(rclcpp_lifecycle::LifecycleNode& node, Declaration& declare,
     settings.cloud_topics.push_back(
         resolved(node, given.front() == '~' ? "~" + cloud.topic : below + given));
     cloud.mount = common.mount;
+    cloud.hidden_targets = common.hidden_targets;
     cloud.poses = common.poses;
     cloud.has_targets = !settings.live.target_topics.empty();
     settings.live.clouds.push_back(cloud);
