@@ -190,12 +190,14 @@ FrameStatus PoseStage::place_uncertain() {
     if (is_first && reach_[link].radius >= 0.0) add_reach(link, reach_[link]);
   }
   if (result_.reaches.empty()) return FrameStatus::ok;
+  const bool is_one = result_.reaches.size() == 1;
   std::string names;
   for (const Reach& reach : result_.reaches)
-    names += (names.empty() ? "link '" : ", '") + robot_.links()[reach.link] + "'";
-  return fault(
-      FrameStatus::missing_link,
-      names + " is not drawn, and what it could hide is unknown: " + result_.uncertain_reason);
+    names += (names.empty() ? "'" : ", '") + robot_.links()[reach.link] + "'";
+  return fault(FrameStatus::missing_link,
+               (is_one ? "link " : "links ") + names + (is_one ? " is" : " are") +
+                   " not drawn, and what " + (is_one ? "it" : "they") +
+                   " could hide is unknown: " + result_.uncertain_reason);
 }
 
 /// Takes links of unknown pose out of the picture.
