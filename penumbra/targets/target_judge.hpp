@@ -21,7 +21,7 @@
 
 namespace penumbra {
 
-/// What a frame tells of things other than the robot.
+/// What a frame says about things other than the robot.
 enum class Evidence {
   measured,     ///< their depth is measured
   none,         ///< it is not, though it should be: what the robot does not hide is unknown

@@ -199,6 +199,16 @@ TEST_F(CloudFolder, NamesBodiesAndTargetsInMillimetres) {
   expect_has(report()["summary"]["notes"].dump(), {"'part' reaches 51.7 m"});
 }
 
+TEST_F(CloudFolder, HandlingNeedsStamps) {
+  const std::string knob = "targets: [{name: knob, point: [0, 0, 1.5], handling: {point: {}}}]\n";
+  write_file(path("knob.yaml"), knob);
+  expect_has(succeed(cloud()).err, {"handling", "3 clouds without a stamp"});
+  write_file(path("joint_states.csv"),
+             "frame,stamp,slide\n0,1000000000,0\n1,2000000000,0.05\n2,3000000000,0.1\n");
+  expect_lacks(succeed(cloud()).err, {"handling"});
+  EXPECT_FALSE(report()["clouds"][0]["targets"][0]["handled"].is_null());
+}
+
 TEST_F(CloudFolder, CloudsOfOthersStay) {
   succeed(cloud());
   expect_refused(cloud({"--frames", "7:9"}), {"--frames"});
