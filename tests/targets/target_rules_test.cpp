@@ -83,7 +83,7 @@ TEST(Verdicts, RememberPastUnknown) {
   TargetMemory memory;
   EXPECT_EQ(verdict_of(judge, 95, memory), Verdict::hidden);
   TargetFrame frame;
-  judge.begin({frame.images().labels, {}, {}});
+  judge.begin({frame.images().labels, {}, {}, Evidence::none});
   EXPECT_EQ(judge.judge(box_target(middle_box), memory).verdict, Verdict::unknown);
   EXPECT_EQ(verdict_of(judge, 85, memory), Verdict::hidden);
 }

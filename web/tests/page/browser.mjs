@@ -110,13 +110,15 @@ export async function open(browser, url, options = desktop, beforeLoad = () => {
   await beforeLoad(page);
   const shown = { page, faults, close: () => context.close() };
   shown.load = async (address) => {
-    if (page.url() !== 'about:blank') {
-      await page.evaluate(() => localStorage.clear());
-      await page.goto('about:blank'); // an address with another hash alone loads nothing
-    }
+    const isOpen = page.url() !== 'about:blank';
+    if (isOpen)
+      await page.evaluate((next) => {
+        localStorage.clear();
+        history.replaceState(null, '', next); // goto loads nothing where only the hash differs
+      }, address);
     faults.length = 0;
     const start = performance.now();
-    await page.goto(address);
+    await (isOpen ? page.reload() : page.goto(address));
     await page.locator('#cover').waitFor({ state: 'hidden' });
     await drawn(page);
     shown.seconds = (performance.now() - start) / 1000;
