@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scans of lidars on and next to robots that stand and move: which labels CloudPipeline gives to
+// Scans of lidars on and next to robots that stand and move: which labels Pipeline gives to
 // points of which MuJoCo's rays know the truth. usage: lidar_study [SEED [SCANS PER CASE]]
 #include "../tests/support/lidar_scenes.hpp"
 #include "timing.hpp"
@@ -68,10 +68,10 @@ void run(const Case& c, std::uint64_t seed, std::size_t scans) {
   const LidarRobot& robot = c.place.robot;
   const LidarMount& mount = c.place.mount;
   LidarWorld world(robot, mount, seed);
-  CloudPipeline pipeline(world.robot(),
-                         {.rule = {.tolerance = {.a = sigmas * c.noise}, .mixing = c.mixing},
-                          .sensor_parent = mount.parent,
-                          .T_parent_sensor = mount.T_parent_sensor});
+  Pipeline pipeline(world.robot(),
+                    CloudConfig{.rule = {.tolerance = {.a = sigmas * c.noise}, .mixing = c.mixing},
+                                .sensor_parent = mount.parent,
+                                .T_parent_sensor = mount.T_parent_sensor});
   const JointMotion path = lidar_motion(
       robot, world.robot(), c.moves == Moves::triangle ? Wave::triangle : Wave::sine, seed);
   sim::Random random(seed, 3);
@@ -85,7 +85,7 @@ void run(const Case& c, std::uint64_t seed, std::size_t scans) {
         c.moves == Moves::none ? [still = path(begin)](double) { return still; } : path;
     world.place_objects(motion, begin, begin + rays.back().time);
     const LidarScan points = world.scan(rays, motion, begin, c.noise);
-    const CloudReport* report = nullptr;
+    const FrameReport* report = nullptr;
     times.push_back(time_ms([&] { report = &process(pipeline, points, motion, true); }));
     if (report->status != FrameStatus::ok) throw std::logic_error(report->message);
     with.add(points, *report);

@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Penumbra)
 
-foreach(name penumbra cloud setup planning session io live)
+foreach(name penumbra setup planning session io live)
   set(library penumbra_${name})
   if(name STREQUAL penumbra)
     set(library penumbra)
@@ -33,14 +33,11 @@ set(public_headers
   calibration/calibration.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
   session/plan_forecast.hpp session/session.hpp session/warnings.hpp tuning/missing_parts.hpp
   scene/look_ahead.hpp scene/target_fusion.hpp robot/trajectory.hpp scene/view_planning.hpp
-  cloud/cloud_labels.hpp
-  cloud/cloud_pipeline.hpp
-  cloud/cloud_tuning.hpp)
+  cloud/cloud_labels.hpp cloud/scan.hpp tuning/cloud_tuning.hpp)
 set(component_of_calibration setup)
 set(component_of_diagnosis setup)
 set(component_of_tuning setup)
 set(component_of_scene planning)
-set(component_of_cloud cloud)
 set(component_of_session session)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -14,9 +15,12 @@
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/run_cameras.hpp>
+#include <apps/penumbra/run_summary.hpp>
 #include <apps/penumbra/server_options.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/run/cloud_run.hpp>
+#include <io/run/input_session.hpp>
+#include <io/run/output_folder.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/stored_view.hpp>
 #include <io/web/web_server.hpp>
@@ -26,6 +30,10 @@ namespace {
 
 struct CloudArguments {
   io::CloudRunOptions run;
+  std::filesystem::path output;  ///< empty: write nothing
+  io::CloudOutput how;
+  bool force = false;      ///< also a folder with other files
+  bool tune = false;       ///< measure the sensors' rules, without output
   ServerArguments server;  ///< no page is served without a port
 };
 
@@ -39,9 +47,9 @@ void add_options(CLI::App& app, CloudArguments& arguments) {
            "", input.path)
       ->required();
   add_text(app, "-o,--output", "a folder for a recording's clouds; *.mcap for a bag's", "OUT",
-           cloud.output);
+           arguments.output);
   app.add_flag(
-      "--tune", cloud.tune,
+      "--tune", arguments.tune,
       "write nothing: measure the tolerance and beam that fit each sensor, in 40 clouds of "
       "a robot that stands or moves free");
   add_option(app, "--sensor",
@@ -58,11 +66,11 @@ void add_options(CLI::App& app, CloudArguments& arguments) {
         [setting, given](CloudRule& to) { to.*setting.member = given.*setting.member; });
     return true;
   });
-  app.add_flag("--label", cloud.how.labelled,
+  app.add_flag("--label", arguments.how.labelled,
                "keep all points of PointCloud2 and files, and add the fields label and link");
   add_choice<bool>(app, "--removed-ranges",
                    "nan (default) or inf, in place of a LaserScan's ranges",
-                   cloud.how.infinite_ranges, {{"nan", false}, {"inf", true}});
+                   arguments.how.infinite_ranges, {{"nan", false}, {"inf", true}});
   app.add_flag_callback(
       "--merged", [&cloud] { cloud.has_rays = false; },
       "the clouds of several sensors in one: no rays, only what lies on or in "
@@ -74,7 +82,7 @@ void add_options(CLI::App& app, CloudArguments& arguments) {
              RendererOptions::max_threads);
   add_drawn(app, input, "the recording's, else collision");
   add_frames(app, input.frames);
-  app.add_flag("--force", cloud.force, "write into a folder that holds other files");
+  app.add_flag("--force", arguments.force, "write into a folder that holds other files");
   add_server(app, arguments.server,
              "show the labelled clouds in the browser there; of several topics, each further one "
              "gets the next port; 0: any free port; default: no page");
@@ -98,137 +106,170 @@ void check_options(const CLI::App& app, CloudArguments& arguments) {
   note_bag_option(app, cloud.input);
   check_server(arguments.server);
   const bool has_port = arguments.server.port.has_value();
-  if (cloud.tune && (has_port || !cloud.output.empty()))
+  if (arguments.tune && (has_port || !arguments.output.empty()))
     throw InputError("--tune writes and shows nothing: leave --output and --port out");
-  if (!cloud.tune && !has_port && cloud.output.empty())
+  if (!arguments.tune && !has_port && arguments.output.empty())
     throw InputError("--output is required, or --port, or --tune");
-  if (cloud.tune && !cloud.has_rays)
+  if (arguments.tune && !cloud.has_rays)
     throw InputError("--tune measures ranges, and --merged clouds have none");
   cloud.input.bag.in_other_frame = !cloud.has_rays || !cloud.sensor_frame.empty();
+  if (arguments.output.empty()) return;
+  io::check_output_place(cloud.input.path, arguments.output);
+  if (io::is_bag(cloud.input.path) && !io::is_output_bag(arguments.output))
+    throw InputError("--output: " + arguments.output.string() +
+                     " is no bag, and the clouds of a bag are written into one; name it *.mcap");
+}
+
+void print_notes_of(const std::string& sensor, std::vector<std::string> notes) {
+  for (std::string& note : notes)
+    if (!note.starts_with(sensor)) note.insert(0, sensor + ": ");
+  print_notes(notes);
 }
 
 /// Prints the rule that fits each sensor. Returns the exit status.
-int print_tunings(const io::CloudRunResult& result) {
+int tune(const std::vector<io::RunInput>& inputs) {
   std::vector<std::vector<std::string>> rows{
       {"", "clouds", "points on the robot", "bias", "deviation", "tolerance", "beam"}};
-  bool is_sound = !result.tunings.empty();
-  for (std::size_t i = 0; i < result.tunings.size(); ++i) {
-    const CloudTuning& tuning = result.tunings[i];
-    const std::string& name = result.sensors[i].name;
-    rows.push_back({name, std::to_string(tuning.scans), std::to_string(tuning.points),
+  bool is_sound = true;
+  for (const io::RunInput& input : inputs) {
+    const CloudTuning tuning = [&] {
+      Progress progress(0);
+      return io::tune_clouds(input, [&] {
+        progress.step();
+        return !was_interrupted();
+      });
+    }();
+    rows.push_back({input.sensor, std::to_string(tuning.scans), std::to_string(tuning.points),
                     fixed(1e3 * tuning.bias, 1) + " mm", fixed(1e3 * tuning.deviation, 1) + " mm",
                     tuning.has_tolerance ? fixed(tuning.rule.tolerance.a, 3) + ",0,0" : "-",
                     tuning.has_beam ? fixed(tuning.rule.beam, 3) : "-"});
-    std::vector<std::string> notes = tuning.problems;
-    for (std::string& note : notes) note.insert(0, name + ": ");
-    print_notes(notes);
+    print_notes_of(input.sensor, tuning.problems);
     is_sound = is_sound && tuning.problems.empty();
   }
   print_table(std::move(rows));
-  return result.is_stopped ? interrupt_status() : is_sound ? 0 : nothing_judged;
+  return was_interrupted() ? interrupt_status() : is_sound ? 0 : nothing_judged;
 }
 
-/// The viewer's pages of the clouds, one for each sensor.
-class CloudPages {
+/// The viewer's page of a sensor.
+class CloudPage {
  public:
-  explicit CloudPages(const CloudArguments& arguments)
-      : options_(web_options(arguments.server)), input_(arguments.run.input.path.string()) {}
+  CloudPage(const Robot& robot, const std::string& input, const io::WebOptions& options)
+      : view_({.input = input,
+               .links = {robot.links().begin(), robot.links().end()},
+               .parts = {io::Part::cloud}},
+              io::make_scene(robot), store, std::nullopt) {
+    io::ReportHead head;  // until the sensor's turn comes
+    head.input = input;
+    head.links = robot.links();
+    store.begin(head);
+    server_.emplace(options, view_);
+  }
 
-  void begin(const Robot& robot, std::span<const std::string> sensors) {
-    for (const std::string& sensor : sensors) {
-      const auto& page =
-          pages_.emplace_back(std::make_unique<Page>(robot, input_ + ", " + sensor, options_));
-      print_line(sensor + ": " + page->server->url());
-      std::cout.flush();
-      if (options_.port > 0) ++options_.port;
-    }
+  [[nodiscard]] std::string url() const { return server_->url(); }
+
+  io::FrameStore store{nullptr};
+
+ private:
+  io::StoredView view_;
+  std::optional<io::WebServer> server_;
+};
+
+/// Several outputs of one run.
+class Outputs final : public io::RunOutput {
+ public:
+  void add(io::RunOutput& output) { all_.push_back(&output); }
+
+  void begin(const io::ReportHead& head) override {
+    for (io::RunOutput* const one : all_) one->begin(head);
   }
-  void take(std::size_t sensor, std::uint64_t index, const PointsView& points,
-            const CloudReport& report, const std::string& fault) {
-    pages_[sensor]->store.save_scan(points, report, index, fault);
+  void save(const FrameReport& report, const Frame& frame,
+            const io::ShownTargets& targets) override {
+    for (io::RunOutput* const one : all_) one->save(report, frame, targets);
   }
-  void finish(const io::CloudRunResult& result) {
-    for (std::size_t i = 0; i < pages_.size(); ++i) {
-      std::vector<std::string> notes = result.sensors[i].notes();
-      notes.insert(notes.end(), result.notes.begin(), result.notes.end());
-      pages_[i]->store.finish({}, notes);
-    }
+  void finish(const io::Statistics& statistics, std::span<const std::string> notes) override {
+    for (io::RunOutput* const one : all_) one->finish(statistics, notes);
   }
 
  private:
-  struct Page {
-    Page(const Robot& robot, const std::string& input, const io::WebOptions& options)
-        : view({.input = input,
-                .links = {robot.links().begin(), robot.links().end()},
-                .parts = {io::Part::cloud}},
-               io::make_scene(robot), store, std::nullopt) {
-      io::ReportHead head;
-      head.input = input;
-      head.links = robot.links();
-      store.begin(head);
-      server.emplace(options, view);
-    }
-    io::FrameStore store{nullptr};
-    io::StoredView view;
-    std::optional<io::WebServer> server;
-  };
-
-  io::WebOptions options_;
-  std::string input_;
-  std::vector<std::unique_ptr<Page>> pages_;
+  std::vector<io::RunOutput*> all_;
 };
+
+std::vector<std::string> table_row(const std::string& sensor, const io::Statistics& of) {
+  const PixelCounts& points = of.pixels();
+  std::size_t all = 0;
+  for (const auto& [label, count] : io::point_counts) all += points.*count;
+  const auto share = [&](std::size_t some) {
+    return all == 0 ? std::string("-")
+                    : fixed(100.0 * static_cast<double>(some) / static_cast<double>(all), 2) + " %";
+  };
+  double time = 0.0;
+  for (std::size_t i = 0; i < io::stages.size(); ++i)
+    if (const auto stage = of.timing(i)) time += stage->median;
+  return {sensor,
+          std::to_string(of.frames()),
+          std::to_string(of.usable_frames()),
+          std::to_string(all),
+          share(points.occluded + points.beyond),
+          share(points.front),
+          share(points.fringe),
+          share(points.unknown),
+          of.frames() == 0 ? "-" : fixed(time, 2)};
+}
 
 int execute(const CloudArguments& arguments) {
   catch_interrupts();
-  io::CloudRunOptions options = arguments.run;
-  std::optional<CloudPages> pages;
-  if (arguments.server.port) {
-    pages.emplace(arguments);
-    options.on_begin = [&](const auto&... of) { pages->begin(of...); };
-    options.on_cloud = [&](const auto&... of) { pages->take(of...); };
+  std::vector<io::RunInput> inputs = io::open_clouds(arguments.run, print_line);
+  if (arguments.tune) return tune(inputs);
+  std::optional<io::ResultFolder> folder;
+  std::optional<io::CloudBag> bag;
+  if (io::is_output_bag(arguments.output))
+    bag.emplace(arguments.output);
+  else if (!arguments.output.empty())
+    folder.emplace(io::cloud_results(inputs.front(), arguments.output, arguments.force));
+  io::SessionOptions options;
+  options.input = arguments.run.input;
+  io::WebOptions web = web_options(arguments.server);
+  std::vector<std::unique_ptr<CloudPage>> pages;
+  for (const io::RunInput& input : inputs) {
+    if (!arguments.server.port) break;
+    pages.push_back(std::make_unique<CloudPage>(
+        input.robot, options.input.path.string() + ", " + input.sensor, web));
+    print_line(input.sensor + ": " + pages.back()->url());
+    std::cout.flush();
+    if (web.port > 0) ++web.port;
   }
-  const io::CloudRunResult result = [&] {
-    Progress progress(0);
-    return io::run_clouds(options, print_line, [&] {
-      progress.step();
-      return !was_interrupted();
-    });
-  }();
-  print_notes(result.notes);
-  if (options.tune) return print_tunings(result);
   std::vector<std::vector<std::string>> rows{
       {"", "clouds", "labelled", "points", "robot", "front", "fringe", "unknown", "ms a cloud"}};
   std::size_t labelled = 0;
-  for (const io::CloudSummary& sensor : result.sensors) {
-    const auto count = [&](Label label) { return sensor.points[static_cast<std::size_t>(label)]; };
-    std::size_t points = 0;
-    for (const std::size_t of_label : sensor.points) points += of_label;
-    const auto share = [&](std::size_t some) {
-      return points == 0
-                 ? std::string("-")
-                 : fixed(100.0 * static_cast<double>(some) / static_cast<double>(points), 2) + " %";
-    };
-    rows.push_back(
-        {sensor.name, std::to_string(sensor.clouds), std::to_string(sensor.labelled()),
-         std::to_string(points), share(count(Label::occluded) + count(Label::beyond)),
-         share(count(Label::front)), share(count(Label::fringe)), share(count(Label::unknown)),
-         sensor.clouds == 0 ? "-"
-                            : fixed(sensor.milliseconds / static_cast<double>(sensor.clouds), 2)});
-    labelled += sensor.labelled();
-    if (!sensor.time_note.empty()) print_line(sensor.name + ": " + sensor.time_note);
-    if (sensor.parts > 1)
-      print_line(sensor.name + ": the robot moved: up to " + std::to_string(sensor.parts) +
+  for (std::size_t i = 0; i < inputs.size() && !was_interrupted(); ++i) {
+    const std::string sensor = inputs[i].sensor;
+    io::InputSession session(options, std::move(inputs[i]));
+    Outputs outputs;
+    std::unique_ptr<io::RunOutput> files;
+    if (folder) files = io::open_cloud_folder(*folder, session.source(), arguments.how);
+    if (bag) files = bag->sensor(sensor, session.source(), arguments.how);
+    if (files) outputs.add(*files);
+    if (!pages.empty()) outputs.add(pages[i]->store);
+    outputs.begin(session.head());
+    const io::RunResult result = judge_all(session, outputs);
+    rows.push_back(table_row(sensor, result.statistics));
+    labelled += result.statistics.usable_frames();
+    if (result.statistics.parts() > 1)
+      print_line(sensor + ": the robot moved: up to " + std::to_string(result.statistics.parts()) +
                  " poses a scan");
-    print_notes(sensor.notes());
+    print_faults(result);
+    print_notes_of(sensor, result.notes);
   }
+  if (bag) bag->finish();
   print_table(std::move(rows));
-  if (!options.output.empty()) std::cout << "results: " << options.output.string() << '\n';
-  if (pages && !result.is_stopped) {
-    pages->finish(result);
+  if (!arguments.output.empty()) std::cout << "results: " << arguments.output.string() << '\n';
+  if (!pages.empty() && !was_interrupted()) {
     std::cout << "all clouds are labelled; Ctrl-C ends the viewer" << std::endl;
     while (!was_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  } else if (was_interrupted()) {
+    return interrupt_status();
   }
-  return result.is_stopped ? interrupt_status() : labelled > 0 ? 0 : nothing_judged;
+  return labelled > 0 ? 0 : nothing_judged;
 }
 
 }  // namespace

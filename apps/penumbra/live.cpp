@@ -162,15 +162,13 @@ class Live {
       }));
       sinks.push_back(results_.back().get());
     }
-    std::vector<io::CloudSink*> cloud_sinks;
     for (const io::CloudInputOptions& cloud : arguments.clouds) {
       auto topics = cloud_result_names(cloud.topic);
       for (std::string& topic : topics) topic = names.resolve(topic);
       clouds_.push_back(std::make_unique<GraphClouds>(graph, std::move(topics)));
-      cloud_sinks.push_back(clouds_.back().get());
+      sinks.push_back(clouds_.back().get());
     }
-    runner_ = std::make_unique<io::LiveRunner>(options, config_of(arguments), sinks, io::make_robot,
-                                               io::LiveRunner::default_robot_retry, cloud_sinks);
+    runner_ = std::make_unique<io::LiveRunner>(options, config_of(arguments), sinks);
     pages.watch(*runner_, options.cameras);
     if (options.cameras.size() > 1 && is_published(arguments, io::target_views_topic))
       fuse(options, names, graph);
@@ -204,11 +202,12 @@ class Live {
   /// Returns the number of judged images and labelled clouds.
   [[nodiscard]] std::size_t judged() {
     return runner_->with_inbox([&](const io::LiveInbox& inbox) {
-      std::size_t images = 0;
-      for (std::size_t i = 0; i < results_.size(); ++i) images += inbox.camera(i).counts().judged;
-      for (std::size_t i = 0; i < clouds_.size(); ++i)
-        images += inbox.cloud_tally(i).all.labelled();
-      return images;
+      std::size_t frames = 0;
+      for (std::size_t i = 0; i < results_.size(); ++i) frames += inbox.camera(i).counts().judged;
+      for (std::size_t i = results_.size(); i < inbox.sensor_count(); ++i)
+        for (const auto& [status, count] : inbox.tally(i).statuses)
+          frames += status == "ok" || status == "missing_link" ? count : 0;
+      return frames;
     });
   }
 

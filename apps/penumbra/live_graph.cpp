@@ -53,16 +53,24 @@ io::WrittenResults GraphResults::counts() const {
   return counts;
 }
 
-bool GraphClouds::wants(io::CloudResult result, const std::string& type) {
-  const auto number = static_cast<std::size_t>(result);
-  if (!publications_[number])
-    publications_[number] =
-        graph_.advertise(topics_[number], type, {.reliable = true, .depth = result_depth});
-  return publications_[number]->subscribers() > 0;
+void GraphClouds::set_cloud_type(const std::string& type) {
+  const auto advertise = [&](io::Result result, const std::string& topic, const std::string& of) {
+    publications_[result] = graph_.advertise(topic, of, {.reliable = true, .depth = result_depth});
+  };
+  advertise(io::Result::without_robot, topics_[0], type);
+  if (type == io::message_type<io::PointCloud2Message>())
+    advertise(io::Result::labelled, topics_[1], type);
+  advertise(io::Result::targets, topics_[2], io::message_type<io::TargetsMessage>());
 }
 
-void GraphClouds::write(io::CloudResult result, std::span<const std::byte> payload) {
-  if (!publications_[static_cast<std::size_t>(result)]->write(payload)) ++not_written_;
+bool GraphClouds::wants(io::Result result) const {
+  const auto found = publications_.find(result);
+  return found != publications_.end() && found->second->subscribers() > 0;
+}
+
+void GraphClouds::write(io::Result result, std::int64_t /*stamp*/,
+                        std::span<const std::byte> payload) {
+  if (!publications_[result]->write(payload)) ++not_written_;
 }
 
 LiveSubscriptions::LiveSubscriptions(io::Participant& graph, io::LiveRunner& runner, bool reliable)

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -42,14 +43,15 @@ class GraphResults final : public io::ResultSink {
 };
 
 /// Publishes the clouds of a sensor that have subscribers, with the type of its messages.
-class GraphClouds final : public io::CloudSink {
+class GraphClouds final : public io::ResultSink {
  public:
-  /// `topics`: of each CloudResult.
+  /// `topics`: of the clouds without the robot, labelled ones, and targets.
   GraphClouds(io::Participant& graph, std::array<std::string, 3> topics)
       : graph_(graph), topics_(std::move(topics)) {}
 
-  [[nodiscard]] bool wants(io::CloudResult result, const std::string& type) override;
-  void write(io::CloudResult result, std::span<const std::byte> payload) override;
+  void set_cloud_type(const std::string& type) override;
+  [[nodiscard]] bool wants(io::Result result) const override;
+  void write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) override;
 
   /// Returns how many were not published because subscribers were behind. Any thread may call this.
   [[nodiscard]] std::size_t not_written() const { return not_written_; }
@@ -57,7 +59,7 @@ class GraphClouds final : public io::CloudSink {
  private:
   io::Participant& graph_;
   std::array<std::string, 3> topics_;
-  std::array<std::unique_ptr<io::Publication>, 3> publications_;  // of each CloudResult
+  std::map<io::Result, std::unique_ptr<io::Publication>> publications_;
   std::atomic<std::size_t> not_written_ = 0;
 };
 

@@ -31,13 +31,8 @@ class LivePages::Page final : public io::FrameWatcher {
   void set_note(std::string note) { note_ = std::move(note); }
 
   [[nodiscard]] bool wants_color() const override { return view_.needs(io::Part::color); }
-  void take(const io::AssembledFrame& job, const DepthView& depth, const FrameReport& report,
-            const Drift& drift) override {
-    if (view_.show(job, depth, report, drift, io::LiveRunner::steady_now())) server_.wake();
-  }
-
-  void take_cloud(const io::ReceivedCloud& cloud, const CloudReport& report) override {
-    if (view_.show(cloud, report, io::LiveRunner::steady_now())) server_.wake();
+  void take(const io::AssembledFrame& job, const FrameReport& report, const Drift& drift) override {
+    if (view_.show(job, report, drift, io::LiveRunner::steady_now())) server_.wake();
   }
 
   /// `statuses`: the robot's and the sensor's, or that of a camera that is searched.
@@ -81,12 +76,8 @@ void LivePages::print() const {
 
 void LivePages::watch(io::LiveRunner& runner, const std::vector<io::CameraInputOptions>& cameras) {
   for (std::size_t i = 0; i < pages_.size(); ++i) {
-    if (i >= cameras.size()) {
-      runner.watch_cloud(i - cameras.size(), *pages_[i]);
-      continue;
-    }
     runner.watch(i, *pages_[i]);
-    if (cameras[i].color_topic.empty())
+    if (i < cameras.size() && cameras[i].color_topic.empty())
       pages_[i]->set_note("color: no color images were found; --color-topic names them");
   }
 }

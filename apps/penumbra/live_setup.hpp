@@ -24,8 +24,8 @@ inline constexpr const char* diagnostics_topic = "/diagnostics";
 /// Returns the topic of a camera's result before it is resolved. `camera`: empty for the only one.
 [[nodiscard]] std::string result_name(const std::string& camera, const io::ResultTopic& topic);
 
-/// Returns the topics of a sensor's results before they are resolved, in the order of CloudResult.
-/// `topic`: the input's.
+/// Returns the topics of a sensor's clouds without the robot, labelled ones and targets before they
+/// are resolved. `topic`: the input's.
 [[nodiscard]] std::array<std::string, 3> cloud_result_names(const std::string& topic);
 
 /// Returns the topic of the verdicts over all cameras before it is resolved.

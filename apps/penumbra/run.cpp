@@ -24,15 +24,6 @@ namespace {
 
 std::atomic<int> interrupted_by = 0;  // a signal's number
 
-/// Judges all frames, with a bar on the terminal.
-io::RunResult judge_all(io::InputSession& session, io::RunOutput& output) {
-  Progress progress(session.size().value_or(0));
-  return session.run(output, [&] {
-    progress.step();
-    return !was_interrupted();
-  });
-}
-
 void add_cameras(CLI::App& app, RunArguments& run) {
   add_list(app, "--camera",
            "one of a recording's cameras; or depth images of a bag, whose results come into "
@@ -163,6 +154,14 @@ std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
     throw InputError("--points-frame: no link '" + options.points_frame + "'; the root is '" +
                      root + "', and `penumbra inspect URDF` lists the others");
   return std::make_unique<io::OutputFolder>(options, folder, pipeline.rectification());
+}
+
+io::RunResult judge_all(io::InputSession& session, io::RunOutput& output) {
+  Progress progress(session.size().value_or(0));
+  return session.run(output, [&] {
+    progress.step();
+    return !was_interrupted();
+  });
 }
 
 void catch_interrupts() {

@@ -28,6 +28,9 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
 
 // Parts of every run, in run.cpp.
 
+/// Judges all frames, with a bar on the terminal.
+[[nodiscard]] io::RunResult judge_all(io::InputSession& session, io::RunOutput& output);
+
 /// Removes earlier results.
 [[nodiscard]] std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
                                                          io::ResultFolder& folder,

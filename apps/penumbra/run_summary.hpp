@@ -7,6 +7,9 @@
 
 namespace penumbra::app {
 
+/// Prints faults of frames, targets and overlays on stderr.
+void print_faults(const io::RunResult& result);
+
 /// Prints faults of frames, targets and overlays, and all notes, on stderr; counts, times and the
 /// place of the results on stdout.
 void print_result(const io::RunResult& result, const Robot& robot, const std::string& where);

@@ -23,7 +23,7 @@ HEADERS = {
     "Renderers": ["render/depth_renderer.hpp"],
     "Labels and verdicts": ["labels/labels.hpp", "targets/region.hpp",
                             "targets/target_judge.hpp", "cloud/cloud_labels.hpp",
-                            "cloud/cloud_pipeline.hpp", "cloud/cloud_tuning.hpp"],
+                            "cloud/scan.hpp", "tuning/cloud_tuning.hpp"],
     "Tracking": ["tracking/trackers.hpp"],
     "Calibration": ["calibration/calibration.hpp"],
     "Planning": ["scene/look_ahead.hpp", "robot/trajectory.hpp", "scene/view_planning.hpp"],

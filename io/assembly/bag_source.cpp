@@ -17,7 +17,8 @@ namespace {
 constexpr double longest_wait = 0.5;
 constexpr std::size_t most_waiting = 32;
 
-CameraInputOptions camera_options(const BagSourceOptions& bag) {
+std::vector<CameraInputOptions> cameras_of(const BagSourceOptions& bag) {
+  if (!bag.camera) return {};
   CameraInputOptions options;
   if (bag.topics.color && bag.with_color) options.color_topic = bag.topics.color->name;
   if (bag.topics.color_info) options.color_info_topic = bag.topics.color_info->name;
@@ -26,8 +27,20 @@ CameraInputOptions camera_options(const BagSourceOptions& bag) {
   options.time_offset = bag.time_offset;
   options.max_wait = longest_wait;
   options.max_frames = most_waiting;
+  options.has_targets = !bag.topics.targets.empty();
   options.known = bag.camera;
-  return options;
+  return {options};
+}
+
+std::vector<CloudInputOptions> clouds_of(const BagSourceOptions& bag) {
+  if (!bag.cloud) return {};
+  CloudInputOptions options = *bag.cloud;
+  options.mount.frame_prefix = bag.frame_prefix;
+  options.poses = bag.topics.poses;
+  options.time_offset = bag.time_offset;
+  options.max_frames = most_waiting;
+  options.has_targets = !bag.topics.targets.empty();
+  return {options};
 }
 
 }  // namespace
@@ -41,14 +54,19 @@ BagSource::BagSource(const std::filesystem::path& bag, const Robot& robot, BagSo
                   .joint_names = options_.joint_names,
                   .compare_sources = options_.compare_sources,
                   .static_transforms = options_.static_transforms},
-                 {camera_options(options_)}),
-      decoders_{Decoder{DepthInput(options_.camera.cameras)},
-                Decoder{DepthInput(options_.camera.cameras)}} {
+                 cameras_of(options_), clouds_of(options_)) {
+  if (options_.camera)
+    for (Decoder& decoder : decoders_) decoder.depth.emplace(options_.camera->cameras);
   check_range();
 }
 
+const TopicUse& BagSource::sensor() const {
+  if (!options_.cloud) return options_.topics.depth;
+  return *std::ranges::find(options_.topics.clouds, options_.cloud->topic, &TopicUse::name);
+}
+
 void BagSource::check_range() {
-  const auto count = options_.topics.depth.messages;
+  const auto count = sensor().messages;
   if (!count) return;
   const auto most = static_cast<std::int64_t>(*count);
   const std::int64_t first = options_.first.value_or(0);
@@ -76,16 +94,19 @@ bool BagSource::read(std::size_t /*number*/, Frame& frame) {
     }
     if (given_) return false;
     throw InputError(name_ + ": none of its " + std::to_string(images_) +
-                     " depth images is in the range; change " + options_.range_option);
+                     (options_.cloud ? " clouds" : " depth images") + " is in the range; change " +
+                     options_.range_option);
   }
   given_ = true;
-  if (const auto fault = depth.read(current); !fault.empty())
-    assembler_.add_fault(options_.topics.depth.name, current.arrived, fault);
+  if (depth)
+    if (const auto fault = depth->read(current); !fault.empty())
+      assembler_.add_fault(options_.topics.depth.name, current.arrived, fault);
+  if (time_note_.empty()) time_note_ = current.points.time_note;
   frame = std::move(static_cast<Frame&>(current));
   *frame.index += static_cast<std::size_t>(options_.first.value_or(0));
   if ((options_.topics.color || !options_.topics.has_depth) && options_.with_color) {
     frame.color_message = current.color_image ? decode_color(*current.color_image,
-                                                             options_.camera.cameras.judged, color)
+                                                             options_.camera->cameras.judged, color)
                                               : ColorImages::none_near;
     if (frame.color_message.empty()) frame.color = std::as_const(color).view();
   }
@@ -96,15 +117,16 @@ bool BagSource::read(std::size_t /*number*/, Frame& frame) {
 void BagSource::read_message() {
   const bool past_end = options_.end && images_ >= *options_.end;
   BagMessage message;
-  if ((past_end && assembler_.camera(0).counts().waiting == 0) || !bag_->next(message)) {
+  if ((past_end && assembler_.sensor(0).counts().waiting == 0) || !bag_->next(message)) {
     ended_ = true;
     return assembler_.finish();
   }
   now_ = message.log_time;
   const auto& input = input_of(message.topic);
   if (!input) return;
-  const bool is_depth = assembler_.topics()[*input].role == TopicRole::depth;
-  if (is_depth && !is_in_range(images_++)) return;
+  const TopicRole role = assembler_.topics()[*input].role;
+  const bool is_sensor = role == TopicRole::depth || role == TopicRole::cloud;
+  if (is_sensor && !is_in_range(images_++)) return;
   assembler_.receive(*input, {.data = message.data}, now_);
 }
 
@@ -113,7 +135,8 @@ const std::optional<std::size_t>& BagSource::input_of(std::size_t topic) {
     const BagTopic& next = bag_->topics()[inputs_.size()];
     const auto role = options_.topics.role_of(next);
     const bool is_used = role && *role != TopicRole::description &&
-                         (*role != TopicRole::color || options_.with_color);
+                         (*role != TopicRole::color || options_.with_color) &&
+                         (*role != TopicRole::cloud || next.name == sensor().name);
     auto& input = inputs_.emplace_back();
     if (!is_used) continue;
     try {
@@ -134,7 +157,9 @@ const std::optional<std::size_t>& BagSource::input_of(std::size_t topic) {
 std::vector<std::string> BagSource::notes() const {
   std::vector<std::string> lines = bag_notes(name_, *bag_, assembler_.faults());
   for (const std::string& line : assembler_.notes()) lines.push_back(name_ + ": " + line);
-  const TargetInbox& targets = assembler_.camera(0).setup()->targets;
+  if (!time_note_.empty()) lines.push_back(sensor().name + ": " + time_note_);
+  if (assembler_.sensor(0).setup() == nullptr) return lines;  // no cloud came
+  const TargetInbox& targets = assembler_.sensor(0).setup()->targets;
   if (targets.waiting() > 0)
     lines.push_back(name_ + ": " + std::to_string(targets.waiting()) +
                     " targets came after the last frame and are not judged");

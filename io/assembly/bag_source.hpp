@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <io/assembly/bag_topics.hpp>
+#include <io/assembly/cloud_input.hpp>
 #include <io/assembly/depth_input.hpp>
 #include <io/assembly/frame_assembler.hpp>
 #include <io/bag/bag_reader.hpp>
@@ -20,7 +21,8 @@ namespace penumbra::io {
 
 struct BagSourceOptions {
   BagTopics topics;
-  KnownCamera camera;
+  std::optional<KnownCamera> camera = {};
+  std::optional<CloudInputOptions> cloud = {};      ///< one of topics.clouds, in place of a camera
   std::vector<TransformMessage> static_transforms;  ///< see RobotInputOptions
   std::string frame_prefix = {};                    ///< PoseOptions::frame_prefix
   std::string joint_names = {};                     ///< see RobotInputOptions
@@ -31,9 +33,9 @@ struct BagSourceOptions {
   bool with_color = false;                      ///< with colour images, for pictures
 };
 
-/// Feeds a bag's messages to a FrameAssembler. Returns every depth image, numbered from 0 in the
-/// order of recording; if its pose or pixels are not known, its status says so. Targets come with
-/// the next frame after their messages.
+/// Feeds a bag's messages to a FrameAssembler. Returns every depth image or cloud, numbered from 0
+/// in the order of recording; if its pose or pixels are not known, its status says so. Targets come
+/// with the frame of their stamp, or the next one after their messages.
 class BagSource final : public FrameSource {
  public:
   /// Throws InputError like open_bag and FrameQueue, and for frames that the bag does not have
@@ -44,17 +46,21 @@ class BagSource final : public FrameSource {
   /// frames.
   bool read(std::size_t number, Frame& frame) override;
   [[nodiscard]] std::optional<std::size_t> size() const override { return size_; }
+  [[nodiscard]] const AssembledFrame* assembled() const override {
+    return options_.cloud ? &decoders_[turn_].current : nullptr;
+  }
   [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:
   /// What the images of a frame refer to.
   struct Decoder {
-    DepthInput depth;
+    std::optional<DepthInput> depth = {};
     AssembledFrame current = {};
     Image<Rgb8> color = {};
   };
 
   void check_range();
+  [[nodiscard]] const TopicUse& sensor() const;
   void read_message();
   [[nodiscard]] const std::optional<std::size_t>& input_of(std::size_t topic);
   [[nodiscard]] bool is_in_range(std::int64_t image) const;
@@ -67,9 +73,10 @@ class BagSource final : public FrameSource {
   std::array<Decoder, 2> decoders_;                 // in turns
   std::size_t turn_ = 0;
   std::optional<std::size_t> size_;
-  std::int64_t images_ = 0;  // number read so far
+  std::int64_t images_ = 0;  // number of images or clouds read so far
   std::int64_t now_ = 0;     // current log time
   bool ended_ = false, given_ = false;
+  std::string time_note_;  // the first cloud's
 };
 
 }  // namespace penumbra::io

@@ -42,6 +42,8 @@ FrameAssembler::FrameAssembler(RobotInputOptions robot,
     cameras_.push_back(std::make_unique<CameraInput>(camera, robot_));
   for (const CloudInputOptions& cloud : clouds)
     clouds_.push_back(std::make_unique<CloudInput>(cloud, robot_));
+  for (const auto& camera : cameras_) sensors_.push_back(camera.get());
+  for (const auto& cloud : clouds_) sensors_.push_back(cloud.get());
 }
 
 std::size_t FrameAssembler::add_topic(InputTopic topic) {
@@ -85,8 +87,7 @@ void FrameAssembler::set_robot(MadeRobot made) {
 }
 
 void FrameAssembler::follow_robot() {
-  for (const auto& camera : cameras_) camera->refresh();
-  for (const auto& cloud : clouds_) cloud->refresh();
+  for (SensorInput* const sensor : sensors_) sensor->refresh();
 }
 
 void FrameAssembler::note_sensor(std::int64_t stamp, double time_offset, std::int64_t now) {
@@ -122,8 +123,7 @@ std::vector<std::string> FrameAssembler::notes() const {
 }
 
 void FrameAssembler::finish() {
-  for (const auto& camera : cameras_) camera->finish();
-  for (const auto& cloud : clouds_) cloud->finish();
+  for (SensorInput* const sensor : sensors_) sensor->finish();
 }
 
 template <typename M, typename F>
@@ -268,21 +268,18 @@ MessageHandler FrameAssembler::handler_of_targets_as(std::size_t topic) {
   return handler<M>(topic, [this, topic](const M& found, const auto&, auto) {
     // A message is for the sensors that know its frame. One that no sensor knows may be for a
     // camera without setup; if all have one, all sensors take the message and report the mismatch.
-    const auto knows = [&](const auto& sensor) {
+    const auto sensors =
+        std::span(sensors_).first(is_of_pixels<M> ? cameras_.size() : sensors_.size());
+    const auto knows = [&](const SensorInput* sensor) {
       return sensor->setup() != nullptr &&
              sensor->setup()->targets.knows(found.header.frame_id, is_of_pixels<M>);
     };
-    const auto lacks_setup = [](const auto& sensor) { return sensor->setup() == nullptr; };
-    const bool is_known = std::any_of(cameras_.begin(), cameras_.end(), knows) ||
-                          (!is_of_pixels<M> && std::any_of(clouds_.begin(), clouds_.end(), knows));
-    const bool is_early = std::any_of(cameras_.begin(), cameras_.end(), lacks_setup);
-    const auto give = [&](const auto& sensor) {
+    const auto lacks_setup = [](const SensorInput* sensor) { return sensor->setup() == nullptr; };
+    const bool is_known = std::ranges::any_of(sensors, knows);
+    const bool is_early = std::ranges::any_of(sensors, lacks_setup);
+    for (SensorInput* const sensor : sensors)
       if (is_known ? knows(sensor) : !is_early || lacks_setup(sensor))
         sensor->take_targets(topics_[topic].name, found);
-    };
-    for (const auto& camera : cameras_) give(camera);
-    if constexpr (!is_of_pixels<M>)
-      for (const auto& cloud : clouds_) give(cloud);
   });
 }
 

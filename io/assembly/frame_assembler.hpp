@@ -19,21 +19,21 @@
 
 namespace penumbra::io {
 
-/// Makes frames of ROS 2 messages: one robot, its cameras, and its sensors that measure points.
+/// Makes frames of ROS 2 messages: one robot, its cameras, and its sensors that measure points. A
+/// sensor's number counts the cameras first.
 ///
 /// In: serialised messages, each with the topic's role, and the time at which it arrived on any
 /// clock of the caller: a steady clock, or a bag's log time.
-/// Out: frames, one camera at a time. Each has a depth image, the poses of robot and camera at the
-/// image's own stamp, the targets received since the last frame, and the colour image nearest in
-/// time. What is not known is a status of the frame. Images that do not become frames are counted
-/// with the reason.
-/// Which frames come out is the camera's choice (CameraInputOptions::known): the newest image that
-/// can be judged, with the current setup (live), or every image, with one setup (bags).
+/// Out: frames, one sensor at a time. Each has a depth image or a scan, the poses of robot and
+/// sensor at its own stamp, the targets received since the last frame, and the colour image nearest
+/// in time. What is not known is a status of the frame. Messages that do not become frames are
+/// counted with the reason. See SensorInput for which frames come out.
 ///
 /// This class knows no transport, starts no thread and reads no clock. Its callers are the bag
 /// reader (BagSource), the DDS subscriptions (LiveRunner) and, like them, any other node. One
 /// thread at a time may call it. An AssembledFrame may be judged meanwhile by another thread, one
-/// for each camera; it comes back by done().
+/// for each sensor; it comes back by done(). Its pose_at reads the robot's poses, and needs the
+/// lock of whoever calls this.
 class FrameAssembler {
  public:
   /// Throws InputError for options that FrameQueue refuses, if a camera is known; otherwise its
@@ -70,30 +70,30 @@ class FrameAssembler {
   /// Requests a robot again that could not be made: its meshes may exist now.
   void retry_robot() { robot_.retry(); }
 
-  /// Sets `frame` to the next frame of a camera. Returns false if none is ready. Call it until then
+  /// Sets `frame` to the next frame of a sensor. Returns false if none is ready. Call it until then
   /// after messages were received, and at wake_at(). `with_color`: adds the colour image.
-  bool next(std::size_t camera, std::int64_t now, bool with_color, AssembledFrame& frame) {
-    return cameras_[camera]->next(now, with_color, frame);
+  bool next(std::size_t sensor, std::int64_t now, bool with_color, AssembledFrame& frame) {
+    return sensors_[sensor]->next(now, with_color, frame);
   }
   /// Counts the outcome of a frame. Call this once for each frame. `unjudged_targets`: its targets,
   /// if it could not be judged.
-  void done(std::size_t camera, bool is_judged, std::size_t unjudged_targets = 0) {
-    cameras_[camera]->done(is_judged, unjudged_targets);
+  void done(std::size_t sensor, bool is_judged, std::size_t unjudged_targets = 0) {
+    sensors_[sensor]->done(is_judged, unjudged_targets);
   }
   /// Returns when next() will have a frame even if no message arrives.
-  [[nodiscard]] std::optional<std::int64_t> wake_at(std::size_t camera) const {
-    return cameras_[camera]->wake_at();
+  [[nodiscard]] std::optional<std::int64_t> wake_at(std::size_t sensor) const {
+    return sensors_[sensor]->wake_at();
   }
-  /// The clouds of a sensor, as next(), done() and wake_at() of cameras.
-  [[nodiscard]] CloudInput& cloud(std::size_t i) { return *clouds_[i]; }
-  [[nodiscard]] const CloudInput& cloud(std::size_t i) const { return *clouds_[i]; }
-  [[nodiscard]] std::size_t cloud_count() const { return clouds_.size(); }
   /// Ends all waits: no further message will come.
   void finish();
 
   [[nodiscard]] const RobotInput& robot() const { return robot_; }
   [[nodiscard]] std::size_t camera_count() const { return cameras_.size(); }
   [[nodiscard]] const CameraInput& camera(std::size_t i) const { return *cameras_[i]; }
+  [[nodiscard]] std::size_t cloud_count() const { return clouds_.size(); }
+  [[nodiscard]] const CloudInput& cloud(std::size_t i) const { return *clouds_[i]; }
+  [[nodiscard]] std::size_t sensor_count() const { return sensors_.size(); }
+  [[nodiscard]] const SensorInput& sensor(std::size_t i) const { return *sensors_[i]; }
   [[nodiscard]] const MessageFaults& faults() const { return faults_; }
   /// Returns what is wrong with the robot's messages, one line each.
   [[nodiscard]] std::vector<std::string> notes() const;
@@ -129,6 +129,7 @@ class FrameAssembler {
   RobotInput robot_;
   std::vector<std::unique_ptr<CameraInput>> cameras_;
   std::vector<std::unique_ptr<CloudInput>> clouds_;
+  std::vector<SensorInput*> sensors_;  // all of them
   std::vector<InputTopic> topics_;
   std::vector<MessageHandler> handlers_;  // of each topic
   std::vector<std::size_t> received_;     // likewise

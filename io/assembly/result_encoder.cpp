@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <utility>
+#include <variant>
+
 #include <io/assembly/result_encoder.hpp>
 #include <io/ros/image_codec.hpp>
 #include <io/ros/message_encoder.hpp>
@@ -30,6 +33,25 @@ void ResultEncoder::encode(const FrameReport& report, const ShownImages& images,
   if (!sink.wants(Result::overlay)) return;
   const auto overlay = painter_.draw(report, images, targets);
   write(Result::overlay, png_message(results_.header(), overlay, png_), sink);
+}
+
+void CloudEncoder::encode(const FrameReport& report, const Frame& frame,
+                          const AssembledFrame& cloud, ResultSink& sink) {
+  const std::int64_t stamp = frame.stamp.value_or(0);
+  const auto write = [&]<typename M>(const M& message) {
+    if (!std::exchange(has_type_, true)) sink.set_cloud_type(message_type<M>());
+    for (const Result result : {Result::without_robot, Result::labelled}) {
+      how_.labelled = result == Result::labelled;
+      if (how_.labelled && !std::is_same_v<M, PointCloud2Message>) continue;
+      if (!sink.wants(result)) continue;
+      io::encode(cloud_output(message, report, how_, data_), payload_);
+      sink.write(result, stamp, payload_);
+    }
+  };
+  std::visit(write, cloud.message);
+  if (frame.targets.empty() || !sink.wants(Result::targets)) return;
+  io::encode(targets_message(report, cloud.frame_id, root_), payload_);
+  sink.write(Result::targets, stamp, payload_);
 }
 
 }  // namespace penumbra::io

@@ -12,6 +12,7 @@
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
+#include <io/assembly/assembled_frame.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/ros/result_messages.hpp>
 
@@ -26,7 +27,10 @@ enum class Result {
   points,
   targets,
   overlay,
-  robot_mask
+  robot_mask,
+  // Of a sensor of points, like targets:
+  without_robot,  ///< its clouds, of the input's type
+  labelled        ///< with CloudOutput::labelled; of PointCloud2
 };
 
 struct ResultTopic {
@@ -44,7 +48,7 @@ inline constexpr std::array result_topics = {
     ResultTopic{Result::overlay, "overlay/compressed", "sensor_msgs/msg/CompressedImage"},
     ResultTopic{Result::robot_mask, "robot_mask", "sensor_msgs/msg/Image"}};
 
-/// Receives encoded results: a bag or the graph of ROS 2.
+/// Receives encoded results of a sensor: a bag or the graph of ROS 2.
 class ResultSink {
  public:
   ResultSink() = default;
@@ -52,13 +56,33 @@ class ResultSink {
   ResultSink& operator=(const ResultSink&) = delete;
   virtual ~ResultSink() = default;
 
+  /// Tells the message type of a sensor's clouds, before it asks wants() for the first one.
+  virtual void set_cloud_type(const std::string& /*type*/) {}
   /// Returns whether to make this result.
   [[nodiscard]] virtual bool wants(Result result) const = 0;
   /// Writes a result. `payload`: the message in CDR, valid during the call.
   virtual void write(Result result, std::int64_t stamp, std::span<const std::byte> payload) = 0;
 };
 
-/// Encodes the results of judged frames that a sink wants.
+/// Encodes the results of labelled scans that a sink wants.
+class CloudEncoder {
+ public:
+  /// `root`: the robot's root link.
+  CloudEncoder(CloudOutput how, std::string root) : how_(how), root_(std::move(root)) {}
+
+  /// Encodes and writes the results of a scan. `cloud`: its message, whose Frame part may have been
+  /// moved away.
+  void encode(const FrameReport& report, const Frame& frame, const AssembledFrame& cloud,
+              ResultSink& sink);
+
+ private:
+  CloudOutput how_;
+  std::string root_;
+  bool has_type_ = false;
+  std::vector<std::byte> data_, payload_;
+};
+
+/// Encodes the results of judged images that a sink wants.
 class ResultEncoder {
  public:
   /// `camera`: of the judged images as received; `root`: the robot's root link.

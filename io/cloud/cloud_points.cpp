@@ -190,8 +190,8 @@ void view_copied(CloudPoints& out) {
   out.points = {std::as_bytes(std::span(out.copied)).data(), out.copied.size() / 3};
 }
 
-bool stays(const CloudReport& report, std::size_t point) {
-  return is_trusted(static_cast<Label>(report.labels[point]));
+bool stays(const FrameReport& report, std::size_t point) {
+  return is_trusted(static_cast<Label>(report.labels.data[point]));
 }
 
 }  // namespace
@@ -268,7 +268,7 @@ std::string read_points(const LivoxMessage& cloud, bool use_times, CloudPoints& 
   return {};
 }
 
-PointCloud2Message cloud_output(const PointCloud2Message& cloud, const CloudReport& report,
+PointCloud2Message cloud_output(const PointCloud2Message& cloud, const FrameReport& report,
                                 const CloudOutput& how, std::vector<std::byte>& data) {
   const PointTable table(cloud);
   PointCloud2Message out = cloud;
@@ -299,9 +299,9 @@ PointCloud2Message cloud_output(const PointCloud2Message& cloud, const CloudRepo
       }
     if (how.labelled) {
       std::array<std::byte, sizeof(std::uint16_t)> link;
-      std::memcpy(link.data(), &report.point_links[i], sizeof link);
+      std::memcpy(link.data(), &report.virtual_depth.links.data[i], sizeof link);
       if (table.is_swapped()) std::reverse(link.begin(), link.end());
-      data.push_back(static_cast<std::byte>(report.labels[i]));
+      data.push_back(static_cast<std::byte>(report.labels.data[i]));
       data.insert(data.end(), link.begin(), link.end());
     }
   }
@@ -312,19 +312,19 @@ PointCloud2Message cloud_output(const PointCloud2Message& cloud, const CloudRepo
   return out;
 }
 
-LaserScanMessage cloud_output(const LaserScanMessage& scan, const CloudReport& report,
+LaserScanMessage cloud_output(const LaserScanMessage& scan, const FrameReport& report,
                               const CloudOutput& how, std::vector<std::byte>& /*data*/) {
   LaserScanMessage out = scan;
   for (std::size_t i = 0; i < out.ranges.size(); ++i) {
     if (!is_range(scan, i) || stays(report, i)) continue;
-    const bool is_robot = static_cast<Label>(report.labels[i]) != Label::unknown;
+    const bool is_robot = static_cast<Label>(report.labels.data[i]) != Label::unknown;
     out.ranges[i] =
         how.infinite_ranges && is_robot ? std::numeric_limits<float>::infinity() : no_value;
   }
   return out;
 }
 
-LivoxMessage cloud_output(const LivoxMessage& cloud, const CloudReport& report,
+LivoxMessage cloud_output(const LivoxMessage& cloud, const FrameReport& report,
                           const CloudOutput& /*how*/, std::vector<std::byte>& /*data*/) {
   LivoxMessage out = cloud;
   out.points.clear();

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/cloud/cloud_pipeline.hpp>
+#include <penumbra/pipeline/frame.hpp>
 
 #include <io/ros/lidar_messages.hpp>
 #include <io/ros/messages.hpp>
@@ -47,7 +47,7 @@ struct CloudPoints {
 /// What is written of a labelled cloud.
 struct CloudOutput {
   /// PointCloud2 with all points and two more fields, `label` (uint8) and `link` (uint16: index + 1
-  /// in CloudReport::links), in place of one without the robot.
+  /// in FrameReport::links), in place of one without the robot.
   bool labelled = false;
   /// Ranges of the robot in a LaserScan become inf in place of NaN; those that may be its stay NaN.
   bool infinite_ranges = false;
@@ -57,11 +57,11 @@ struct CloudOutput {
 /// several rows, and ranges, become NaN, others are left out. Other values are not changed. `data`
 /// holds the result's.
 [[nodiscard]] PointCloud2Message cloud_output(const PointCloud2Message& cloud,
-                                              const CloudReport& report, const CloudOutput& how,
+                                              const FrameReport& report, const CloudOutput& how,
                                               std::vector<std::byte>& data);
-[[nodiscard]] LaserScanMessage cloud_output(const LaserScanMessage& scan, const CloudReport& report,
+[[nodiscard]] LaserScanMessage cloud_output(const LaserScanMessage& scan, const FrameReport& report,
                                             const CloudOutput& how, std::vector<std::byte>& data);
-[[nodiscard]] LivoxMessage cloud_output(const LivoxMessage& cloud, const CloudReport& report,
+[[nodiscard]] LivoxMessage cloud_output(const LivoxMessage& cloud, const FrameReport& report,
                                         const CloudOutput& how, std::vector<std::byte>& data);
 
 }  // namespace penumbra::io

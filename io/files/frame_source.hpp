@@ -10,6 +10,8 @@
 
 namespace penumbra::io {
 
+struct AssembledFrame;
+
 /// A sequence of frames: a recording folder or a bag.
 class FrameSource {
  public:
@@ -29,6 +31,10 @@ class FrameSource {
 
   /// Returns the number of frames, if it is known before the end.
   [[nodiscard]] virtual std::optional<std::size_t> size() const = 0;
+
+  /// Returns the message of the last frame and its points, of a sensor of points; else null. The
+  /// Frame part was moved away.
+  [[nodiscard]] virtual const AssembledFrame* assembled() const { return nullptr; }
 
   /// Returns faults of the source, a line each. They are complete at the end.
   [[nodiscard]] virtual std::vector<std::string> notes() const = 0;

@@ -56,6 +56,9 @@ Json rule_json(const Rule& rule) {
 /// Returns "calibration" of reports and summaries; null while nothing is known.
 [[nodiscard]] Json drift_json(const Drift& drift);
 
+/// Returns a scan's numbers of points by the names of their labels.
+[[nodiscard]] Json points_json(const PixelCounts& points);
+
 /// Returns one of "targets" of report.json.
 [[nodiscard]] Json target_json(const TargetReport& target);
 

@@ -114,7 +114,7 @@ Json settings_json(const UsedSettings& used) {
   for (const auto& [pattern, margin] : used.robot.margins) margins[pattern] = margin;
   for (const ExtraMesh& extra : used.robot.extra)
     extras.push_back({{"link", extra.link}, {"mesh", extra.mesh.string()}});
-  Json json = rule_json(used.rule);
+  Json json = used.clouds ? rule_json(used.clouds->rule) : rule_json(used.rule);
   json.update({{"labels", used.paper_labels ? "paper" : "full"},
                {"beyond", used.beyond == BeyondMeans::visible ? "visible" : "occluded"},
                {"targets", or_null(used.targets)},
@@ -129,6 +129,9 @@ Json settings_json(const UsedSettings& used) {
                {"ignore_links", list(used.robot.ignore_links)},
                {"joints", used.robot.joints},
                {"only_links", list(used.robot.only_links)}});
+  if (!used.clouds) return json;
+  for (const char* of_images : {"labels", "beyond", "range", "image"}) json.erase(of_images);
+  json.update({{"merged", used.clouds->merged}, {"times", used.clouds->times}});
   return json;
 }
 
@@ -139,6 +142,12 @@ Json pixels_json(const PixelCounts& pixels) {
           {"uncovered", pixels.uncovered}};
 }
 
+/// Returns "pixels", or, of a scan, "points".
+std::pair<const char*, Json> counts_of(const PixelCounts& pixels, std::size_t parts) {
+  if (parts == 0) return {"pixels", pixels_json(pixels)};
+  return {"points", points_json(pixels)};
+}
+
 Json frame_json(const FrameReport& report) {
   Json timing;
   for (const Stage& stage : stages) timing[stage.name] = or_null(report.timing.*stage.time);
@@ -147,15 +156,18 @@ Json frame_json(const FrameReport& report) {
   Json targets = Json::array(), attached = Json::object();
   for (const TargetReport& target : report.targets) targets.push_back(target_json(target));
   for (const std::size_t body : report.attached) attached[report.links[body]] = body + 1;
-  return {{"index", report.index},
-          {"stamp_ns", or_null(report.stamp)},
-          {"joint_age_ms", age},
-          {"status", to_string(report.status)},
-          {"message", report.message.empty() ? Json(nullptr) : Json(report.message)},
-          {"pixels", pixels_json(report.pixels)},
-          {"timing_ms", std::move(timing)},
-          {"attached", std::move(attached)},
-          {"targets", std::move(targets)}};
+  const auto [counts, numbers] = counts_of(report.pixels, report.parts);
+  Json json{{"index", report.index},
+            {"stamp_ns", or_null(report.stamp)},
+            {"joint_age_ms", age},
+            {"status", to_string(report.status)},
+            {"message", report.message.empty() ? Json(nullptr) : Json(report.message)},
+            {counts, numbers},
+            {"timing_ms", std::move(timing)},
+            {"attached", std::move(attached)},
+            {"targets", std::move(targets)}};
+  if (report.parts > 0) json["parts"] = report.parts;
+  return json;
 }
 
 Json faults_json(const Statistics& statistics) {
@@ -195,16 +207,19 @@ Json summary_json(const Statistics& statistics, std::span<const std::string> mis
   Json targets = Json::array();
   for (const TargetStatistics& target : statistics.targets())
     targets.push_back(target_summary_json(target));
-  return {{"frames", statistics.frames()},
-          {"bad_frames", statistics.bad_frames()},
-          {"timing_ms", std::move(timing)},
-          {"pixels", pixels_json(statistics.pixels())},
-          {"faults", faults_json(statistics)},
-          {"targets", std::move(targets)},
-          {"missing_links", list(missing_links)},
-          {"calibration", drift_json(statistics.drift())},
-          {"diagnosis", diagnosis_json(statistics.diagnosis())},
-          {"notes", list(notes)}};
+  const auto [counts, numbers] = counts_of(statistics.pixels(), statistics.parts());
+  Json json{{"frames", statistics.frames()},
+            {"bad_frames", statistics.bad_frames()},
+            {"timing_ms", std::move(timing)},
+            {counts, numbers},
+            {"faults", faults_json(statistics)},
+            {"targets", std::move(targets)},
+            {"missing_links", list(missing_links)},
+            {"calibration", drift_json(statistics.drift())},
+            {"diagnosis", diagnosis_json(statistics.diagnosis())},
+            {"notes", list(notes)}};
+  if (statistics.parts() > 0) json["most_parts"] = statistics.parts();
+  return json;
 }
 
 Json link_json(const LinkReport& link) {
@@ -239,6 +254,12 @@ Json joint_json(const Robot& robot, const Joint& joint) {
 }
 
 }  // namespace
+
+Json points_json(const PixelCounts& points) {
+  Json json;
+  for (const auto& [label, count] : point_counts) json[label] = points.*count;
+  return json;
+}
 
 Json target_json(const TargetReport& target) {
   const Judgement none;
@@ -295,7 +316,7 @@ Json renderer_json(const RendererInfo& info) {
 std::string report_start(const ReportHead& head) {
   return std::string(report_json_start) + dump(PENUMBRA_VERSION) +
          ",\n\"input\": " + dump(head.input) +
-         ",\n\"renderer\": " + dump(renderer_json(head.renderer)) +
+         ",\n\"renderer\": " + dump(head.renderer ? renderer_json(*head.renderer) : Json(nullptr)) +
          ",\n\"settings\": " + dump(settings_json(head.settings)) +
          ",\n\"links\": " + dump(list(head.links)) + ",\n\"frames\": [";
 }

@@ -38,6 +38,13 @@ struct UsedBag {
   bool depth_along_ray = false;            ///< not the z-component
 };
 
+/// The settings that label clouds.
+struct UsedClouds {
+  CloudRule rule;
+  bool merged = false;
+  bool times = true;
+};
+
 /// The settings of a run.
 struct UsedSettings {
   LabelRule rule;
@@ -48,12 +55,13 @@ struct UsedSettings {
   std::string targets = {};     ///< the targets' file; empty: none
   double target_history = 0.0;  ///< PipelineConfig's, seconds
   std::optional<UsedBag> bag = {};
+  std::optional<UsedClouds> clouds = {};  ///< of a sensor of points; without rule, labels and image
 };
 
 /// The head of a report.
 struct ReportHead {
   std::string input;
-  RendererInfo renderer;
+  std::optional<RendererInfo> renderer;  ///< of a camera
   UsedSettings settings;
   std::span<const std::string> links;          ///< names, in the order of link images
   std::span<const std::string> missing_links;  ///< not drawn, their geometry could not be read

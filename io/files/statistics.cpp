@@ -34,14 +34,8 @@ std::optional<Quantiles> quantiles(std::vector<double> samples) {
 
 void Statistics::add(const FrameReport& report) {
   ++frames_;
-  const PixelCounts& p = report.pixels;
-  if (p.robot) pixels_.robot = pixels_.robot.value_or(0) + *p.robot;
-  pixels_.front += p.front;
-  pixels_.occluded += p.occluded;
-  pixels_.unknown += p.unknown;
-  pixels_.beyond += p.beyond;
-  pixels_.fringe += p.fringe;
-  pixels_.uncovered += p.uncovered;
+  pixels_.add(report.pixels);
+  parts_ = std::max(parts_, report.parts);
   for (std::size_t i = 0; i < stages.size(); ++i)
     if (const auto time = report.timing.*stages[i].time) times_[i].push_back(*time);
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <penumbra/calibration/watch.hpp>
@@ -32,6 +33,15 @@ struct Stage {
 inline constexpr std::array stages = {
     Stage{"kinematics", &StageTimes::kinematics}, Stage{"render", &StageTimes::render},
     Stage{"classify", &StageTimes::classify}, Stage{"targets", &StageTimes::targets}};
+
+/// The labels of a scan's points and their numbers in a report.
+inline constexpr std::array<std::pair<std::string_view, std::size_t PixelCounts::*>, 6>
+    point_counts = {{{"clear", &PixelCounts::clear},
+                     {"front", &PixelCounts::front},
+                     {"occluded", &PixelCounts::occluded},
+                     {"unknown", &PixelCounts::unknown},
+                     {"beyond", &PixelCounts::beyond},
+                     {"fringe", &PixelCounts::fringe}}};
 
 /// A message of frames, and their number. Messages that differ only in numbers of frames, files and
 /// lines are one reason.
@@ -83,6 +93,9 @@ class Statistics {
   /// Returns sums over the frames; `robot` over those that have it.
   [[nodiscard]] const PixelCounts& pixels() const { return pixels_; }
 
+  /// Returns the most parts of a scan; 0: the frames are images.
+  [[nodiscard]] std::size_t parts() const { return parts_; }
+
   /// Returns the targets in the order of their first frames.
   [[nodiscard]] const std::vector<TargetStatistics>& targets() const { return targets_; }
 
@@ -107,6 +120,7 @@ class Statistics {
   std::size_t usable_frames_ = 0;
   std::vector<Fault> faults_;
   PixelCounts pixels_;
+  std::size_t parts_ = 0;
   std::vector<TargetStatistics> targets_;
   std::unordered_map<std::string, std::size_t> target_places_;
   std::array<std::vector<double>, stages.size()> times_;

@@ -163,7 +163,7 @@ DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, s
   add(status, "judged per second", decimal(rate, ""));
   if (camera.setup() != nullptr)
     add(status, "camera on link",
-        camera.setup()->mount.parent + ", by " + camera.setup()->mount.source);
+        camera.setup()->sensor.mount.parent + ", by " + camera.setup()->sensor.mount.source);
   if (const auto& renderer = inbox.tally(number).last.renderer) add_renderer(status, *renderer);
   add_counts(status, counts);
   for (const std::string& line : inbox.warnings(number)) add(status, "warning", line);
@@ -182,25 +182,25 @@ DiagnosticStatusMessage LiveDiagnostics::cloud_status(const LiveInbox& inbox, st
                                                       std::span<const LiveLink> links,
                                                       const Period& period) const {
   const CloudInput& cloud = inbox.cloud(number);
-  const CloudTally& tally = inbox.cloud_tally(number);
+  const std::size_t sensor = inbox.camera_count() + number;
+  const LiveTally& tally = inbox.tally(sensor);
   const ImageCounts counts = cloud.counts();
   const LiveFault current = cloud_fault(inbox, number, links, period.now);
-  const double rate = static_cast<double>(counts.judged - labelled_[number]) / period.seconds;
+  const double rate = static_cast<double>(counts.judged - judged_[sensor]) / period.seconds;
   Status status = make_status("cloud " + printable(cloud.options().topic), current);
   if (current.why.empty()) status.message = decimal(rate, " clouds/s labelled");
   add(status, "labelled per second", decimal(rate, ""));
   if (cloud.setup() != nullptr)
     add(status, "sensor on link",
-        cloud.setup()->mount.parent + ", by " + cloud.setup()->mount.source);
+        cloud.setup()->sensor.mount.parent + ", by " + cloud.setup()->sensor.mount.source);
   add_counts(status, counts);
-  for (const std::string& line : tally.warnings) add(status, "warning", line);
-  for (std::size_t i = 0; i < label_count; ++i)
-    add_count(status, "points " + std::string(point_label_names[i]), tally.all.points[i]);
-  add_count(status, "most poses of a scan", tally.all.parts);
-  if (!tally.all.time_note.empty()) add(status, "times", tally.all.time_note);
-  if (cloud.late_targets() > 0)
-    add_count(status, "targets not judged: no cloud has their stamp", cloud.late_targets());
+  for (const std::string& line : inbox.warnings(sensor)) add(status, "warning", line);
+  for (const auto& [label, count] : point_counts)
+    add_count(status, "points " + std::string(label), tally.points.*count);
+  add_count(status, "most poses of a scan", tally.parts);
+  if (!tally.time_note.empty()) add(status, "times", tally.time_note);
   add_tally(status, tally);
+  add_targets(status, cloud.targets());
   for (std::size_t i = 0; i < inbox.topics().size(); ++i)
     if (inbox.topics()[i].role == TopicRole::cloud && inbox.topics()[i].camera == number)
       add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));
@@ -216,19 +216,15 @@ DiagnosticArrayMessage LiveDiagnostics::report(const LiveInbox& inbox,
                                                std::span<const LiveLink> links,
                                                const LiveMoment& moment) {
   const Period period{moment.now, std::max(static_cast<double>(moment.now - before_) * 1e-9, 1e-3)};
-  judged_.resize(inbox.camera_count());
+  judged_.resize(inbox.sensor_count());
   received_.resize(inbox.topics().size());
   DiagnosticArrayMessage array{.header = {moment.system_now, ""}, .status = {}};
   array.status.push_back(robot_status(inbox, links, period));
-  for (std::size_t c = 0; c < inbox.camera_count(); ++c) {
+  for (std::size_t c = 0; c < inbox.camera_count(); ++c)
     array.status.push_back(camera_status(inbox, c, links, period));
-    judged_[c] = inbox.camera(c).counts().judged;
-  }
-  labelled_.resize(inbox.cloud_count());
-  for (std::size_t c = 0; c < inbox.cloud_count(); ++c) {
+  for (std::size_t c = 0; c < inbox.cloud_count(); ++c)
     array.status.push_back(cloud_status(inbox, c, links, period));
-    labelled_[c] = inbox.cloud(c).counts().judged;
-  }
+  for (std::size_t i = 0; i < judged_.size(); ++i) judged_[i] = inbox.sensor(i).counts().judged;
   received_.assign(inbox.received().begin(), inbox.received().end());
   before_ = moment.now;
   for (Status& status : array.status) {

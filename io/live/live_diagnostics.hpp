@@ -89,8 +89,7 @@ class LiveDiagnostics {
                                                     const LiveFault& fault) const;
 
   std::int64_t before_;                // time of the last report
-  std::vector<std::size_t> judged_;    // of each camera, at the last report
-  std::vector<std::size_t> labelled_;  // of each sensor of clouds, at the last report
+  std::vector<std::size_t> judged_;    // of each sensor, at the last report
   std::vector<std::size_t> received_;  // of each topic, at the last report
   std::size_t jumps_ = 0;              // of the clock, at the last report
   DiagnosticSource source_;

@@ -170,11 +170,11 @@ bool is_silent(const Arrivals& arrivals, std::int64_t now) {
 }
 
 /// Returns why messages that arrive give no result, or what is wrong with the results.
-/// `sensor`: a CameraInput or CloudInput.
-template <typename Sensor>
-LiveFault result_fault(const LiveInbox& inbox, const Sensor& sensor, const LiveTally& tally,
-                       const std::vector<std::string>& warnings, std::span<const LiveLink> links,
+LiveFault result_fault(const LiveInbox& inbox, std::size_t number, std::span<const LiveLink> links,
                        std::int64_t now) {
+  const SensorInput& sensor = inbox.sensor(number);
+  const LiveTally& tally = inbox.tally(number);
+  const std::vector<std::string> warnings = inbox.warnings(number);
   if (!inbox.robot().posed()) {
     const LiveFault robot = robot_fault(inbox, links, now);
     return {Status::error, "nothing can be judged: " + robot.why};
@@ -198,7 +198,6 @@ LiveFault result_fault(const LiveInbox& inbox, const Sensor& sensor, const LiveT
 LiveFault camera_fault(const LiveInbox& inbox, std::size_t number, std::span<const LiveLink> links,
                        std::int64_t now) {
   const CameraInput& camera = inbox.camera(number);
-  const LiveTally& tally = inbox.tally(number);
   if (is_silent(camera.arrivals(), now))
     return {Status::stale, "no depth images" + since(camera.arrivals().last(), now) + ": " +
                                why_silent(inbox, TopicRole::depth, number, links)};
@@ -215,13 +214,13 @@ LiveFault camera_fault(const LiveInbox& inbox, std::size_t number, std::span<con
                 " images are not judged: they have no camera_info of their stamp. It is late or "
                 "lost, or they are another camera's: " +
                 why_silent(inbox, TopicRole::camera_info, number, links)};
-  return result_fault(inbox, camera, tally, inbox.warnings(number), links, now);
+  return result_fault(inbox, number, links, now);
 }
 
 LiveFault cloud_fault(const LiveInbox& inbox, std::size_t number, std::span<const LiveLink> links,
                       std::int64_t now) {
   const CloudInput& cloud = inbox.cloud(number);
-  const CloudTally& tally = inbox.cloud_tally(number);
+  const LiveTally& tally = inbox.tally(inbox.camera_count() + number);
   if (is_silent(cloud.arrivals(), now))
     return {Status::stale, "no clouds" + since(cloud.arrivals().last(), now) + ": " +
                                why_silent(inbox, TopicRole::cloud, number, links)};
@@ -229,7 +228,7 @@ LiveFault cloud_fault(const LiveInbox& inbox, std::size_t number, std::span<cons
   const auto unreadable = inbox.faults().all().find(cloud.options().topic);
   if (!tally.last_published && unreadable != inbox.faults().all().end())
     return {Status::error, unreadable->second.what};
-  return result_fault(inbox, cloud, tally, tally.warnings, links, now);
+  return result_fault(inbox, inbox.camera_count() + number, links, now);
 }
 
 }  // namespace penumbra::io

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <io/live/live_inbox.hpp>
 
 namespace penumbra::io {
@@ -31,8 +33,7 @@ void set_robots(LiveOptions& options, const std::vector<std::string>& namespaces
 LiveInbox::LiveInbox(const LiveOptions& options)
     : FrameAssembler(options.robot, options.cameras, options.clouds),
       options_(options),
-      tallies_(options.cameras.size()),
-      cloud_tallies_(options.clouds.size()) {
+      tallies_(sensor_count()) {
   add_topics_of_robot();
   for (std::size_t i = 0; i < options_.cameras.size(); ++i) add_topics_of_camera(i);
   for (std::size_t i = 0; i < options_.clouds.size(); ++i)
@@ -92,32 +93,17 @@ void LiveInbox::add_topics_of_camera(std::size_t camera) {
   add(TopicRole::depth, options.depth_topic, type_of_images(options.depth_topic));
 }
 
-void LiveInbox::done(std::size_t camera, const LiveOutcome& outcome, std::int64_t now,
+void LiveInbox::done(std::size_t sensor, const LiveOutcome& outcome, std::int64_t now,
                      std::int64_t system_now) {
-  FrameAssembler::done(camera, outcome.is_published, outcome.unjudged_targets);
-  count(tallies_[camera], outcome, now, system_now);
-}
-
-void LiveInbox::done_cloud(std::size_t number, const LiveOutcome& outcome,
-                           const CloudReport* report, const std::string& time_note,
-                           std::int64_t now, std::int64_t system_now) {
-  cloud(number).done(report != nullptr);
-  CloudTally& tally = cloud_tallies_[number];
-  count(tally, outcome, now, system_now);
-  if (tally.all.time_note.empty()) tally.all.time_note = time_note;
-  if (report == nullptr) return;
-  for (CloudSummary* summary : {&tally.all, &tally.looking}) summary->add(*report, "", 0.0);
-  if (tally.looking.clouds < CloudTally::looked_at) return;
-  tally.warnings = tally.looking.warnings();
-  tally.looking = {};
-}
-
-void LiveInbox::count(LiveTally& tally, const LiveOutcome& outcome, std::int64_t now,
-                      std::int64_t system_now) {
+  FrameAssembler::done(sensor, outcome.is_published, outcome.unjudged_targets);
+  LiveTally& tally = tallies_[sensor];
   tally.last = outcome;
   if (outcome.renderer) tally.renderer = outcome.renderer;
   if (!outcome.is_published) return;
   tally.last_published = now;
+  tally.points.add(outcome.pixels);
+  tally.parts = std::max(tally.parts, outcome.parts);
+  if (tally.time_note.empty()) tally.time_note = outcome.time_note;
   ++tally.statuses[std::string(to_string(outcome.status))];
   const bool is_ok = outcome.status == FrameStatus::ok;
   if (!is_ok) tally.last_trouble = std::string(to_string(outcome.status)) + ": " + outcome.message;
@@ -131,16 +117,16 @@ void LiveInbox::count(LiveTally& tally, const LiveOutcome& outcome, std::int64_t
     ++tally.beyond_clock;
 }
 
-void LiveInbox::warn(std::size_t camera, const std::shared_ptr<const CameraSetup>& setup,
+void LiveInbox::warn(std::size_t sensor, const std::shared_ptr<const SensorSetup>& setup,
                      std::vector<std::string> warnings) {
-  tallies_[camera].warned = setup;
-  tallies_[camera].warnings = std::move(warnings);
+  tallies_[sensor].warned = setup;
+  tallies_[sensor].warnings = std::move(warnings);
 }
 
 std::vector<std::string> LiveInbox::warnings(std::size_t number) const {
   const LiveTally& tally = tallies_[number];
   std::vector<std::string> lines;
-  if (tally.warned.lock().get() == camera(number).setup()) lines = tally.warnings;
+  if (tally.warned.lock().get() == sensor(number).setup()) lines = tally.warnings;
   if (std::string moved = tally.last.drift.message(); !moved.empty()) lines.push_back(moved);
   return lines;
 }

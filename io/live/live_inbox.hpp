@@ -18,7 +18,6 @@
 #include <penumbra/scene/target_fusion.hpp>
 
 #include <io/assembly/frame_assembler.hpp>
-#include <io/cloud/cloud_summary.hpp>
 #include <io/files/report_json.hpp>
 #include <io/live/latency_histogram.hpp>
 
@@ -51,14 +50,17 @@ struct LiveOptions {
 void set_robots(LiveOptions& options, const std::vector<std::string>& namespaces,
                 const std::function<std::string(const std::string&)>& resolve);
 
-/// The outcome of judging a frame, or of labelling a cloud.
+/// The outcome of judging a frame.
 struct LiveOutcome {
   bool is_published = false;
-  std::string fault;  ///< why the image could not be judged; empty if it is published
+  std::string fault;  ///< why it could not be judged; empty if it is published
   FrameStatus status = FrameStatus::ok;
   std::string message;               ///< one line; empty for the status ok
   std::size_t unjudged_targets = 0;  ///< targets of an image that could not be judged
   StageTimes timing;
+  PixelCounts pixels;
+  std::size_t parts = 0;  ///< FrameReport's
+  std::string time_note;  ///< CloudPoints'
   Drift drift;
   std::int64_t stamp = 0;
   std::int64_t arrived = 0;
@@ -68,7 +70,7 @@ struct LiveOutcome {
   std::function<std::vector<std::string>()> find_warnings;
 };
 
-/// The results of a camera's images or of a sensor's clouds.
+/// The results of a sensor's frames.
 struct LiveTally {
   static constexpr std::int64_t recent_time = 10'000'000'000;  ///< nanoseconds
 
@@ -81,16 +83,12 @@ struct LiveTally {
   std::deque<std::pair<std::int64_t, bool>> recent;
   std::string last_trouble;           ///< status and message of the last frame that was not ok
   std::vector<std::string> warnings;  ///< about the setup `warned`, a line each
-  std::weak_ptr<const CameraSetup> warned;
+  std::weak_ptr<const SensorSetup> warned;
+  PixelCounts points;                          ///< of all clouds
+  std::size_t parts = 0;                       ///< the most of a scan
+  std::string time_note;                       ///< the first one
   std::optional<RendererInfo> renderer;        ///< the last one; nothing if no image was judged yet
   std::optional<std::int64_t> last_published;  ///< on the caller's clock
-};
-
-/// The results of a sensor's clouds. Its warnings are of the last `looked_at` complete clouds.
-struct CloudTally : LiveTally {
-  static constexpr std::size_t looked_at = 50;
-
-  CloudSummary all, looking;
 };
 
 /// An assembler of a graph's topics that tallies the outcome of its frames.
@@ -100,33 +98,25 @@ class LiveInbox : public FrameAssembler {
   explicit LiveInbox(const LiveOptions& options);
 
   /// Counts the outcome of a frame, once. `system_now`: nanoseconds since 1970.
-  void done(std::size_t camera, const LiveOutcome& outcome, std::int64_t now,
+  void done(std::size_t sensor, const LiveOutcome& outcome, std::int64_t now,
             std::int64_t system_now);
 
-  /// The same for a cloud. `report`: null if it could not be labelled. `time_note`: CloudPoints'.
-  void done_cloud(std::size_t cloud, const LiveOutcome& outcome, const CloudReport* report,
-                  const std::string& time_note, std::int64_t now, std::int64_t system_now);
-
-  /// Sets the warnings about a camera's setup.
-  void warn(std::size_t camera, const std::shared_ptr<const CameraSetup>& setup,
+  /// Sets the warnings about a sensor's setup.
+  void warn(std::size_t sensor, const std::shared_ptr<const SensorSetup>& setup,
             std::vector<std::string> warnings);
 
-  /// Returns the warnings about a camera's present setup, and whether the camera has moved.
-  [[nodiscard]] std::vector<std::string> warnings(std::size_t camera) const;
+  /// Returns the warnings about a sensor's present setup, and whether a camera has moved.
+  [[nodiscard]] std::vector<std::string> warnings(std::size_t sensor) const;
 
   [[nodiscard]] const LiveOptions& options() const { return options_; }
-  [[nodiscard]] const LiveTally& tally(std::size_t i) const { return tallies_[i]; }
-  [[nodiscard]] const CloudTally& cloud_tally(std::size_t i) const { return cloud_tallies_[i]; }
+  [[nodiscard]] const LiveTally& tally(std::size_t sensor) const { return tallies_[sensor]; }
 
  private:
-  static void count(LiveTally& tally, const LiveOutcome& outcome, std::int64_t now,
-                    std::int64_t system_now);
   void add_topics_of_robot();
   void add_topics_of_camera(std::size_t camera);
 
   LiveOptions options_;
   std::vector<LiveTally> tallies_;
-  std::vector<CloudTally> cloud_tallies_;
 };
 
 }  // namespace penumbra::io

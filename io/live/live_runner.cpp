@@ -5,10 +5,7 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/assembly/cloud_worker.hpp>
 #include <io/live/live_runner.hpp>
-#include <io/ros/message_encoder.hpp>
-#include <io/ros/target_messages.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -27,6 +24,7 @@ class TimedResults final : public ResultSink {
     if (result == Result::points && !with_points_) return false;
     return to_.wants(result);
   }
+  void set_cloud_type(const std::string& type) override { to_.set_cloud_type(type); }
   void write(Result result, std::int64_t stamp, std::span<const std::byte> payload) override {
     to_.write(result, stamp, payload);
   }
@@ -49,19 +47,15 @@ std::int64_t LiveRunner::system_now() { return nanoseconds_of<std::chrono::syste
 
 LiveRunner::LiveRunner(const LiveOptions& options, const PipelineConfig& config,
                        const std::vector<ResultSink*>& sinks, RobotMaker maker,
-                       std::chrono::milliseconds robot_retry,
-                       const std::vector<CloudSink*>& cloud_sinks)
+                       std::chrono::milliseconds robot_retry)
     : inbox_(options), config_(config), maker_(std::move(maker)), robot_retry_(robot_retry) {
-  for (ResultSink* sink : sinks) cameras_.emplace_back().sink = sink;
-  for (CloudSink* sink : cloud_sinks) clouds_.emplace_back().sink = sink;
+  for (ResultSink* sink : sinks) sensors_.emplace_back().sink = sink;
 }
 
 void LiveRunner::start() {
   background_ = std::thread([this] { work_in_background(); });
-  for (std::size_t i = 0; i < cameras_.size(); ++i)
-    cameras_[i].thread = std::thread([this, i] { work(i); });
-  for (std::size_t i = 0; i < clouds_.size(); ++i)
-    clouds_[i].thread = std::thread([this, i] { label(i); });
+  for (std::size_t i = 0; i < sensors_.size(); ++i)
+    sensors_[i].thread = std::thread([this, i] { work(i); });
 }
 
 void LiveRunner::stop() {
@@ -72,10 +66,8 @@ void LiveRunner::stop() {
   changed_.notify_all();
   requested_.notify_all();
   if (background_.joinable()) background_.join();
-  for (CameraThread& camera : cameras_)
-    if (camera.thread.joinable()) camera.thread.join();
-  for (CloudThread& cloud : clouds_)
-    if (cloud.thread.joinable()) cloud.thread.join();
+  for (SensorThread& sensor : sensors_)
+    if (sensor.thread.joinable()) sensor.thread.join();
 }
 
 void LiveRunner::receive(std::size_t topic, const SerializedMessage& message) {
@@ -101,7 +93,7 @@ void LiveRunner::receive(std::size_t topic, const ImageMessage& image,
 void LiveRunner::configure(const PipelineConfig& config) {
   const std::lock_guard lock(mutex_);
   config_ = config;
-  for (CameraThread& camera : cameras_) camera.has_config = false;
+  for (std::size_t i = 0; i < inbox_.camera_count(); ++i) sensors_[i].has_config = false;
 }
 
 void LiveRunner::forget() {
@@ -139,7 +131,7 @@ void LiveRunner::find_warnings(std::unique_lock<std::mutex>& lock) {
   lock.unlock();
   std::vector<std::string> lines = next.find();
   lock.lock();
-  inbox_.warn(next.camera, next.setup, std::move(lines));
+  inbox_.warn(next.sensor, next.setup, std::move(lines));
 }
 
 void LiveRunner::fail(std::unique_lock<std::mutex>& lock) {
@@ -160,8 +152,16 @@ void LiveRunner::wait(const std::optional<std::int64_t>& wake_at,
   changed_.wait_for(lock, at_most);
 }
 
-void LiveRunner::work(std::size_t camera) {
-  CameraThread& self = cameras_[camera];
+LiveWorkerOptions LiveRunner::worker_options(std::size_t sensor) {
+  const LiveOptions& all = inbox_.options();
+  LiveWorkerOptions options{
+      .config = config_, .limits = all.drift, .points = all.points, .poses = &mutex_};
+  if (sensor >= all.cameras.size()) options.clouds = all.clouds[sensor - all.cameras.size()].output;
+  return options;
+}
+
+void LiveRunner::work(std::size_t sensor) {
+  SensorThread& self = sensors_[sensor];
   AssembledFrame job;
   std::unique_lock lock(mutex_);
   try {
@@ -172,14 +172,13 @@ void LiveRunner::work(std::size_t camera) {
       const bool with_color = with_overlay || (self.watcher && self.watcher->wants_color());
       lock.lock();
       if (stopping_) break;
-      if (!inbox_.next(camera, steady_now(), with_color, job)) {
-        wait(inbox_.wake_at(camera), lock);
+      if (!inbox_.next(sensor, steady_now(), with_color, job)) {
+        wait(inbox_.wake_at(sensor), lock);
         continue;
       }
       if (with_overlay) self.next_overlay = steady_now() + overlay_period;
       if (!std::exchange(self.has_config, true))
-        self.worker =
-            std::make_unique<LiveWorker>(config_, inbox_.options().drift, inbox_.options().points);
+        self.worker = std::make_unique<LiveWorker>(worker_options(sensor));
       const double points_rate = inbox_.options().points_rate;
       lock.unlock();
       const std::int64_t begin = steady_now();
@@ -191,88 +190,22 @@ void LiveRunner::work(std::size_t camera) {
       }
       TimedResults sink(*self.sink, with_overlay, with_points);
       LiveOutcome outcome = self.worker->judge(job, sink, self.watcher);
-      if (fusion_ != nullptr && outcome.is_published)
-        fusion_->add(camera, outcome.views, job.setup->posed->robot.links().front());
+      if (fusion_ != nullptr && outcome.is_published && job.setup->sensor.cameras)
+        fusion_->add(sensor, outcome.views, job.setup->posed->robot.links().front());
       const std::int64_t now = steady_now(), system = system_now();
       job.image = {};
       job.color_image.reset();
+      job.owner.reset();
       lock.lock();
       if (outcome.find_warnings) {
-        pending_warnings_.push_back({camera, job.setup, std::exchange(outcome.find_warnings, {})});
+        pending_warnings_.push_back({sensor, job.setup, std::exchange(outcome.find_warnings, {})});
         requested_.notify_all();
       }
-      inbox_.done(camera, outcome, now, system);
+      inbox_.done(sensor, outcome, now, system);
     }
   } catch (...) {
     fail(lock);
   }
-}
-
-void LiveRunner::label(std::size_t number) {
-  CloudThread& self = clouds_[number];
-  std::unique_lock lock(mutex_);
-  const CloudInputOptions options = inbox_.options().clouds[number];
-  CloudWorker worker(options, &mutex_);
-  try {
-    while (!stopping_) {
-      const auto cloud = inbox_.cloud(number).next(steady_now());
-      if (!cloud) {
-        wait(inbox_.cloud(number).wake_at(), lock);
-        continue;
-      }
-      lock.unlock();
-      if (cloud->is_again && !wants_targets(self)) {
-        lock.lock();
-        continue;
-      }
-      LiveOutcome outcome;
-      outcome.stamp = cloud->header.stamp;
-      outcome.arrived = cloud->arrived;
-      const CloudReport* report = nullptr;
-      try {
-        report = &worker.label(*cloud);
-        outcome.status = report->status;
-        outcome.message = report->message;
-        if (!cloud->is_again) publish(*cloud, *report, options.output, self);
-        publish_targets(*cloud, *report, self);
-        if (self.watcher != nullptr && !cloud->is_again) self.watcher->take_cloud(*cloud, *report);
-        outcome.is_published = true;
-      } catch (const InputError& error) {
-        outcome.fault = error.what();
-      }
-      const std::int64_t now = steady_now(), system = system_now();
-      lock.lock();
-      if (!cloud->is_again)
-        inbox_.done_cloud(number, outcome, report, cloud->points.time_note, now, system);
-    }
-  } catch (...) {
-    fail(lock);
-  }
-}
-
-void LiveRunner::publish(const ReceivedCloud& cloud, const CloudReport& report, CloudOutput how,
-                         CloudThread& self) {
-  const auto write = [&]<typename M>(const M& message) {
-    for (const CloudResult result : {CloudResult::without_robot, CloudResult::labelled}) {
-      how.labelled = result == CloudResult::labelled;
-      if (how.labelled && !std::is_same_v<M, PointCloud2Message>) continue;
-      if (!self.sink->wants(result, message_type<M>())) continue;
-      encode(cloud_output(message, report, how, self.data), self.payload);
-      self.sink->write(result, self.payload);
-    }
-  };
-  std::visit(write, cloud.message);
-}
-
-bool LiveRunner::wants_targets(const CloudThread& self) {
-  return self.sink->wants(CloudResult::targets, message_type<TargetsMessage>());
-}
-
-void LiveRunner::publish_targets(const ReceivedCloud& cloud, const CloudReport& report,
-                                 CloudThread& self) {
-  if (!wants_targets(self) || cloud.targets.empty()) return;  // known before the first one comes
-  encode(targets_message(report, cloud.header.frame_id, report.links.front()), self.payload);
-  self.sink->write(CloudResult::targets, self.payload);
 }
 
 }  // namespace penumbra::io

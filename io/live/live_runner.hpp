@@ -22,29 +22,8 @@
 
 namespace penumbra::io {
 
-/// What is published of a sensor's clouds.
-enum class CloudResult {
-  without_robot,  ///< of the input's type
-  labelled,       ///< with CloudOutput::labelled; of PointCloud2
-  targets         ///< TargetsMessage
-};
-
-/// Takes the results of a sensor's clouds. One thread at a time calls it.
-class CloudSink {
- public:
-  CloudSink() = default;
-  CloudSink(const CloudSink&) = delete;
-  CloudSink& operator=(const CloudSink&) = delete;
-  virtual ~CloudSink() = default;
-
-  /// Returns whether to make this result. `type`: of the message, as "sensor_msgs/msg/LaserScan".
-  [[nodiscard]] virtual bool wants(CloudResult result, const std::string& type) = 0;
-  /// Writes a result that it wants. `payload`: the message in CDR, valid during the call.
-  virtual void write(CloudResult result, std::span<const std::byte> payload) = 0;
-};
-
-/// Judges the messages of the graph. One thread serves each camera and each sensor of clouds, one
-/// does what takes a second (makes robots, diagnoses setups), and one receives.
+/// Judges the messages of the graph. One thread serves each sensor, one does what takes a second
+/// (makes robots, diagnoses setups), and one receives.
 ///
 /// One mutex guards the inbox: robot, poses, waiting images and counts. It is held while a message
 /// is received and while a job is picked, and never while a job is processed or meshes are read. So
@@ -56,23 +35,19 @@ class LiveRunner {
 
   static constexpr std::chrono::seconds default_robot_retry{5};
 
-  /// `sinks`: one for each camera; `cloud_sinks`: one for each sensor of clouds. All must outlive
-  /// this. `robot_retry`: the time after which a robot that could not be made is tried again.
+  /// `sinks`: one for each sensor, the cameras' first. All must outlive this. `robot_retry`: the
+  /// time after which a robot that could not be made is tried again.
   /// Throws like LiveInbox.
   LiveRunner(const LiveOptions& options, const PipelineConfig& config,
              const std::vector<ResultSink*>& sinks, RobotMaker maker = make_robot,
-             std::chrono::milliseconds robot_retry = default_robot_retry,
-             const std::vector<CloudSink*>& cloud_sinks = {});
+             std::chrono::milliseconds robot_retry = default_robot_retry);
   ~LiveRunner() { stop(); }
   LiveRunner(const LiveRunner&) = delete;
   LiveRunner& operator=(const LiveRunner&) = delete;
 
-  /// Hands the camera's frames to `watcher`, which must outlive the threads. Call it before
+  /// Hands the sensor's frames to `watcher`, which must outlive the threads. Call it before
   /// start().
-  void watch(std::size_t camera, FrameWatcher& watcher) { cameras_[camera].watcher = &watcher; }
-
-  /// Hands the sensor's scans to `watcher`, likewise.
-  void watch_cloud(std::size_t cloud, FrameWatcher& watcher) { clouds_[cloud].watcher = &watcher; }
+  void watch(std::size_t sensor, FrameWatcher& watcher) { sensors_[sensor].watcher = &watcher; }
 
   /// Hands the targets of all cameras to `fusion`, which must outlive the threads. Call it before
   /// start().
@@ -109,7 +84,7 @@ class LiveRunner {
   [[nodiscard]] std::exception_ptr fault();
 
  private:
-  struct CameraThread {
+  struct SensorThread {
     ResultSink* sink = nullptr;
     FrameWatcher* watcher = nullptr;
     std::unique_ptr<LiveWorker> worker;
@@ -118,25 +93,14 @@ class LiveRunner {
     std::int64_t next_overlay = 0, next_points = 0;
     std::thread thread;
   };
-  struct CloudThread {
-    CloudSink* sink = nullptr;
-    FrameWatcher* watcher = nullptr;
-    std::vector<std::byte> data, payload;
-    std::thread thread;
-  };
   /// Warnings that the background thread has not found yet.
   struct PendingWarnings {
-    std::size_t camera;
-    std::shared_ptr<const CameraSetup> setup;
+    std::size_t sensor;
+    std::shared_ptr<const SensorSetup> setup;
     std::function<std::vector<std::string>()> find;
   };
-  void work(std::size_t camera);
-  void label(std::size_t cloud);
-  static void publish(const ReceivedCloud& cloud, const CloudReport& report, CloudOutput how,
-                      CloudThread& self);
-  [[nodiscard]] static bool wants_targets(const CloudThread& self);
-  static void publish_targets(const ReceivedCloud& cloud, const CloudReport& report,
-                              CloudThread& self);
+  void work(std::size_t sensor);
+  [[nodiscard]] LiveWorkerOptions worker_options(std::size_t sensor);
   void work_in_background();
   void serve(const RobotLoadRequest& request, std::unique_lock<std::mutex>& lock);
   void find_warnings(std::unique_lock<std::mutex>& lock);
@@ -151,8 +115,7 @@ class LiveRunner {
   bool stopping_ = false;                         // likewise
   std::exception_ptr fault_;                      // likewise
   std::atomic<bool> has_failed_ = false;
-  std::vector<CameraThread> cameras_;
-  std::vector<CloudThread> clouds_;
+  std::vector<SensorThread> sensors_;
   LiveFusion* fusion_ = nullptr;
   RobotMaker maker_;
   std::chrono::milliseconds robot_retry_;

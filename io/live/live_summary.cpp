@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <io/cloud/cloud_json-inl.hpp>
+#include <io/files/json-inl.hpp>
 #include <io/live/live_summary.hpp>
 
 namespace penumbra::io {
@@ -11,8 +11,10 @@ Json quantiles_json(const LatencyHistogram& times) {
           {"p99", or_null(times.quantile(0.99))}};
 }
 
-/// Of images or clouds.
-Json counts_json(const ImageCounts& counts, const LiveTally& tally) {
+/// Of a sensor's frames.
+Json counts_json(const LiveInbox& inbox, std::size_t sensor) {
+  const ImageCounts counts = inbox.sensor(sensor).counts();
+  const LiveTally& tally = inbox.tally(sensor);
   Json dropped = Json::object();
   for (std::size_t i = 0; i < drop_reasons; ++i)
     dropped[std::string(to_string(static_cast<DropReason>(i)))] = counts.dropped[i];
@@ -30,38 +32,41 @@ Json counts_json(const ImageCounts& counts, const LiveTally& tally) {
           {"stamps_of_another_clock", tally.beyond_clock}};
 }
 
+Json unjudged_json(const UnjudgedTargets& targets) {
+  return {{"replaced", targets.replaced},
+          {"discarded", targets.discarded},
+          {"messages_before_setup", targets.early}};
+}
+
 Json camera_json(const LiveInbox& inbox, std::size_t number, const WrittenResults& results) {
   const CameraInput& camera = inbox.camera(number);
   const LiveTally& tally = inbox.tally(number);
-  const UnjudgedTargets targets = camera.targets();
   Json written = Json::object();
   for (const ResultTopic& topic : result_topics)
     written[std::string(topic.name)] = results.written[static_cast<std::size_t>(topic.result)];
   Json result{{"name", camera.options().name},
               {"depth_topic", camera.options().depth_topic},
               {"renderer", tally.renderer ? renderer_json(*tally.renderer) : Json(nullptr)}};
-  result.update(counts_json(camera.counts(), tally));
+  result.update(counts_json(inbox, number));
   result.update({{"results_written", written},
                  {"camera_info_changes", camera.camera_changes()},
                  {"warnings", inbox.warnings(number)},
                  {"calibration", drift_json(tally.last.drift)},
-                 {"targets_not_judged",
-                  {{"replaced", targets.replaced},
-                   {"discarded", targets.discarded},
-                   {"messages_before_setup", targets.early}}}});
+                 {"targets_not_judged", unjudged_json(camera.targets())}});
   return result;
 }
 
 Json cloud_json(const LiveInbox& inbox, std::size_t number) {
+  const std::size_t sensor = inbox.camera_count() + number;
   const CloudInput& cloud = inbox.cloud(number);
-  const CloudTally& tally = inbox.cloud_tally(number);
+  const LiveTally& tally = inbox.tally(sensor);
   Json result{{"topic", cloud.options().topic}};
-  result.update(counts_json(cloud.counts(), tally));
-  result.update({{"points", counts_by_label(tally.all.points)},
-                 {"most_poses_of_a_scan", tally.all.parts},
-                 {"times", or_null(tally.all.time_note)},
-                 {"targets_without_cloud", cloud.late_targets()},
-                 {"warnings", tally.all.warnings()}});
+  result.update(counts_json(inbox, sensor));
+  result.update({{"points", points_json(tally.points)},
+                 {"most_poses_of_a_scan", tally.parts},
+                 {"times", or_null(tally.time_note)},
+                 {"warnings", inbox.warnings(sensor)},
+                 {"targets_not_judged", unjudged_json(cloud.targets())}});
   return result;
 }
 

@@ -12,34 +12,44 @@ namespace {
 /// is named soon.
 constexpr std::int64_t first_warnings_after = 5'000'000'000, warnings_period = 60'000'000'000;
 
-PipelineConfig config_of(const CameraSetup& setup, PipelineConfig config) {
-  config.has_depth = setup.cameras.has_depth;
-  config.camera_parent = setup.mount.parent;
-  config.T_parent_camera = setup.mount.T_parent_camera;
+PipelineConfig config_of(const JudgedSensor& sensor, PipelineConfig config) {
+  config.has_depth = sensor.cameras->has_depth;
+  config.camera_parent = sensor.mount.parent;
+  config.T_parent_camera = sensor.mount.T_parent_camera;
   return config;
 }
 
 }  // namespace
 
-LiveWorker::Tools::Tools(const CameraSetup& setup, const PipelineConfig& config,
-                         const DriftLimits& limits, const PointsRule& points)
-    : session(setup.posed->robot, setup.cameras.judged, config_of(setup, config), limits),
-      encoder(setup.cameras.judged, setup.posed->robot.links().front(), points),
-      depth(setup.cameras) {}
+LiveWorker::Tools LiveWorker::make_tools(const SensorSetup& setup) const {
+  const Robot& robot = setup.posed->robot;
+  const JudgedSensor& sensor = setup.sensor;
+  const std::string& root = robot.links().front();
+  if (sensor.cloud) {
+    Tools tools{Session(robot, *sensor.cloud)};
+    tools.cloud_encoder.emplace(options_.clouds, root);
+    return tools;
+  }
+  const Camera& camera = sensor.cameras->judged;
+  Tools tools{Session(robot, camera, config_of(sensor, options_.config), options_.limits)};
+  tools.depth.emplace(*sensor.cameras);
+  tools.encoder.emplace(camera, root, options_.points);
+  return tools;
+}
 
-bool LiveWorker::follow(const std::shared_ptr<CameraSetup>& setup) {
-  if (setup == setup_) return tools_ != nullptr;
+bool LiveWorker::follow(const std::shared_ptr<SensorSetup>& setup) {
+  if (setup == setup_) return tools_.has_value();
   tools_.reset();
   setup_ = setup;
   fault_.clear();
   next_warnings_.reset();
   has_warned_ = false;
   try {
-    tools_ = std::make_unique<Tools>(*setup, config_, limits_, points_);
+    tools_.emplace(make_tools(*setup));
   } catch (const InputError& error) {
     fault_ = error.what();
   }
-  return tools_ != nullptr;
+  return tools_.has_value();
 }
 
 LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatcher* watcher) {
@@ -51,24 +61,40 @@ LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatche
     outcome.unjudged_targets = job.targets.size();
     return outcome;
   }
-  static_cast<void>(tools_->depth.read(job));
   job.index = judged_++;
+  if (job.pose_at && options_.poses != nullptr)
+    job.pose_at = [this, pose_at = std::move(job.pose_at)](std::int64_t stamp, RobotPose& pose) {
+      const std::lock_guard lock(*options_.poses);
+      pose_at(stamp, pose);
+    };
+  if (tools_->depth) static_cast<void>(tools_->depth->read(job));
   Session& session = tools_->session;
-  const Pipeline& pipeline = session.pipeline();
   const FrameReport& report = session.process(job);
-  show_color(job, sink.wants(Result::overlay));
-  tools_->encoder.encode(report, {job.depth.view, std::as_const(color_).view()},
-                         {job.targets, pipeline.robot(), job.setup->cameras.judged}, sink);
+  if (tools_->encoder)
+    write_image(job, report, sink, outcome);
+  else
+    tools_->cloud_encoder->encode(report, job, job, sink);
   outcome.drift = session.drift();
-  if (watcher != nullptr) watcher->take(job, job.depth.view, report, outcome.drift);
+  if (watcher != nullptr) watcher->take(job, report, outcome.drift);
   outcome.is_published = true;
-  outcome.views = views_of({{}, pipeline.intrinsics(), pipeline.rule().tolerance}, report);
   outcome.status = report.status;
   outcome.message = report.message;
   outcome.timing = report.timing;
-  outcome.renderer = pipeline.renderer();
+  outcome.pixels = report.pixels;
+  outcome.parts = report.parts;
+  outcome.time_note = job.points.time_note;
   find_warnings(job.arrived, outcome);
   return outcome;
+}
+
+void LiveWorker::write_image(const AssembledFrame& job, const FrameReport& report, ResultSink& sink,
+                             LiveOutcome& outcome) {
+  const Pipeline& pipeline = tools_->session.pipeline();
+  show_color(job, sink.wants(Result::overlay));
+  tools_->encoder->encode(report, {job.depth.view, std::as_const(color_).view()},
+                          {job.targets, pipeline.robot(), job.setup->sensor.cameras->judged}, sink);
+  outcome.views = views_of({{}, pipeline.intrinsics(), pipeline.rule().tolerance}, report);
+  outcome.renderer = pipeline.renderer();
 }
 
 /// Once in a while, gives the warnings to another thread. Later ones replace the first ones only if
@@ -76,7 +102,7 @@ LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatche
 void LiveWorker::find_warnings(std::int64_t now, LiveOutcome& outcome) {
   if (!next_warnings_) next_warnings_ = now + first_warnings_after;
   if (now < *next_warnings_) return;
-  if (has_warned_ && tools_->session.poses() < CalibrationFrames::least) return;
+  if (has_warned_ && tools_->encoder && tools_->session.poses() < CalibrationFrames::least) return;
   has_warned_ = true;
   next_warnings_ = now + warnings_period;
   const auto taken = std::make_shared<const Warnings>(tools_->session.take_warnings());
@@ -84,8 +110,9 @@ void LiveWorker::find_warnings(std::int64_t now, LiveOutcome& outcome) {
 }
 
 void LiveWorker::show_color(const AssembledFrame& job, bool wanted) {
-  const bool shown = wanted && job.color_image &&
-                     decode_color(*job.color_image, job.setup->cameras.judged, color_).empty();
+  const bool shown =
+      wanted && job.color_image &&
+      decode_color(*job.color_image, job.setup->sensor.cameras->judged, color_).empty();
   if (!shown) color_ = {};
 }
 

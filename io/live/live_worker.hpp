@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -14,15 +15,21 @@
 
 namespace penumbra::io {
 
-/// Judges the images of one camera. Use one thread at a time; no lock is needed meanwhile.
+/// What LiveWorker is set to.
+struct LiveWorkerOptions {
+  PipelineConfig config = {};  ///< the camera's pose and parent are replaced by those of each setup
+  DriftLimits limits = {};
+  PointsRule points = {};
+  CloudOutput clouds = {};
+  std::mutex* poses = nullptr;  ///< guards the robot's poses; null: nobody changes them
+};
+
+/// Judges the frames of one sensor. Use one thread at a time; no lock is needed meanwhile.
 class LiveWorker {
  public:
-  /// `config`: the camera's pose and parent are replaced by those of each setup.
-  explicit LiveWorker(PipelineConfig config, const DriftLimits& limits = {},
-                      const PointsRule& points = {})
-      : config_(std::move(config)), limits_(limits), points_(points) {}
+  explicit LiveWorker(LiveWorkerOptions options) : options_(std::move(options)) {}
 
-  /// Writes an image's results to the sink, then hands the frame to `watcher`, which may be null.
+  /// Writes a frame's results to the sink, then hands it to `watcher`, which may be null.
   /// Unknown results are written as unknown. A new setup makes a new renderer. Throws DeviceError
   /// like Pipeline.
   LiveOutcome judge(AssembledFrame& job, ResultSink& sink, FrameWatcher* watcher = nullptr);
@@ -30,22 +37,23 @@ class LiveWorker {
  private:
   /// The objects made for a setup.
   struct Tools {
-    Tools(const CameraSetup& setup, const PipelineConfig& config, const DriftLimits& limits,
-          const PointsRule& points);
     Session session;
-    ResultEncoder encoder;
-    DepthInput depth;
+    // Of a camera, or of a sensor of points:
+    std::optional<DepthInput> depth = {};
+    std::optional<ResultEncoder> encoder = {};
+    std::optional<CloudEncoder> cloud_encoder = {};
   };
 
-  [[nodiscard]] bool follow(const std::shared_ptr<CameraSetup>& setup);
+  [[nodiscard]] Tools make_tools(const SensorSetup& setup) const;
+  [[nodiscard]] bool follow(const std::shared_ptr<SensorSetup>& setup);
+  void write_image(const AssembledFrame& job, const FrameReport& report, ResultSink& sink,
+                   LiveOutcome& outcome);
   void find_warnings(std::int64_t now, LiveOutcome& outcome);
   void show_color(const AssembledFrame& job, bool wanted);
 
-  PipelineConfig config_;
-  DriftLimits limits_;
-  PointsRule points_;
-  std::shared_ptr<CameraSetup> setup_;
-  std::unique_ptr<Tools> tools_;
+  LiveWorkerOptions options_;
+  std::shared_ptr<SensorSetup> setup_;
+  std::optional<Tools> tools_;
   std::optional<std::int64_t> next_warnings_;  // on the inbox's clock
   bool has_warned_ = false;                    // about this setup
   std::string fault_;                          // why `tools_` is null

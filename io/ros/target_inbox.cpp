@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iterator>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
+
+#include <penumbra/base/stamps.hpp>
 
 #include <io/files/printable.hpp>
 #include <io/ros/target_inbox.hpp>
@@ -52,37 +55,23 @@ TargetInbox::TargetInbox(const Robot& robot, std::string_view camera_frame,
                          std::string_view frame_prefix, HiddenTargets hidden)
     : robot_(robot), camera_frame_(camera_frame), frame_prefix_(frame_prefix), hidden_(hidden) {}
 
-TargetInbox::List::iterator TargetInbox::forget(List::iterator one) {
-  by_name_.erase(one->target.name);
-  return waiting_.erase(one);
-}
-
 void TargetInbox::make_room(const std::string& topic, std::int64_t stamp) {
   const auto found = newest_.try_emplace(topic, stamp).first;
   topic_ = found->first;
   std::int64_t& newest = found->second;
   // A stamp older than any late target's means that the clock was set back: begin again from it.
   if (stamp > 0) newest = stamp < newest - longest_lag ? stamp : std::max(newest, stamp);
-  const auto lags = [&](const Waiting& one) {
+  discarded_ += std::erase_if(waiting_, [&](const Waiting& one) {
     return one.topic == topic_ && one.target.stamp > 0 && *one.target.stamp < newest - longest_lag;
-  };
-  for (auto one = waiting_.begin(); one != waiting_.end();) {
-    const bool drops = waiting_.size() >= most_waiting || lags(*one);
-    discarded_ += drops ? 1 : 0;
-    one = drops ? forget(one) : std::next(one);
-  }
+  });
+  for (; waiting_.size() >= most_waiting; ++discarded_) waiting_.pop_front();
 }
 
 Target& TargetInbox::add_target(std::string name, const MessageHeader& header) {
-  if (const auto other = by_name_.find(name); other != by_name_.end()) {
-    forget(other->second);
-    ++replaced_;
-  }
   Waiting& waiting = waiting_.emplace_back();
   waiting.topic = topic_;
   Target& target = waiting.target;
   target.name = std::move(name);
-  by_name_.emplace(target.name, std::prev(waiting_.end()));
   target.frame_id = without_slash(header.frame_id);
   target.stamp = header.stamp;
   if (header.stamp <= 0) target.fault = "its message has no stamp";
@@ -181,15 +170,29 @@ ReferenceFrame TargetInbox::resolve_frame(Target& target) const {
       frame.starts_with(frame_prefix_) ? frame.substr(frame_prefix_.size()) : frame);
 }
 
-std::vector<Target> TargetInbox::take() {
+std::vector<Target> TargetInbox::take(std::int64_t frame_stamp) {
+  std::deque<Waiting> due = std::exchange(waiting_, {});
+  const auto waits = [&](const Waiting& one) {
+    const std::int64_t stamp = one.target.stamp.value_or(0);
+    return stamp > frame_stamp && stamp_distance(stamp, frame_stamp) <= longest_lag;
+  };
+  const auto later = std::stable_partition(due.begin(), due.end(), std::not_fn(waits));
+  std::move(later, due.end(), std::back_inserter(waiting_));
+  due.erase(later, due.end());
   std::vector<Target> targets;
-  by_name_.clear();
-  for (Waiting& waiting : std::exchange(waiting_, {})) {
-    Target& target = targets.emplace_back(std::move(waiting.target));
+  std::unordered_map<std::string, std::size_t> places;
+  for (Waiting& waiting : due) {
+    Target& target = waiting.target;
     // Only pixels have an image frame. The camera's name is compared as it stands.
     if (!target.frame_id.empty() && target.frame_id == without_slash(camera_frame_))
       target.frame_id = camera_frame_;
     if (target.has_identity) target.handling = handling_of(target.shape, hidden_);
+    const auto [known, is_new] = places.try_emplace(target.name, targets.size());
+    if (is_new)
+      targets.push_back(std::move(target));
+    else
+      targets[known->second] = std::move(target);
+    replaced_ += is_new ? 0 : 1;
   }
   return targets;
 }

@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <list>
+#include <deque>
 #include <map>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include <penumbra/robot/robot.hpp>
@@ -58,8 +57,10 @@ class TargetInbox {
   /// Adds a point with a ball of PointTarget::radius around it.
   void add(const std::string& topic, const PoseStampedMessage& message);
 
-  /// Returns the targets received since the last call, the newest of each name.
-  [[nodiscard]] std::vector<Target> take();
+  /// Returns the targets for a frame: those of its stamp and earlier, the newest of each name.
+  /// Later ones wait for their frame; those of more than longest_lag later are of another clock,
+  /// and are returned.
+  [[nodiscard]] std::vector<Target> take(std::int64_t frame_stamp);
 
   [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
   /// Returns how many were never taken because a newer one of their name came first.
@@ -79,11 +80,8 @@ class TargetInbox {
     bool is_id = false;
   };
 
-  using List = std::list<Waiting>;
-
   /// Drops old targets. To be called before a message's targets are added.
   void make_room(const std::string& topic, std::int64_t stamp);
-  List::iterator forget(List::iterator one);
   Target& add_target(std::string name, const MessageHeader& header);
   /// Adds a target for each of a message's detections.
   std::vector<Target*> add_targets(const std::vector<BaseName>& names, const MessageHeader& header);
@@ -98,8 +96,7 @@ class TargetInbox {
   HiddenTargets hidden_;
   std::map<std::string, std::int64_t> newest_;  // stamp of each topic
   std::string_view topic_;                      // of the current message, newest_'s
-  List waiting_;                                // since the last take()
-  std::unordered_map<std::string_view, List::iterator> by_name_;  // in waiting_
+  std::deque<Waiting> waiting_;                 // in the order of arrival
   std::size_t replaced_ = 0, discarded_ = 0;
 };
 

@@ -122,8 +122,7 @@ TargetViewMessage target_view_message(const FusedTarget& target,
   return message;
 }
 
-template <typename M>
-TargetsMessage targets_message(const M& report, std::string_view camera_frame,
+TargetsMessage targets_message(const FrameReport& report, std::string_view camera_frame,
                                std::string_view root_frame) {
   TargetsMessage message{.header = {report.stamp.value_or(0), std::string(camera_frame)},
                          .root_frame = std::string(root_frame),
@@ -133,7 +132,5 @@ TargetsMessage targets_message(const M& report, std::string_view camera_frame,
     message.targets.push_back(target_message(target));
   return message;
 }
-template TargetsMessage targets_message(const FrameReport&, std::string_view, std::string_view);
-template TargetsMessage targets_message(const CloudReport&, std::string_view, std::string_view);
 
 }  // namespace penumbra::io

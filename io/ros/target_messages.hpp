@@ -4,7 +4,6 @@
 #include <span>
 #include <string_view>
 
-#include <penumbra/cloud/cloud_pipeline.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/scene/target_fusion.hpp>
 
@@ -14,9 +13,8 @@ namespace penumbra::io {
 
 /// Returns the message of a report's targets. `camera_frame`: the optical frame of its images;
 /// `root_frame`: the robot's root link. The stamp is 0 for a report without a stamp.
-/// `M`: FrameReport or CloudReport.
-template <typename M>
-[[nodiscard]] TargetsMessage targets_message(const M& report, std::string_view camera_frame,
+[[nodiscard]] TargetsMessage targets_message(const FrameReport& report,
+                                             std::string_view camera_frame,
                                              std::string_view root_frame);
 
 /// Returns the message of a target over several cameras.

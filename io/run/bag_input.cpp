@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <functional>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -12,7 +14,6 @@
 #include <io/assembly/camera_mount.hpp>
 #include <io/assembly/judged_cameras.hpp>
 #include <io/files/printable.hpp>
-#include <io/run/cloud_run.hpp>
 #include <io/run/run_input.hpp>
 
 namespace penumbra::io {
@@ -116,32 +117,80 @@ UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const Cam
   return used;
 }
 
+BagSourceOptions source_options(const InputOptions& options, const BagSceneReader& reader) {
+  return {.topics = reader.topics(),
+          .static_transforms = reader.scene().static_transforms,
+          .frame_prefix = options.bag.frame_prefix,
+          .joint_names = options.bag.joint_names,
+          .compare_sources = !options.bag.first_publisher,
+          .time_offset = options.bag.time_offset,
+          .first = options.frames.first,
+          .end = options.frames.end,
+          .range_option = options.frames.option,
+          .with_color = options.with_color};
+}
+
+std::function<std::unique_ptr<FrameSource>(const Robot&)> source_of(
+    const std::filesystem::path& bag, BagSourceOptions options) {
+  return [bag, options = std::move(options)](const Robot& robot) {
+    return std::make_unique<BagSource>(bag, robot, options);
+  };
+}
+
 }  // namespace
 
-BagClouds open_bag_clouds(const InputOptions& options, const LineSink& print) {
+std::vector<RunInput> open_bag_clouds(const InputOptions& options, const CloudInputOptions& clouds,
+                                      const LineSink& print) {
   BagSceneReader reader(options.path, options.bag, false);
   print_topics(reader.topics(), false, print);
   reader.read_robot_and_camera();
   RobotOptions robot_options;
   robot_options.packages = options.bag.packages;
   options.apply_to(robot_options);
-  BagClouds clouds{.robot = load_robot(options, reader, robot_options),
-                   .topics = reader.topics(),
-                   .mounts = {},
-                   .static_transforms = {}};
-  for (const TopicUse& use : clouds.topics.clouds) {
+  const Robot robot = load_robot(options, reader, robot_options);
+  const bool is_of_one = options.bag.pose || options.bag.parent || clouds.is_in_other_frame();
+  if (is_of_one && reader.topics().clouds.size() > 1)
+    throw InputError(
+        "--pose, --parent, --sensor-frame and --merged are for one sensor, and the bag has " +
+        std::to_string(reader.topics().clouds.size()) +
+        " topics of clouds; choose one with --topic");
+  std::vector<RunInput> inputs;
+  for (const TopicUse& use : reader.topics().clouds) {
     const std::string frame = reader.scene().cloud_frames.at(use.name);
-    if (!options.bag.in_other_frame &&
-        is_above_robot(clouds.robot, mount_options(options.bag), reader.scene().frames, frame))
+    if (!clouds.is_in_other_frame() &&
+        is_above_robot(robot, mount_options(options.bag), reader.scene().frames, frame))
       throw InputError(use.name + ": its clouds are given in frame '" + printable(frame) +
                        "', above the robot, and not in their sensor's: name that with "
                        "--sensor-frame, give --merged, or choose other clouds with --topic");
-    clouds.mounts.push_back(mount_in_bag(options, reader, clouds.robot, frame));
-    print(use.name + ": frame '" + printable(frame) + "' on link '" + clouds.mounts.back().parent +
-          "', by " + clouds.mounts.back().source);
+    const CameraMount mount = mount_in_bag(options, reader, robot, frame);
+    print(use.name + ": frame '" + printable(frame) + "' on link '" + mount.parent + "', by " +
+          mount.source);
+    BagSourceOptions source = source_options(options, reader);
+    source.cloud = clouds;
+    source.cloud->topic = use.name;
+    source.cloud->known = mount;
+    const double history = reader.topics().targets.empty() ? 0.0 : topic_target_history;
+    inputs.push_back(
+        {.robot_options = robot_options,
+         .robot = robot,
+         .camera = no_camera(),
+         .camera_info = {},
+         .config = {},
+         .beyond = {},
+         .targets = {},
+         .target_history = history,
+         .bag = used_bag(options, reader.topics(), mount, frame),
+         .made_files = {},
+         .frames = source_of(options.path, std::move(source)),
+         .cloud = CloudConfig{.rule = clouds.rule,
+                              .threads = clouds.threads,
+                              .sensor_parent = mount.parent,
+                              .T_parent_sensor = mount.T_parent_camera,
+                              .target_history = history},
+         .used_clouds = {.rule = {}, .merged = !clouds.has_rays, .times = clouds.use_times},
+         .sensor = use.name});
   }
-  clouds.static_transforms = reader.scene().static_transforms;
-  return clouds;
+  return inputs;
 }
 
 RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
@@ -164,21 +213,12 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
     });
 
   const BagScene& scene = reader.scene();
-  BagSourceOptions source{.topics = reader.topics(),
-                          .camera = {.info = *scene.camera_info,
-                                     .color_info = scene.color_info,
-                                     .depth_frame = *scene.depth_frame,
-                                     .cameras = cameras,
-                                     .mount = mount},
-                          .static_transforms = scene.static_transforms,
-                          .frame_prefix = options.bag.frame_prefix,
-                          .joint_names = options.bag.joint_names,
-                          .compare_sources = !options.bag.first_publisher,
-                          .time_offset = options.bag.time_offset,
-                          .first = options.frames.first,
-                          .end = options.frames.end,
-                          .range_option = options.frames.option,
-                          .with_color = options.with_color};
+  BagSourceOptions source = source_options(options, reader);
+  source.camera = KnownCamera{.info = *scene.camera_info,
+                              .color_info = scene.color_info,
+                              .depth_frame = *scene.depth_frame,
+                              .cameras = cameras,
+                              .mount = mount};
   UsedBag used = used_bag(options, reader.topics(), mount, cameras.judged.frame_id);
   std::vector<std::int64_t> numbers(reader.topics().depth.messages.value_or(0));
   std::iota(numbers.begin(), numbers.end(), 0);
@@ -197,10 +237,7 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
           .target_history = options.bag.target_topics.empty() ? 0.0 : topic_target_history,
           .bag = std::move(used),
           .made_files = {},
-          .frames = [source = std::move(source),
-                     input = options.path](const Robot& loaded) -> std::unique_ptr<FrameSource> {
-            return std::make_unique<BagSource>(input, loaded, source);
-          }};
+          .frames = source_of(options.path, std::move(source))};
 }
 
 }  // namespace penumbra::io

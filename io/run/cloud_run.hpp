@@ -2,69 +2,70 @@
 // Clouds in, clouds without the robot out.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
-#include <span>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include <penumbra/cloud/cloud_pipeline.hpp>
-#include <penumbra/cloud/cloud_tuning.hpp>
+#include <penumbra/tuning/cloud_tuning.hpp>
 
-#include <io/assembly/bag_topics.hpp>
-#include <io/assembly/camera_mount.hpp>
 #include <io/cloud/cloud_points.hpp>
-#include <io/cloud/cloud_summary.hpp>
+#include <io/files/pending_file.hpp>
+#include <io/files/result_folder.hpp>
+#include <io/files/run_output.hpp>
+#include <io/mcap/writer.hpp>
 #include <io/run/run_input.hpp>
 
 namespace penumbra::io {
 
+/// A recording folder with `frames.cloud`, or a bag, and how its clouds are read.
 struct CloudRunOptions {
-  InputOptions input;            ///< a recording folder with `frames.cloud`, or a bag
-  std::filesystem::path output;  ///< empty: write nothing
-  bool tune = false;             ///< measure the sensors' rules, without output
-  /// Called once, before clouds. `sensors`: their names. May be null, as on_cloud.
-  std::function<void(const Robot&, std::span<const std::string> sensors)> on_begin;
-  /// Called for each labelled cloud. `index`: of the sensor's clouds. `fault`: why this one is not
-  /// labelled, if not empty. Arguments are valid during the call only.
-  std::function<void(std::size_t sensor, std::uint64_t index, const PointsView& points,
-                     const CloudReport& report, const std::string& fault)>
-      on_cloud;
+  InputOptions input;
   /// What options change of the recording's rule, or of the default, in their order.
   std::vector<std::function<void(CloudRule&)>> rule_changes;
-  CloudOutput how;
   bool use_times = true;     ///< see CloudInputOptions
   bool has_rays = true;      ///< see CloudInputOptions
   std::string sensor_frame;  ///< likewise; of bags
   int threads = 1;
-  bool force = false;  ///< also a folder with other files
 };
 
-struct CloudRunResult {
-  std::vector<CloudSummary> sensors;
-  std::vector<CloudTuning> tunings;  ///< of each sensor, if asked for
-  std::vector<std::string> notes;
-  bool is_stopped = false;  ///< by `go_on`
-};
+/// Opens the sensors of an input that measure points; `print` gets the used topics of a bag. Throws
+/// InputError that names the file.
+[[nodiscard]] std::vector<RunInput> open_clouds(const CloudRunOptions& options,
+                                                const LineSink& print);
 
-/// Labels all clouds of an input and writes them: of a recording into OUT/clouds, in files of the
-/// same names, next to report.json; of a bag into a bag (*.mcap), in topics /penumbra/TOPIC.
-/// `print` gets the used topics; stops if `go_on` returns false. Throws InputError that names the
-/// file.
-[[nodiscard]] CloudRunResult run_clouds(const CloudRunOptions& options, const LineSink& print,
-                                        const std::function<bool()>& go_on);
+/// Measures a sensor's rule in some of its clouds: enough, and not all of one moment. Calls `go_on`
+/// after each cloud and stops if it returns false.
+[[nodiscard]] CloudTuning tune_clouds(const RunInput& input, const std::function<bool()>& go_on);
 
-/// The robot of a bag, and its sensors that measure points.
-struct BagClouds {
-  Robot robot;
-  BagTopics topics;
-  std::vector<CameraMount> mounts;  ///< of each of topics.clouds
-  std::vector<TransformMessage> static_transforms;
+/// Returns what a run's folder holds: clouds/, in files of the input's names, and report.json.
+/// Throws InputError if it holds the input, or clouds that the report would not be of.
+[[nodiscard]] ResultFolderOptions cloud_results(const RunInput& input,
+                                                const std::filesystem::path& output, bool force);
+
+/// The results of a recording in `folder`, which is of cloud_results(). `source`: of the frames.
+/// Both must outlive this.
+[[nodiscard]] std::unique_ptr<RunOutput> open_cloud_folder(ResultFolder& folder,
+                                                           const FrameSource& source,
+                                                           const CloudOutput& how);
+
+/// The results of a bag's sensors: a bag with the topics /penumbra/TOPIC and, if there are targets,
+/// /penumbra/TOPIC/targets. The file appears with finish().
+class CloudBag {
+ public:
+  explicit CloudBag(const std::filesystem::path& file)
+      : pending_(file), writer_(pending_.part(), {.profile = "ros2"}) {}
+
+  /// Returns the output of a sensor. `source`: of its frames. Both must outlive it.
+  [[nodiscard]] std::unique_ptr<RunOutput> sensor(const std::string& topic,
+                                                  const FrameSource& source,
+                                                  const CloudOutput& how);
+  void finish();
+
+ private:
+  PendingFile pending_;
+  mcap::Writer writer_;
 };
-[[nodiscard]] BagClouds open_bag_clouds(const InputOptions& options, const LineSink& print);
 
 }  // namespace penumbra::io

@@ -35,6 +35,10 @@ std::optional<TargetsFile> open_targets(const SessionOptions& options, const Run
 
 /// Takes the input's robot.
 Session session_of(const SessionOptions& options, RunInput& input, double target_history) {
+  if (input.cloud) {
+    input.cloud->target_history = target_history;
+    return {std::move(input.robot), *input.cloud};
+  }
   PipelineConfig config = input.config;
   config.backend = options.backend;
   config.renderer = options.renderer;
@@ -51,15 +55,27 @@ void append(std::vector<std::string>& lines, std::vector<std::string> more) {
 
 }  // namespace
 
-InputSession::InputSession(const SessionOptions& options, const LineSink& print)
+InputSession::InputSession(const SessionOptions& options, RunInput input)
     : options_(options),
-      input_(open_input(options.input, print)),
+      input_(std::move(input)),
       camera_(camera_of_report(options.image, input_.camera)),
       targets_(open_targets(options, input_, camera_)),
       session_(session_of(options, input_, targets_ ? targets_->history() : input_.target_history)),
       source_(input_.frames(pipeline().robot())) {}
 
 ReportHead InputSession::head() const {
+  if (input_.cloud) {
+    UsedSettings settings{.rule = {},
+                          .robot = input_.robot_options,
+                          .targets = targets_ ? targets_->file().string() : std::string(),
+                          .target_history = input_.cloud->target_history,
+                          .bag = input_.bag,
+                          .clouds = input_.used_clouds};
+    settings.clouds->rule = input_.cloud->rule;
+    return {options_.input.path.string(), {},
+            std::move(settings),          pipeline().robot().links(),
+            pipeline().missing_links(),   pipeline().robot().notes()};
+  }
   UsedSettings settings{.rule = pipeline().rule(),
                         .paper_labels = options_.rule.paper_labels,
                         .beyond = input_.beyond.value_or(BeyondMeans::occluded),

@@ -47,13 +47,17 @@ class InputSession {
  public:
   /// Opens the input; `print` gets the used topics of a bag. `options` must outlive this. Throws
   /// InputError that names the file.
-  InputSession(const SessionOptions& options, const LineSink& print);
+  InputSession(const SessionOptions& options, const LineSink& print)
+      : InputSession(options, open_input(options.input, print)) {}
+  /// Of an opened input: a camera, or a sensor of points.
+  InputSession(const SessionOptions& options, RunInput input);
 
   [[nodiscard]] const Pipeline& pipeline() const { return session_.pipeline(); }
   [[nodiscard]] const Camera& camera() const { return camera_; }  ///< of the report's images
   [[nodiscard]] bool has_depth() const { return input_.config.has_depth; }
   [[nodiscard]] std::optional<std::size_t> size() const { return source_->size(); }
   [[nodiscard]] ReportHead head() const;  ///< refers to this
+  [[nodiscard]] const FrameSource& source() const { return *source_; }
   /// See RunInput.
   [[nodiscard]] std::span<const std::filesystem::path> made_files() const {
     return input_.made_files;

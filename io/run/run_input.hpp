@@ -15,6 +15,7 @@
 #include <penumbra/robot/robot.hpp>
 
 #include <io/assembly/bag_options.hpp>
+#include <io/assembly/cloud_input.hpp>
 #include <io/files/frame_source.hpp>
 #include <io/files/recording.hpp>
 #include <io/files/report_json.hpp>
@@ -51,7 +52,7 @@ struct InputOptions {
   void apply_to(RobotOptions& robot, const std::string& name = {}) const;
 };
 
-/// An opened input.
+/// An opened input: a camera's images, or a sensor's clouds.
 struct RunInput {
   RobotOptions robot_options;
   Robot robot;
@@ -69,6 +70,12 @@ struct RunInput {
 
   /// Opens the frames from the first one; the robot must outlive them.
   std::function<std::unique_ptr<FrameSource>(const Robot&)> frames;
+
+  // Of a sensor of points, which has no camera:
+  std::optional<CloudConfig> cloud = {};
+  UsedClouds used_clouds = {};                   ///< with the rule of `cloud`
+  std::string sensor = {};                       ///< its topic, or the folder of its files
+  std::optional<FramePattern> cloud_files = {};  ///< of a recording
 };
 
 /// Says why an input without depth is refused where InputOptions::needs_depth is set.
@@ -79,6 +86,11 @@ inline constexpr const char* needs_depth_images =
 [[nodiscard]] bool is_bag(const std::filesystem::path& input);
 /// Throws InputError for an input that is neither a bag nor a recording.
 void check_is_recording(const std::filesystem::path& input);
+
+/// Returns what takes the camera's place in a RunInput of clouds.
+[[nodiscard]] inline Camera no_camera() {
+  return {Intrinsics(1, 1, 1.0, 1.0, 0.0, 0.0), {}, {}, {}};
+}
 
 /// Throws InputError if an option of bags was given with a recording.
 void check_no_bag_option(const InputOptions& options);
@@ -96,5 +108,10 @@ using LineSink = std::function<void(const std::string&)>;
 
 /// The same for a bag.
 [[nodiscard]] RunInput open_bag_input(const InputOptions& options, const LineSink& print);
+
+/// The same for each of a bag's topics of clouds. `clouds`: what is the same of all.
+[[nodiscard]] std::vector<RunInput> open_bag_clouds(const InputOptions& options,
+                                                    const CloudInputOptions& clouds,
+                                                    const LineSink& print);
 
 }  // namespace penumbra::io

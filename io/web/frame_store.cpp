@@ -3,7 +3,6 @@
 #include <cstring>
 #include <utility>
 
-#include <io/cloud/cloud_json-inl.hpp>
 #include <io/files/image_size.hpp>
 #include <io/files/jpeg.hpp>
 #include <io/files/json-inl.hpp>
@@ -51,27 +50,19 @@ void FrameStore::begin(const ReportHead& head) {
 void FrameStore::save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) {
   Entry entry;
   const std::string text = report_frame(report);
-  const std::string poses =
-      poses_json(report.T_root_link, report.T_root_camera, report.links.size()) + ", " +
-      marks_json(target_overlay_.marks(targets.targets, report, targets.robot, targets.camera));
+  std::string poses = poses_json(report.T_root_link, report.T_root_camera, report.links.size());
+  if (!frame.scan)
+    poses += ", " + marks_json(target_overlay_.marks(targets.targets, report, targets.robot,
+                                                     targets.camera));
   entry.poses = spool_.append(std::as_bytes(std::span(poses)), true);
-  add_images(report, frame, entry);
+  if (frame.scan)
+    add_points(report, *frame.scan, entry);
+  else
+    add_images(report, frame, entry);
   add(entry, text);
   if (frame.color_message.empty()) return;
   const std::lock_guard lock(mutex_);
   if (without_color_++ == 0) first_without_color_ = frame.color_message;
-}
-
-void FrameStore::save_scan(const PointsView& points, const CloudReport& report, std::uint64_t index,
-                           const std::string& fault) {
-  Entry entry;
-  const std::string poses = poses_json(report.T_sensor_link, report.T_sensor_link.size());
-  entry.poses = spool_.append(std::as_bytes(std::span(poses)), true);
-  const PartBytes cloud = cloud_part(points, report.labels);
-  entry.parts[static_cast<std::size_t>(Part::cloud)] = {
-      spool_.append(std::as_bytes(std::span(*cloud.bytes)), true), "xyzlrgb", cloud.width,
-      cloud.height};
-  add(entry, json_text(cloud_frame_json(report, index, fault)));
 }
 
 void FrameStore::add(Entry entry, const std::string& text) {
@@ -81,6 +72,13 @@ void FrameStore::add(Entry entry, const std::string& text) {
   entry.report_size = text.size();
   text_ += text;
   entries_.push_back(entry);
+}
+
+void FrameStore::add_points(const FrameReport& report, const Scan& scan, Entry& entry) {
+  const PartBytes cloud = cloud_part(scan.points, report.labels);
+  entry.parts[static_cast<std::size_t>(Part::cloud)] = {
+      spool_.append(std::as_bytes(std::span(*cloud.bytes)), true), "xyzlrgb", cloud.width,
+      cloud.height};
 }
 
 void FrameStore::add_images(const FrameReport& report, const Frame& frame, Entry& entry) {

@@ -28,9 +28,6 @@ class FrameStore final : public FrameArchive, public RunOutput {
   void begin(const ReportHead& head) override;
   void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
-  /// Keeps a labelled scan in place of a frame. `fault`: see cloud_frame_json().
-  void save_scan(const PointsView& points, const CloudReport& report, std::uint64_t index,
-                 const std::string& fault);
 
   // Any thread may call these.
   [[nodiscard]] std::size_t size() const override;
@@ -56,6 +53,7 @@ class FrameStore final : public FrameArchive, public RunOutput {
   [[nodiscard]] Kept keep(ImageView<const T> image, const char* type);
   [[nodiscard]] Kept keep_depth(const DepthView& depth);
   [[nodiscard]] Kept keep_color(const Frame& frame);
+  void add_points(const FrameReport& report, const Scan& scan, Entry& entry);
   void add_images(const FrameReport& report, const Frame& frame, Entry& entry);
   void add(Entry entry, const std::string& text);
 

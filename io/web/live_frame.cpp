@@ -4,7 +4,6 @@
 #include <span>
 #include <utility>
 
-#include <io/cloud/cloud_json-inl.hpp>
 #include <io/files/image_size.hpp>
 #include <io/files/jpeg.hpp>
 #include <io/files/report_json.hpp>
@@ -49,7 +48,7 @@ const PacketCloud* LiveScene::cloud() const {
 }
 
 LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFrame& job,
-                     const DepthView& depth, const FrameReport& report, const PartSet& kept)
+                     const FrameReport& report, const PartSet& kept)
     : scene_(std::move(scene)),
       kept_(kept),
       index_(report.index),
@@ -61,20 +60,9 @@ LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFram
   if (keeps(Part::links)) links_ = part_of(report.virtual_depth.links, "u16");
   if (keeps(Part::vdi)) virtual_depth_ = part_of(report.virtual_depth.depth, "f32");
   if (keeps(Part::depth))
-    std::visit([this](const auto& image) { raw_depth_ = copy_of(image); }, depth);
+    std::visit([this](const auto& image) { raw_depth_ = copy_of(image); }, job.depth.view);
   if (keeps(Part::color)) raw_color_ = job.color_image;
-}
-
-LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const ReceivedCloud& cloud,
-                     const CloudReport& report, std::uint64_t index, const PartSet& kept)
-    : scene_(std::move(scene)),
-      kept_(kept),
-      index_(index),
-      stamp_(cloud.header.stamp),
-      report_(json_text(cloud_frame_json(report, index, cloud.source_message))),
-      poses_(poses_json(report.T_sensor_link, scene_->robot().links().size())) {
-  if (kept[static_cast<std::size_t>(Part::cloud)])
-    scan_ = cloud_part(cloud.points.points, report.labels);
+  if (keeps(Part::cloud) && job.scan) scan_ = cloud_part(job.scan->points, report.labels);
 }
 
 PacketFrame LiveFrame::packet_frame() const {

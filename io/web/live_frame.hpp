@@ -10,7 +10,6 @@
 #include <variant>
 
 #include <io/assembly/assembled_frame.hpp>
-#include <io/assembly/cloud_input.hpp>
 #include <io/web/packet.hpp>
 #include <io/web/scene.hpp>
 
@@ -22,9 +21,9 @@ using PartSet = std::bitset<part_count>;
 /// The robot and the camera of a setup, in the form that pages show. Thread-safe.
 class LiveScene {
  public:
-  LiveScene(const CameraSetup& setup, std::uint64_t number)
-      : version(number), camera(setup.cameras.judged), posed_(setup.posed) {}
-  LiveScene(const CloudSetup& setup, std::uint64_t number) : version(number), posed_(setup.posed) {}
+  LiveScene(const SensorSetup& setup, std::uint64_t number) : version(number), posed_(setup.posed) {
+    if (setup.sensor.cameras) camera.emplace(setup.sensor.cameras->judged);
+  }
 
   [[nodiscard]] const Robot& robot() const { return posed_->robot; }
   /// Returns the robot's triangles, collected at the first call.
@@ -33,7 +32,7 @@ class LiveScene {
   [[nodiscard]] const PacketCloud* cloud() const;
 
   const std::uint64_t version;
-  const std::optional<Camera> camera;  ///< nothing: of a sensor that measures points
+  std::optional<Camera> camera;  ///< nothing: of a sensor that measures points
 
  private:
   std::shared_ptr<const PosedRobot> posed_;
@@ -48,10 +47,7 @@ class LiveFrame {
  public:
   /// Copies the parts in `kept`.
   LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFrame& job,
-            const DepthView& depth, const FrameReport& report, const PartSet& kept);
-  /// `index`: of the scan.
-  LiveFrame(std::shared_ptr<const LiveScene> scene, const ReceivedCloud& cloud,
-            const CloudReport& report, std::uint64_t index, const PartSet& kept);
+            const FrameReport& report, const PartSet& kept);
 
   /// Returns the frame for packets. This must outlive it.
   [[nodiscard]] PacketFrame packet_frame() const;

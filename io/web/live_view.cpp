@@ -131,25 +131,8 @@ class LiveView::Client final : public WebChannel {
 LiveView::LiveView(std::string input, bool of_clouds)
     : input_(std::move(input)), of_clouds_(of_clouds) {}
 
-bool LiveView::show(const AssembledFrame& job, const DepthView& depth, const FrameReport& report,
-                    const Drift& drift, std::int64_t now) {
-  return show(job.setup, drift, now,
-              [&](std::shared_ptr<const LiveScene> scene, const PartSet& kept) {
-                return std::make_shared<LiveFrame>(std::move(scene), job, depth, report, kept);
-              });
-}
-
-bool LiveView::show(const ReceivedCloud& cloud, const CloudReport& report, std::int64_t now) {
-  const std::uint64_t index = scans_++;
-  return show(cloud.setup, {}, now,
-              [&](std::shared_ptr<const LiveScene> scene, const PartSet& kept) {
-                return std::make_shared<LiveFrame>(std::move(scene), cloud, report, index, kept);
-              });
-}
-
-template <typename Setup, typename MakeFrame>
-bool LiveView::show(const std::shared_ptr<Setup>& setup, const Drift& drift, std::int64_t now,
-                    const MakeFrame& make_frame) {
+bool LiveView::show(const AssembledFrame& job, const FrameReport& report, const Drift& drift,
+                    std::int64_t now) {
   PartSet kept;
   std::shared_ptr<const LiveScene> scene;
   {
@@ -158,15 +141,16 @@ bool LiveView::show(const std::shared_ptr<Setup>& setup, const Drift& drift, std
     drift_ = drift;
     // The last interval is kept, however long it is, so that a slow camera has a rate too.
     while (judged_at_.size() > 2 && now - judged_at_.front() > rate_window) judged_at_.pop_front();
-    if (setup_.lock() != setup) {
-      scene_ = std::make_shared<LiveScene>(*setup, scene_ ? scene_->version + 1 : 1);
-      setup_ = setup;
+    if (setup_.lock() != job.setup) {
+      scene_ = std::make_shared<LiveScene>(*job.setup, scene_ ? scene_->version + 1 : 1);
+      setup_ = job.setup;
     }
     if (clients_ == 0) return false;
     scene = scene_;
     for (std::size_t part = 0; part < part_count; ++part) kept[part] = needed_[part] > 0;
   }
-  std::shared_ptr<const LiveFrame> frame = make_frame(std::move(scene), kept);
+  std::shared_ptr<const LiveFrame> frame =
+      std::make_shared<LiveFrame>(std::move(scene), job, report, kept);
   const std::lock_guard lock(mutex_);
   if (clients_ == 0) return false;
   std::swap(frame_, frame);

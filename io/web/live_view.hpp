@@ -32,10 +32,8 @@ class LiveView final : public WebHandler {
   /// Takes the newest frame, like FrameWatcher::take. Copies only the parts that clients want, and
   /// nothing without a client. Returns whether clients have to be woken. `now`: nanoseconds of a
   /// steady clock.
-  bool show(const AssembledFrame& job, const DepthView& depth, const FrameReport& report,
-            const Drift& drift, std::int64_t now);
-  /// Takes the newest scan, likewise.
-  bool show(const ReceivedCloud& cloud, const CloudReport& report, std::int64_t now);
+  bool show(const AssembledFrame& job, const FrameReport& report, const Drift& drift,
+            std::int64_t now);
   /// Sets the diagnostics of `penumbra live` and the list of missing data.
   void set_diagnostics(std::vector<Diagnostic> diagnostics, std::vector<std::string> missing);
 
@@ -56,16 +54,12 @@ class LiveView final : public WebHandler {
     std::vector<Diagnostic> diagnostics;
     std::vector<std::string> missing;
   };
-  template <typename Setup, typename MakeFrame>
-  bool show(const std::shared_ptr<Setup>& setup, const Drift& drift, std::int64_t now,
-            const MakeFrame& make_frame);
   [[nodiscard]] Moment now() const;
   [[nodiscard]] std::string session() const;
   [[nodiscard]] Scene scene() const;
 
   const std::string input_;
   const bool of_clouds_;
-  std::uint64_t scans_ = 0;  // their number so far; used by show() only
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveFrame> frame_;  // null without a client
   std::deque<std::int64_t> judged_at_;      // in the last two seconds, at least two

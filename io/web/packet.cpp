@@ -65,7 +65,7 @@ std::optional<Wanted> parse_wanted(std::string_view parts, std::string_view step
   return wanted;
 }
 
-PartBytes cloud_part(const PointsView& points, std::span<const std::uint8_t> labels) {
+PartBytes cloud_part(const PointsView& points, ImageView<const std::uint8_t> labels) {
   constexpr std::size_t most = 100'000;
   const std::size_t step = std::max<std::size_t>(1, (points.count + most - 1) / most);
   std::string bytes;
@@ -73,7 +73,7 @@ PartBytes cloud_part(const PointsView& points, std::span<const std::uint8_t> lab
   for (std::size_t i = 0; i < points.count; i += step) {
     const Eigen::Vector3f& p = points[i];
     if (!p.allFinite()) continue;
-    const Point point{{p.x(), p.y(), p.z()}, labels[i], no_color};
+    const Point point{{p.x(), p.y(), p.z()}, labels.data[i], no_color};
     bytes.append(reinterpret_cast<const char*>(&point), sizeof point);
   }
   const int count = static_cast<int>(bytes.size() / sizeof(Point));

@@ -76,7 +76,7 @@ class FrameArchive {
 
 /// Returns the measured points of a scan as Part::cloud, without colour; of more than 100,000
 /// points each n-th.
-[[nodiscard]] PartBytes cloud_part(const PointsView& points, std::span<const std::uint8_t> labels);
+[[nodiscard]] PartBytes cloud_part(const PointsView& points, ImageView<const std::uint8_t> labels);
 
 /// Makes point clouds of depth images. Thread-safe.
 class PacketCloud {

@@ -63,12 +63,4 @@ std::string poses_json(std::span<const Eigen::Isometry3d> T_root_link,
          json_text(T_root_camera ? pose_json(*T_root_camera) : Json(nullptr));
 }
 
-std::string poses_json(std::span<const Eigen::Isometry3d> T_sensor_link, std::size_t links) {
-  if (T_sensor_link.empty()) return poses_json(T_sensor_link, std::nullopt, links);
-  const Eigen::Isometry3d T_root_sensor = T_sensor_link.front().inverse();
-  std::vector<Eigen::Isometry3d> T_root_link;
-  for (const Eigen::Isometry3d& T : T_sensor_link) T_root_link.push_back(T_root_sensor * T);
-  return poses_json(T_root_link, T_root_sensor, links);
-}
-
 }  // namespace penumbra::io

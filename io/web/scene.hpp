@@ -26,15 +26,10 @@ struct Scene {
 /// Makes the scene of links whose geometry is not known.
 [[nodiscard]] Scene make_scene(std::span<const std::string> links);
 
-/// Returns "link_poses": [[x, y, z, qx, qy, qz, qw]...], "camera_pose": [...], all in the root
-/// link's frame; null if the robot's pose is not known.
+/// Returns "link_poses": [[x, y, z, qx, qy, qz, qw]...], "camera_pose": [...] (of a scan the
+/// points' frame), all in the root link's frame; null if the robot's pose is not known.
 [[nodiscard]] std::string poses_json(std::span<const Eigen::Isometry3d> T_root_link,
                                      const std::optional<Eigen::Isometry3d>& T_root_camera,
-                                     std::size_t links);
-
-/// Returns the same of a scan. `T_sensor_link`: as in CloudReport; "camera_pose" is that of the
-/// points' frame.
-[[nodiscard]] std::string poses_json(std::span<const Eigen::Isometry3d> T_sensor_link,
                                      std::size_t links);
 
 }  // namespace penumbra::io

@@ -14,6 +14,13 @@ namespace {
 
 constexpr std::uint64_t never_tried = std::numeric_limits<std::uint64_t>::max();
 
+/// Returns the stamp of a frame's last measurement; 0: it has no stamp.
+std::int64_t end_of(const Frame& frame) {
+  const std::int64_t stamp = frame.stamp.value_or(0);
+  if (stamp <= 0 || !frame.scan || frame.scan->times.empty()) return stamp;
+  return stamp_after(stamp, std::ranges::max(frame.scan->times));
+}
+
 }  // namespace
 
 std::string_view to_string(DropReason reason) {
@@ -41,7 +48,7 @@ FrameQueue::FrameQueue(const Robot& robot, PoseHistory& history, const FrameQueu
 
 void FrameQueue::push(std::shared_ptr<Frame> frame, std::int64_t now) {
   follow(now);
-  const std::int64_t stamp = frame->stamp.value_or(0);
+  const std::int64_t stamp = end_of(*frame);
   if (stamp <= 0) return on_drop_(std::move(frame), DropReason::no_stamp);
   if (newest_ && history_.note_stamp(stamp, *newest_, "depth images")) follow(now);
   newest_ = std::max(newest_.value_or(stamp), stamp);
@@ -51,12 +58,10 @@ void FrameQueue::push(std::shared_ptr<Frame> frame, std::int64_t now) {
     return on_drop_(std::move(frame), DropReason::overflow);
   if (!every && given_out_ && stamp <= *given_out_)
     return on_drop_(std::move(frame), DropReason::late);
-  const auto later = [](std::int64_t wanted, const Waiting& other) {
-    return wanted < *other.frame->stamp;
-  };
+  const auto later = [](std::int64_t wanted, const Waiting& other) { return wanted < other.stamp; };
   const auto place =
       every ? waiting_.end() : std::upper_bound(waiting_.begin(), waiting_.end(), stamp, later);
-  waiting_.insert(place, {std::move(frame), now, never_tried});
+  waiting_.insert(place, {std::move(frame), stamp, now, never_tried});
   if (waiting_.size() <= options_.max_frames) return;
   on_drop_(std::move(waiting_.front().frame), DropReason::overflow);
   waiting_.erase(waiting_.begin());
@@ -90,7 +95,7 @@ std::shared_ptr<Frame> FrameQueue::next(std::int64_t now) {
   for (auto before = waiting_.begin(); before != found; ++before)
     on_drop_(std::move(before->frame), DropReason::superseded);
   std::shared_ptr<Frame> frame = std::move(found->frame);
-  given_out_ = std::max(given_out_.value_or(*frame->stamp), *frame->stamp);
+  given_out_ = std::max(given_out_.value_or(found->stamp), found->stamp);
   waiting_.erase(waiting_.begin(), found + 1);
   return frame;
 }
@@ -139,7 +144,7 @@ void FrameQueue::find_pose(Waiting& waiting) {
   const bool over = is_over(waiting, max_wait_);
   if (waiting.revision == history_.revision() && !over) return;
   waiting.revision = history_.revision();
-  const std::int64_t at = pose_stamp(*waiting.frame->stamp);
+  const std::int64_t at = pose_stamp(waiting.stamp);
   RobotPose& pose = waiting.frame->pose;
   lookup_.at(history_, at, pose);
   waiting.has_result = over || pose.status == FrameStatus::poses_disagree ||

@@ -56,7 +56,8 @@ enum class Companions {
   missing  ///< the image is dropped (no_camera_info)
 };
 
-/// Holds depth images until the joint states or transforms around their stamps have arrived. Never
+/// Holds depth images and scans until the joint states or transforms around their stamps, of scans
+/// around the stamp of the last point, have arrived. Its pose is then Frame::pose. Never
 /// extrapolates: a frame is returned with its pose, or after max_wait with the status. Links that
 /// are uncertain are awaited as well, unless their last state is older than the image by more than
 /// max_wait.
@@ -106,6 +107,7 @@ class FrameQueue {
  private:
   struct Waiting {
     std::shared_ptr<Frame> frame;
+    std::int64_t stamp;       // of its last measurement
     std::int64_t arrived;     // on the caller's clock
     std::uint64_t revision;   // of the history when its pose was last looked up
     bool has_result = false;  // its pose is known, or is no longer awaited

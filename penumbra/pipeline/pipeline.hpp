@@ -11,6 +11,7 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
+#include <penumbra/cloud/scan.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/render/depth_renderer.hpp>
@@ -51,6 +52,12 @@ class Pipeline {
   /// Throws InputError for a robot without geometry, an unknown camera parent, a camera pose that
   /// is not rigid or over 1000 km away, and as Camera, LabelRule and make_depth_renderer do.
   Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config = {});
+  /// Of a sensor of points: its frames have scans. Targets are 3-D boxes and points, judged on the
+  /// rays that meet them at the scan's begin; what has no measured ray, or is of a cloud without
+  /// rays, is unknown. In targets and reports, the camera is the points' frame. Throws InputError
+  /// for a robot without geometry, an unknown parent, a pose that is not rigid, and as
+  /// CloudLabeller.
+  explicit Pipeline(Robot robot, const CloudConfig& config);
   ~Pipeline();
   Pipeline(Pipeline&&) noexcept;
   Pipeline& operator=(Pipeline&&) noexcept;
@@ -75,6 +82,14 @@ class Pipeline {
   void forget_targets();
 
   [[nodiscard]] const Robot& robot() const;
+  /// Links with unreadable geometry (RobotOptions::allow_missing_meshes).
+  [[nodiscard]] std::span<const std::string> missing_links() const;
+
+  /// Labels scans by another rule from now on. Throws InputError for an invalid one, and
+  /// std::logic_error for a camera.
+  void set_rule(const CloudRule& rule);
+
+  // Of a camera; throw std::logic_error for a sensor of points:
   [[nodiscard]] const RendererInfo& renderer() const;
   [[nodiscard]] std::size_t triangle_count() const;
 
@@ -90,9 +105,6 @@ class Pipeline {
 
   /// Maps the camera's images to the report's; null if they are the same.
   [[nodiscard]] const Rectification* rectification() const;
-
-  /// Links with unreadable geometry (RobotOptions::allow_missing_meshes).
-  [[nodiscard]] std::span<const std::string> missing_links() const;
 
  private:
   struct State;

@@ -10,20 +10,32 @@ Session::Session(Robot robot, const Camera& camera, const PipelineConfig& config
     : pipeline_(std::move(robot), camera, config),
       config_(config),
       limits_(limits),
-      warnings_(pipeline_, config_),
-      watch_(pipeline_.report_camera(), limits_),
-      forecast_(pipeline_.robot(), pipeline_.report_camera(), config_) {}
+      warnings_(new_warnings()),
+      watch_(std::in_place, pipeline_.report_camera(), limits_),
+      forecast_(std::in_place, pipeline_.robot(), pipeline_.report_camera(), config) {}
+
+Session::Session(Robot robot, const CloudConfig& config)
+    : pipeline_(std::move(robot), config), warnings_(new_warnings()) {}
+
+Warnings Session::new_warnings() const {
+  return config_ ? Warnings(pipeline_, *config_) : Warnings(pipeline_.robot());
+}
 
 const FrameReport& Session::process(const Frame& frame) {
   const FrameReport& report = pipeline_.process(frame);
   warnings_.add(report, frame);
-  watch_.add(report);
-  if (!frame.plan) return report;
+  if (watch_) watch_->add(report);
+  if (!frame.plan || !forecast_) return report;
   targets_.assign(report.targets.begin(), report.targets.end());
-  forecast_.add(frame, targets_);
+  forecast_->add(frame, targets_);
   report_ = report;
   report_.targets = targets_;
   return report_;
+}
+
+const Drift& Session::drift() const {
+  static const Drift none;
+  return watch_ ? watch_->drift() : none;
 }
 
 std::vector<std::string> Session::warnings() const {
@@ -33,12 +45,12 @@ std::vector<std::string> Session::warnings() const {
   return lines;
 }
 
-Warnings Session::take_warnings() { return std::exchange(warnings_, Warnings(pipeline_, config_)); }
+Warnings Session::take_warnings() { return std::exchange(warnings_, new_warnings()); }
 
 void Session::begin_sequence() {
   pipeline_.forget_targets();
-  warnings_ = Warnings(pipeline_, config_);
-  watch_ = CalibrationWatch(pipeline_.report_camera(), limits_);
+  warnings_ = new_warnings();
+  if (watch_) watch_.emplace(pipeline_.report_camera(), limits_);
 }
 
 }  // namespace penumbra

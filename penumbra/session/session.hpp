@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ class Session {
   /// Throws InputError as Pipeline does.
   Session(Robot robot, const Camera& camera, const PipelineConfig& config,
           const DriftLimits& limits = {});
+  /// Of a sensor of points, whose setup is watched without diagnosis and drift.
+  Session(Robot robot, const CloudConfig& config);
 
   /// Judges a frame. Views in the report are valid until the next call.
   const FrameReport& process(const Frame& frame);
@@ -31,7 +34,7 @@ class Session {
   /// Takes a tenth of a second, or about a second if something looks wrong.
   [[nodiscard]] const Diagnosis& diagnosis() const { return warnings_.diagnosis(); }
   /// Returns how far the camera has moved from its calibration.
-  [[nodiscard]] const Drift& drift() const { return watch_.drift(); }
+  [[nodiscard]] const Drift& drift() const;
 
   /// Returns the warnings about the frames since the last call, and begins them anew. For a
   /// stream without an end; their lines can be made on another thread.
@@ -45,12 +48,14 @@ class Session {
   void begin_sequence();
 
  private:
+  [[nodiscard]] Warnings new_warnings() const;
+
   Pipeline pipeline_;
-  PipelineConfig config_;
+  std::optional<PipelineConfig> config_;  // of a camera, as what is next
   DriftLimits limits_;
   Warnings warnings_;
-  CalibrationWatch watch_;
-  PlanForecast forecast_;
+  std::optional<CalibrationWatch> watch_;
+  std::optional<PlanForecast> forecast_;
   FrameReport report_;  // with forecasts
   std::vector<TargetReport> targets_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -53,10 +54,12 @@ Warnings::Warnings(const Pipeline& pipeline, const PipelineConfig& config)
 
 void Warnings::add(const FrameReport& report, const Frame& frame) {
   const std::span<const double> positions = frame.pose.positions;
+  is_scanner_ = report.parts > 0;
   if (report.pixels.robot) {
     ++posed_frames_;
     robot_seen_ = robot_seen_ || *report.pixels.robot > 0;
-    if (sensor_ && (has_depth(report.status) || report.nothing_measured)) {
+    if (is_scanner_ && has_depth(report.status)) ++labelled_scans_;
+    if ((sensor_ || is_scanner_) && (has_depth(report.status) || report.nothing_measured)) {
       robot_pixels_ += *report.pixels.robot;
       const PixelCounts& pixels = report.pixels;
       measured_ += pixels.front + pixels.occluded + pixels.beyond;
@@ -122,12 +125,14 @@ std::vector<std::string> Warnings::lines() const {
   if (has_cause && (body_note_.empty() || found.cause != Diagnosis::Cause::unexplained))
     lines.push_back(found.message);
   const bool is_named = has_cause || !body_note_.empty();
-  if (!is_named && posed_frames_ > 0 && !robot_seen_)
+  if (labelled_scans_ > 0) add_scan_lines(lines);
+  if (!is_named && !is_scanner_ && posed_frames_ > 0 && !robot_seen_)
     lines.push_back(
         std::string("the robot is ") + (posed_frames_ == 1 ? "not in the image" : "in no frame") +
         ": is the camera's pose that of the optical frame (x right, y down, z forward) in "
         "its parent link's frame (not the inverse), in metres?");
-  if (std::string line = depth_line(); !is_named && !line.empty()) lines.push_back(std::move(line));
+  if (std::string line = depth_line(); !is_named && !is_scanner_ && !line.empty())
+    lines.push_back(std::move(line));
   if ((!sensor_ || sensor_->image == ImageSpace::raw) && uncovered_ > 0)
     lines.push_back("the lens model does not reach " + counted(uncovered_, "pixel") +
                     " of the image: unknown in labels, but 0 as without robot in virtual depth and "
@@ -165,6 +170,20 @@ std::vector<std::string> Warnings::lines() const {
   if (!sensor_ || found.cause != Diagnosis::Cause::none || !body_note_.empty()) return lines;
   for (std::string& line : sensor_->missing.lines()) lines.push_back(std::move(line));
   return lines;
+}
+
+void Warnings::add_scan_lines(std::vector<std::string>& lines) const {
+  const std::size_t on_robot = measured_ - front_;
+  if (on_robot == 0)
+    lines.emplace_back(
+        "no point is on the robot: it is out of the sensor's view, or the sensor's pose is wrong");
+  else if (exceeds(beyond_, likely_wrong, on_robot))
+    lines.push_back(
+        std::to_string(
+            std::lround(100.0 * static_cast<double>(beyond_) / static_cast<double>(on_robot))) +
+        " % of the points in the robot's direction lie behind it, which no sensor can see: the "
+        "sensor's pose, the joint positions or their stamps are wrong, or the model is larger than "
+        "the robot");
 }
 
 const Diagnosis& Warnings::diagnosis() const {

@@ -30,11 +30,14 @@ class Warnings {
   static constexpr double most = 0.5;
   static constexpr double nearly_none = 0.05;
 
+  /// A larger fraction of beyond in a scan's points in the robot's direction is not noise.
+  static constexpr double likely_wrong = 0.1;
+
   /// If all stamps are closer, nanoseconds, they have another unit: no depth camera gives 1000
   /// images a second.
   static constexpr std::uint64_t shortest_period = 1'000'000;
 
-  /// For frames whose depth no sensor measured.
+  /// For scans, and for frames whose depth no sensor measured.
   explicit Warnings(const Robot& robot);
   /// `pipeline`: which judges the frames; `config`: the pipeline's.
   Warnings(const Pipeline& pipeline, const PipelineConfig& config);
@@ -61,6 +64,7 @@ class Warnings {
 
   void add_stamp(const FrameReport& report);
   void add_targets(const FrameReport& report);
+  void add_scan_lines(std::vector<std::string>& lines) const;
   [[nodiscard]] std::string depth_line() const;
 
   /// What compares frames that a sensor measured.
@@ -75,6 +79,8 @@ class Warnings {
   bool has_depth_ = true;                       // of the camera
   mutable std::optional<Diagnosis> diagnosis_;  // of the frames so far
   std::size_t posed_frames_ = 0;
+  bool is_scanner_ = false;         // the sensor measures points
+  std::size_t labelled_scans_ = 0;  // not all unknown; among the posed frames
   bool robot_seen_ = false;
   std::size_t robot_pixels_ = 0, measured_ = 0, front_ = 0, beyond_ = 0;  // of frames with depth
   std::size_t uncovered_ = 0;  // pixels of the frame with the most of them

@@ -9,18 +9,21 @@
 #include <string_view>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/cloud/scan.hpp>
 #include <penumbra/poses/pose_stage-inl.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {
 
-/// A frame with its labels. Without a pose every pixel is unknown. A scan has no images.
+/// A frame with its labels. Without a pose every pixel is unknown. Images of a scan are one row of
+/// its points, without depths; `images.labels` are empty if all of them are unknown.
 struct LabelledFrame {
   const PoseResult* poses = nullptr;
   FrameStatus status = FrameStatus::ok;
   std::string_view message;       ///< empty if the status is ok
   bool nothing_measured = false;  ///< the depth image has no pixel within the sensor's range
   DepthView depth = {};           ///< the camera's image
+  const Scan* scan = nullptr;     ///< of a sensor of points
   LabelledImages images = {};     ///< for targets, which know why something is not drawn
   LabelView labels = {};          ///< the report's
   std::size_t uncovered = 0;      ///< PixelCounts::uncovered

@@ -107,7 +107,7 @@ class BagTargets : public BagNamesTest {
         io::PoseStampedMessage{{stamp, frame}, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 2))});
   }
 
-  /// Runs and returns the verdicts of frame 2 by the targets' names. `reason`: why the target
+  /// Runs and returns the verdicts of frame 1 by the targets' names. `reason`: why the target
   /// `unknown` is so.
   std::map<std::string, std::string> verdicts(const Words& topics, const std::string& unknown,
                                               const Words& reason, Words options = {}) {
@@ -116,8 +116,8 @@ class BagTargets : public BagNamesTest {
     out_ = succeed(run(options)).out;
     std::map<std::string, std::string> all;
     const Json json = report();
-    EXPECT_TRUE(json["frames"][0]["targets"].empty() && json["frames"][1]["targets"].empty());
-    for (const Json& target : json["frames"][2]["targets"]) {
+    EXPECT_TRUE(json["frames"][0]["targets"].empty() && json["frames"][2]["targets"].empty());
+    for (const Json& target : json["frames"][1]["targets"]) {
       all[target["name"]] = target["verdict"];
       if (target["name"] == unknown) expect_has(std::string(target["reason"]), reason);
     }

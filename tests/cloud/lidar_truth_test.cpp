@@ -4,7 +4,7 @@
 #include "../support/test.hpp"
 #include "lidar_scenes.hpp"
 
-#include <penumbra/cloud/cloud_tuning.hpp>
+#include <penumbra/tuning/cloud_tuning.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -28,9 +28,9 @@ struct Scores {
 Scores scores(const LidarRobot& robot, const LidarMount& mount, bool moves, int scans,
               const std::function<std::vector<LidarRay>(std::size_t)>& rays_of) {
   LidarWorld world(robot, mount, 5);
-  CloudPipeline pipeline(world.robot(), {.rule = {.tolerance = {.a = sigmas * deviation}},
-                                         .sensor_parent = mount.parent,
-                                         .T_parent_sensor = mount.T_parent_sensor});
+  Pipeline pipeline(world.robot(), CloudConfig{.rule = {.tolerance = {.a = sigmas * deviation}},
+                                               .sensor_parent = mount.parent,
+                                               .T_parent_sensor = mount.T_parent_sensor});
   const JointMotion path = lidar_motion(robot, world.robot(), Wave::sine, 5);
   Scores out;
   for (int i = 0; i < scans; ++i) {
@@ -39,7 +39,7 @@ Scores scores(const LidarRobot& robot, const LidarMount& mount, bool moves, int 
     const JointMotion motion = moves ? path : [still = path(begin)](double) { return still; };
     world.place_objects(motion, begin, begin + rays.back().time);
     const LidarScan scan = world.scan(rays, motion, begin, deviation);
-    const CloudReport& report = process(pipeline, scan, motion, true);
+    const FrameReport& report = process(pipeline, scan, motion, true);
     EXPECT_EQ(report.status, FrameStatus::ok) << report.message;
     out.with_times.add(scan, report);
     out.without.add(scan, process(pipeline, scan, motion, false));
@@ -88,15 +88,16 @@ struct TunedWorld {
   JointMotion motion = lidar_motion(lidar_arms(2), world.robot(), Wave::sine, 7);
 
   /// `shift`: by how much the sensor's pose is wrong.
-  CloudPipeline pipeline(const CloudRule& rule, const Vector3d& shift = Vector3d::Zero()) const {
+  Pipeline pipeline(const CloudRule& rule, const Vector3d& shift = Vector3d::Zero()) const {
     const Isometry3d T = Translation3d(shift) * beside_the_cell.T_parent_sensor;
-    return {world.robot(),
-            {.rule = rule, .sensor_parent = beside_the_cell.parent, .T_parent_sensor = T}};
+    return Pipeline(
+        world.robot(),
+        CloudConfig{.rule = rule, .sensor_parent = beside_the_cell.parent, .T_parent_sensor = T});
   }
-  CloudTuning tune(CloudPipeline pipeline, double noise) {
+  CloudTuning tune(Pipeline pipeline, double noise) {
     CloudTuner tuner{CloudRule()};
     for (int i = 0; i < 12; ++i)
-      tuner.add(pipeline, scan_of(world.scan(spin(0), motion, 0.71 * i, noise)), poses_of(motion));
+      tuner.add(pipeline, frame_of(world.scan(spin(0), motion, 0.71 * i, noise), motion));
     return tuner.result();
   }
 };
@@ -111,7 +112,7 @@ TEST(LidarTruth, NoiseAndBeamAreMeasured) {
     EXPECT_TRUE(tuning.problems.empty()) << tuning.problems.front();
     EXPECT_NEAR(tuning.deviation, noise, within * noise);
     EXPECT_NEAR(tuning.bias, 0.0, bias);
-    CloudPipeline pipeline = arms.pipeline(tuning.rule);
+    Pipeline pipeline = arms.pipeline(tuning.rule);
     LidarScore score;
     for (int i = 0; i < 8; ++i) {
       const LidarScan scan = arms.world.scan(spin(0), arms.motion, 0.37 + 0.71 * i, noise);

@@ -21,10 +21,10 @@ Names words(const std::string& text) {
 /// Which folders of penumbra/ a folder may include.
 const std::map<std::string, Names>& allowed_rooms() {
   static const std::string poses = "base mesh robot time camera render labels poses";
-  static const std::string targets = poses + " tracking targets";
+  static const std::string targets = poses + " tracking cloud targets";
   static const std::string frame = targets + " pipeline";
   static const Names setup = words(frame + " tuning calibration diagnosis");
-  static const Names core = words(frame + " tuning calibration diagnosis session scene cloud");
+  static const Names core = words(frame + " tuning calibration diagnosis session scene");
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", words("base")},
       {"penumbra/mesh", words("base mesh")},
@@ -37,7 +37,7 @@ const std::map<std::string, Names>& allowed_rooms() {
       {"penumbra/tracking", words("base labels tracking")},
       {"penumbra/targets", words(targets)},
       {"penumbra/pipeline", words(frame)},
-      {"penumbra/cloud", words(targets + " cloud")},
+      {"penumbra/cloud", words(poses + " cloud")},
       {"penumbra/tuning", setup},
       {"penumbra/calibration", setup},
       {"penumbra/diagnosis", setup},

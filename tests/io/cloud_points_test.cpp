@@ -17,6 +17,18 @@
 namespace penumbra::test {
 namespace {
 
+struct Labelled {
+  explicit Labelled(const std::vector<Label>& all) : links(all.size()) {
+    for (const Label label : all) labels.push_back(static_cast<std::uint8_t>(label));
+    const int count = static_cast<int>(all.size());
+    report.labels = {labels.data(), count, 1, count};
+    report.virtual_depth.links = {links.data(), count, 1, count};
+  }
+  std::vector<std::uint8_t> labels;
+  std::vector<std::uint16_t> links;
+  FrameReport report;
+};
+
 using io::CloudPoints;
 using io::PointCloud2Message;
 using io::PointFieldMessage;
@@ -263,29 +275,15 @@ TEST(CloudPoints, RandomLayoutsAreReadOrRefused) {
     ++read;
     float sum = 0.0F;
     for (std::size_t i = 0; i < points.points.count; ++i) sum += points.points[i].sum();
-    CloudReport report;
-    const std::vector<std::uint8_t> labels(points.points.count,
-                                           static_cast<std::uint8_t>(random() % label_count));
-    const std::vector<std::uint16_t> links(points.points.count);
-    report.labels = labels;
-    report.point_links = links;
+    const Labelled labelled(
+        std::vector(points.points.count, static_cast<Label>(random() % label_count)));
     std::vector<std::byte> out;
-    const auto result = io::cloud_output(cloud, report, {.labelled = random() % 2 == 0}, out);
+    const auto result =
+        io::cloud_output(cloud, labelled.report, {.labelled = random() % 2 == 0}, out);
     EXPECT_EQ(io::read_points(result, true, points), "") << sum;
   }
   EXPECT_GT(read, rounds / 100);
 }
-
-struct Labelled {
-  explicit Labelled(const std::vector<Label>& all) : links(all.size()) {
-    for (const Label label : all) labels.push_back(static_cast<std::uint8_t>(label));
-    report.labels = labels;
-    report.point_links = links;
-  }
-  std::vector<std::uint8_t> labels;
-  std::vector<std::uint16_t> links;
-  CloudReport report;
-};
 
 using enum Label;
 

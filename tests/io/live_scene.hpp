@@ -300,7 +300,7 @@ class LiveBench {
 
   std::int64_t now = 1000 * seconds;
   io::LiveInbox inbox;
-  io::LiveWorker worker{PipelineConfig{}};
+  io::LiveWorker worker{io::LiveWorkerOptions{}};
   io::AssembledFrame job;
   KeptResults results;
 };

@@ -16,7 +16,7 @@ class TargetInboxTest : public testing::Test {
   /// Identities by names.
   std::map<std::string, bool> taken() {
     std::map<std::string, bool> all;
-    for (const Target& target : inbox_.take()) all[target.name] = target.has_identity;
+    for (const Target& target : inbox_.take(last)) all[target.name] = target.has_identity;
     return all;
   }
   template <typename Detection>
@@ -36,6 +36,7 @@ class TargetInboxTest : public testing::Test {
     return message;
   }
 
+  static constexpr std::int64_t last = std::numeric_limits<std::int64_t>::max();  // of frames
   std::vector<std::string> names_;  // of the last of these
   const Robot robot_ = test::arm();
   TargetInbox inbox_{robot_, "optical"};
@@ -75,11 +76,35 @@ TEST_F(TargetInboxTest, WhatIsNotTakenDoesNotPileUp) {
   EXPECT_EQ(inbox_.discarded() + inbox_.waiting(), std::size_t{each * messages});
   EXPECT_EQ(inbox_.replaced(), 0U);
   const std::size_t waiting = inbox_.waiting();
-  const std::vector<Target> all = inbox_.take();
+  const std::vector<Target> all = inbox_.take(last);
   ASSERT_EQ(all.size(), waiting);
   EXPECT_EQ(all.back().name, "/k/" + names_.back());
   for (const Target& one : all)
     EXPECT_GE(*one.stamp, start + (messages - 1) * frame - TargetInbox::longest_lag);
+}
+
+TEST_F(TargetInboxTest, WhatIsEarlierThanItsFrameWaitsForIt) {
+  constexpr std::int64_t ms = 1'000'000, start = 1'000'000'000'000;
+  const auto say = [&](std::int64_t stamp) {
+    inbox_.add("/k", PoseStampedMessage{{stamp, "optical"}, {}});
+  };
+  const auto stamps = [&](std::int64_t frame) {
+    std::vector<std::int64_t> all;
+    for (const Target& target : inbox_.take(frame)) all.push_back(*target.stamp - start);
+    return all;
+  };
+  using Stamps = std::vector<std::int64_t>;
+  say(start + 100 * ms);
+  say(start + 200 * ms);
+  EXPECT_EQ(stamps(start), Stamps{});
+  EXPECT_EQ(stamps(start + 100 * ms), Stamps{100 * ms});
+  EXPECT_EQ(stamps(start + 300 * ms), Stamps{200 * ms}) << "its frame never came";
+  say(start + 400 * ms);
+  say(start + 500 * ms);
+  EXPECT_EQ(stamps(start + 500 * ms), Stamps{500 * ms}) << "the newest of the name";
+  EXPECT_EQ(inbox_.replaced(), 1U);
+  say(start + 10'000 * ms);
+  EXPECT_EQ(stamps(start + 600 * ms), Stamps{10'000 * ms}) << "of another clock";
 }
 
 }  // namespace

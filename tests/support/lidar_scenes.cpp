@@ -403,10 +403,10 @@ LidarScan LidarWorld::scan(std::span<const LidarRay> rays, const JointMotion& mo
   return out;
 }
 
-void LidarScore::add(const LidarScan& scan, const CloudReport& report) {
+void LidarScore::add(const LidarScan& scan, const FrameReport& report) {
   for (std::size_t i = 0; i < scan.truth.size(); ++i) {
     const LidarPoint& point = scan.truth[i];
-    const auto label = static_cast<Label>(report.labels[i]);
+    const auto label = static_cast<Label>(report.labels.data[i]);
     const bool stays = is_trusted(label);
     const bool is_robot = label == Label::occluded || label == Label::beyond;
     false_measurements += (label == Label::unknown) != (point.truth == LidarTruth::dropped);
@@ -416,7 +416,7 @@ void LidarScore::add(const LidarScan& scan, const CloudReport& report) {
       case LidarTruth::robot:
         ++robot;
         left += stays;
-        wrong_links += is_robot && report.point_links[i] != point.link;
+        wrong_links += is_robot && report.virtual_depth.links.data[i] != point.link;
         break;
       case LidarTruth::veil:
         ++veil;
@@ -437,26 +437,24 @@ void LidarScore::add(const LidarScan& scan, const CloudReport& report) {
   }
 }
 
-Scan scan_of(const LidarScan& scan) {
+Frame frame_of(const LidarScan& scan, const JointMotion& motion) {
   return {.stamp = scan.stamp,
-          .points = {reinterpret_cast<const std::byte*>(scan.points.data()), scan.points.size()},
-          .times = scan.times};
+          .scan = Scan{.points = {reinterpret_cast<const std::byte*>(scan.points.data()),
+                                  scan.points.size()},
+                       .times = scan.times},
+          .pose_at = [&motion](std::int64_t stamp, RobotPose& pose) {
+            pose.positions = motion(1e-9 * double(stamp));
+          }};
 }
 
-PoseAt poses_of(const JointMotion& motion) {
-  return [motion](std::int64_t stamp, RobotPose& pose) {
-    pose.positions = motion(1e-9 * double(stamp));
-  };
-}
-
-const CloudReport& process(CloudPipeline& pipeline, const LidarScan& scan,
-                           const JointMotion& motion, bool with_times) {
-  Scan points = scan_of(scan);
+const FrameReport& process(Pipeline& pipeline, const LidarScan& scan, const JointMotion& motion,
+                           bool with_times) {
+  Frame frame = frame_of(scan, motion);
   if (!with_times) {
-    points.stamp = scan.middle;
-    points.times = {};
+    frame.stamp = scan.middle;
+    frame.scan->times = {};
   }
-  return pipeline.process(points, poses_of(motion));
+  return pipeline.process(frame);
 }
 
 }  // namespace penumbra::test

@@ -11,7 +11,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/cloud/cloud_pipeline.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
 
 #include <sim/mujoco_handles.hpp>
@@ -149,15 +149,14 @@ struct LidarScore {
   std::size_t fringe = 0, before = 0, near = 0, removed = 0;  ///< removed room points
   std::size_t false_measurements = 0;  ///< dropped points with a label, others without
 
-  void add(const LidarScan& scan, const CloudReport& report);
+  void add(const LidarScan& scan, const FrameReport& report);
 };
 
-/// A scan with the times of its points; `scan` must outlive it.
-[[nodiscard]] Scan scan_of(const LidarScan& scan);
-[[nodiscard]] PoseAt poses_of(const JointMotion& motion);
+/// A scan with the times of its points; both must outlive it.
+[[nodiscard]] Frame frame_of(const LidarScan& scan, const JointMotion& motion);
 
 /// Labels a scan. `with_times`: otherwise all points are measured at the scan's middle.
-const CloudReport& process(CloudPipeline& pipeline, const LidarScan& scan,
-                           const JointMotion& motion, bool with_times);
+const FrameReport& process(Pipeline& pipeline, const LidarScan& scan, const JointMotion& motion,
+                           bool with_times);
 
 }  // namespace penumbra::test

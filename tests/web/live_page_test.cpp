@@ -4,7 +4,6 @@
 #include "../io/live_scene.hpp"
 #include "packet.hpp"
 
-#include <io/assembly/cloud_worker.hpp>
 #include <io/files/report_json.hpp>
 #include <io/web/live_view.hpp>
 
@@ -47,13 +46,12 @@ class LivePage : public testing::Test, public io::FrameWatcher {
   }
 
   [[nodiscard]] bool wants_color() const override { return view_.needs(io::Part::color); }
-  void take(const io::AssembledFrame& job, const DepthView& depth, const FrameReport& report,
-            const Drift& drift) override {
+  void take(const io::AssembledFrame& job, const FrameReport& report, const Drift& drift) override {
     report_ = io::report_frame(report);
     parts_ = {{"labels", bytes_of(report.labels)},
               {"links", bytes_of(report.virtual_depth.links)},
               {"vdi", bytes_of(report.virtual_depth.depth)}};
-    static_cast<void>(view_.show(job, depth, report, drift, *job.stamp));
+    static_cast<void>(view_.show(job, report, drift, *job.stamp));
   }
 
   std::unique_ptr<io::WebChannel> client(const std::string& with) {
@@ -139,10 +137,9 @@ TEST(LiveScans, ShowTheirPointsWhereTheSensorWas) {
   FourPoints points(0);
   points.message.header.stamp = start;
   bench.publish("/points", encoded(points.message));
-  const auto cloud = bench.inbox.cloud(0).next(bench.now);
-  ASSERT_TRUE(cloud);
-  io::CloudWorker worker(options.clouds[0]);
-  EXPECT_TRUE(view.show(*cloud, worker.label(*cloud), start));
+  ASSERT_TRUE(bench.inbox.next(0, bench.now, false, bench.job));
+  Pipeline pipeline(bench.job.setup->posed->robot, *bench.job.setup->sensor.cloud);
+  EXPECT_TRUE(view.show(bench.job, pipeline.process(bench.job), {}, start));
   const auto packet = next(*browser);
   ASSERT_TRUE(packet);
   EXPECT_EQ(packet->json["frame"]["status"], "ok");

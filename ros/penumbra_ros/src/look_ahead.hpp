@@ -31,7 +31,7 @@ class LookAheadService {
   using Service = penumbra_msgs::srv::LookAhead;
   /// The robot and the camera, the newest image with targets, and where the robot is now.
   struct Seen {
-    std::shared_ptr<penumbra::io::CameraSetup> setup;
+    std::shared_ptr<penumbra::io::SensorSetup> setup;
     penumbra::RobotPose pose;
     std::vector<penumbra::Target> targets;
     std::chrono::steady_clock::time_point at = {};  // when the targets came

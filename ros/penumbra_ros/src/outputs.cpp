@@ -92,10 +92,10 @@ void Outputs::write(Result result, std::int64_t /*stamp*/, std::span<const std::
     images_.at(result).publish(deserialised<sensor_msgs::msg::Image>(payload));
 }
 
-void Outputs::take(const penumbra::io::AssembledFrame& job, const penumbra::DepthView& /*depth*/,
-                   const penumbra::FrameReport& report, const penumbra::Drift& /*drift*/) {
+void Outputs::take(const penumbra::io::AssembledFrame& job, const penumbra::FrameReport& report,
+                   const penumbra::Drift& /*drift*/) {
   if (is_selected("camera_info") && camera_info_->get_subscription_count() > 0)
-    publish_camera_info(job.setup->cameras.info, *report.stamp);
+    publish_camera_info(job.setup->sensor.cameras->info, *report.stamp);
   if (is_selected("markers")) publish_markers(job, report);
   publish_detections(job, report);
   look_ahead_.take(job);
@@ -129,16 +129,25 @@ void Outputs::publish_detections(const penumbra::io::AssembledFrame& job,
   if (has_listener) detections_->publish(std::move(detections));
 }
 
-bool CloudOutputs::wants(penumbra::io::CloudResult result, const std::string& type) {
-  const auto number = static_cast<std::size_t>(result);
-  if (!publishers_[number])
-    publishers_[number] =
-        node_.create_generic_publisher(topics_[number], type, rclcpp::QoS(points_depth));
-  return publishers_[number]->get_subscription_count() > 0;
+void CloudOutputs::set_cloud_type(const std::string& type) {
+  const auto publish = [&](Result result, const std::string& topic, const std::string& of) {
+    publishers_[result] = node_.create_generic_publisher(topic, of, rclcpp::QoS(points_depth));
+  };
+  publish(Result::without_robot, topic_, type);
+  if (type == penumbra::io::message_type<penumbra::io::PointCloud2Message>())
+    publish(Result::labelled, topic_ + "/labelled", type);
+  publish(Result::targets, topic_ + "/targets",
+          penumbra::io::message_type<penumbra::io::TargetsMessage>());
 }
 
-void CloudOutputs::write(penumbra::io::CloudResult result, std::span<const std::byte> payload) {
-  publishers_[static_cast<std::size_t>(result)]->publish(message_of(payload));
+bool CloudOutputs::wants(Result result) const {
+  const auto found = publishers_.find(result);
+  return found != publishers_.end() && found->second->get_subscription_count() > 0;
+}
+
+void CloudOutputs::write(Result result, std::int64_t /*stamp*/,
+                         std::span<const std::byte> payload) {
+  publishers_.at(result)->publish(message_of(payload));
 }
 
 }  // namespace penumbra_ros

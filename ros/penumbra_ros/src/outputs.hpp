@@ -71,8 +71,8 @@ class Outputs final : public penumbra::io::ResultSink, public penumbra::io::Fram
              std::span<const std::byte> payload) override;
 
   [[nodiscard]] bool wants_color() const override { return false; }
-  void take(const penumbra::io::AssembledFrame& job, const penumbra::DepthView& depth,
-            const penumbra::FrameReport& report, const penumbra::Drift& drift) override;
+  void take(const penumbra::io::AssembledFrame& job, const penumbra::FrameReport& report,
+            const penumbra::Drift& drift) override;
 
  private:
   [[nodiscard]] bool is_selected(const char* name) const;
@@ -94,25 +94,26 @@ class Outputs final : public penumbra::io::ResultSink, public penumbra::io::Fram
   rclcpp::Publisher<vision_msgs::msg::Detection3DArray>::SharedPtr detections_;
   std::unique_ptr<tf2_ros::TransformBroadcaster> frames_;  // null: no targets in TF
   std::vector<std::byte> payload_;
-  std::shared_ptr<const penumbra::io::CameraSetup> shown_;  // whose robot the markers show
+  std::shared_ptr<const penumbra::io::SensorSetup> shown_;  // whose robot the markers show
   std::size_t viewers_ = 0;                                 // of the markers
 };
 
 /// Publishes the clouds of a sensor that have subscribers, with the type of its messages.
-class CloudOutputs final : public penumbra::io::CloudSink {
+class CloudOutputs final : public penumbra::io::ResultSink {
  public:
   /// `topic`: of the clouds; labelled ones are on "TOPIC/labelled", targets on "TOPIC/targets".
-  CloudOutputs(rclcpp_lifecycle::LifecycleNode& node, const std::string& topic)
-      : node_(node), topics_{topic, topic + "/labelled", topic + "/targets"} {}
+  CloudOutputs(rclcpp_lifecycle::LifecycleNode& node, std::string topic)
+      : node_(node), topic_(std::move(topic)) {}
 
-  [[nodiscard]] bool wants(penumbra::io::CloudResult result, const std::string& type) override;
-  void write(penumbra::io::CloudResult result, std::span<const std::byte> payload) override;
+  void set_cloud_type(const std::string& type) override;
+  [[nodiscard]] bool wants(penumbra::io::Result result) const override;
+  void write(penumbra::io::Result result, std::int64_t stamp,
+             std::span<const std::byte> payload) override;
 
  private:
   rclcpp_lifecycle::LifecycleNode& node_;
-  // Of each CloudResult.
-  std::array<std::string, 3> topics_;
-  std::array<rclcpp::GenericPublisher::SharedPtr, 3> publishers_;
+  std::string topic_;
+  std::map<penumbra::io::Result, rclcpp::GenericPublisher::SharedPtr> publishers_;
 };
 
 }  // namespace penumbra_ros

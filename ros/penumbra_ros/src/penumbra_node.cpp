@@ -106,14 +106,11 @@ void PenumbraNode::make_outputs() {
     outputs_.back()->set_rule(settings_.pipeline.rule);
     sinks.push_back(outputs_.back().get());
   }
-  std::vector<penumbra::io::CloudSink*> cloud_sinks;
   for (const std::string& topic : settings_.cloud_topics) {
     clouds_.push_back(std::make_unique<CloudOutputs>(*this, topic));
-    cloud_sinks.push_back(clouds_.back().get());
+    sinks.push_back(clouds_.back().get());
   }
-  runner_ = std::make_unique<LiveRunner>(settings_.live, settings_.pipeline, sinks,
-                                         penumbra::io::make_robot, LiveRunner::default_robot_retry,
-                                         cloud_sinks);
+  runner_ = std::make_unique<LiveRunner>(settings_.live, settings_.pipeline, sinks);
   for (std::size_t i = 0; i < outputs_.size(); ++i) runner_->watch(i, *outputs_[i]);
   if (outputs_.size() > 1) fuse();
 }

@@ -251,8 +251,8 @@ TEST_F(NodeTest, HandledTargetsAreDetectionsAndFrames) {
 class AddressWatcher final : public penumbra::io::FrameWatcher, public penumbra::io::ResultSink {
  public:
   [[nodiscard]] bool wants_color() const override { return false; }
-  void take(const penumbra::io::AssembledFrame& job, const penumbra::DepthView& /*depth*/,
-            const penumbra::FrameReport& /*report*/, const penumbra::Drift& /*drift*/) override {
+  void take(const penumbra::io::AssembledFrame& job, const penumbra::FrameReport& /*report*/,
+            const penumbra::Drift& /*drift*/) override {
     address = job.image.image->data.data();
   }
   [[nodiscard]] bool wants(penumbra::io::Result /*result*/) const override { return false; }

@@ -5,10 +5,10 @@
 #include <string>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/cloud/cloud_targets-inl.hpp>
+#include <penumbra/pipeline/ray_targets-inl.hpp>
 #include <penumbra/targets/target_visibility-inl.hpp>
 
-namespace penumbra::cloud {
+namespace penumbra {
 namespace {
 
 /// A box or ball, and rays from one origin.
@@ -56,8 +56,8 @@ class RayTarget {
     R_box_points_ = T_points_shape.linear().transpose();
     origin_ = -R_box_points_ * to_centre_;
     centre_ = to_centre_.cast<float>();
-    constexpr double rounding = 1e-4;  // of float32, with room
-    tangent_ = static_cast<float>((1.0 - rounding) * to_centre_.squaredNorm() - radius_ * radius_);
+    constexpr double room = 1e-4;  // of float32, with room
+    tangent_ = static_cast<float>((1.0 - room) * to_centre_.squaredNorm() - radius_ * radius_);
   }
 
   Eigen::Vector3d half_ = Eigen::Vector3d::Zero(), to_centre_, origin_;  // origin_: in the box
@@ -89,30 +89,33 @@ PixelState state_of(Label label, double range, const DepthLimits& limits, bool b
 
 }  // namespace
 
-Judgement judge_on_rays(const LabelledRays& rays, const Target& target,
+Judgement judge_on_rays(const Scan& scan, const LabelledImages& images, std::size_t link_count,
+                        const Tolerance& tolerance, const Target& target,
                         const Eigen::Isometry3d& T_points_frame, TargetMemory& memory) {
-  const RayTarget shape(target.shape, T_points_frame, rays.origin);
+  const Eigen::Vector3d& origin = *scan.origin;
+  const RayTarget shape(target.shape, T_points_frame, origin);
+  const std::uint8_t* const labels = images.labels.labels.data;
   Visibility seen;
-  LinkCounts links(rays.link_count);
+  LinkCounts links(link_count);
   seen.links = &links;
   seen.is_expected = true;
-  const Eigen::Vector3f start = rays.origin.cast<float>();
-  for (std::size_t i = 0; i < rays.points.count; ++i) {
-    const Eigen::Vector3f point = rays.points[i];
+  const Eigen::Vector3f start = origin.cast<float>();
+  for (std::size_t i = 0; i < scan.points.count; ++i) {
+    const Eigen::Vector3f point = scan.points[i];
     if (!shape.may_meet(point - start)) continue;
-    const Eigen::Vector3d ray = point.cast<double>() - rays.origin;
+    const Eigen::Vector3d ray = point.cast<double>() - origin;
     const double range = ray.norm();
     if (!std::isfinite(range) || range < CloudLabeller::least_range) continue;
     const auto entry = shape.entry(ray / range);
     if (!entry) continue;
-    const double margin = rays.tolerance.at(*entry) + target.depth_margin + shape.margin();
+    const double margin = tolerance.at(*entry) + target.depth_margin + shape.margin();
     const DepthLimits limits{static_cast<float>(*entry - margin),
                              static_cast<float>(*entry + margin)};
     const PixelState state =
-        state_of(static_cast<Label>(rays.labels[i]), range, limits, target.thresholds.beyond_hides);
+        state_of(static_cast<Label>(labels[i]), range, limits, target.thresholds.beyond_hides);
     ++seen.inside;
     ++seen.pixels[state];
-    if (state == PixelState::occluded) links.add(rays.links[i], 1);
+    if (state == PixelState::occluded) links.add(images.virtual_depth.links.data[i], 1);
     if (state != PixelState::clear && state != PixelState::front) continue;
     ++seen.measured;
     if (range > static_cast<double>(limits.far)) ++seen.past;
@@ -128,4 +131,4 @@ Judgement judge_on_rays(const LabelledRays& rays, const Target& target,
   return judgement;
 }
 
-}  // namespace penumbra::cloud
+}  // namespace penumbra

@@ -3,8 +3,8 @@
 #include "../robot/urdf_text.hpp"
 #include "shapes.hpp"
 
-#include <penumbra/cloud/cloud_pipeline.hpp>
 #include <penumbra/mesh/primitives.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/poses/pose_lookup.hpp>
 
 namespace penumbra::test {
@@ -54,10 +54,12 @@ struct Cloud {
     for (int i = 0; i < 3; ++i) values.push_back(float(point[i]));
     times.push_back(std::int32_t(time));
   }
-  [[nodiscard]] Scan scan() const {
-    return {.stamp = scan_begin,
-            .points = {reinterpret_cast<const std::byte*>(values.data()), times.size()},
-            .times = times};
+  [[nodiscard]] Frame scan(PoseAt pose_at) const {
+    return {
+        .stamp = scan_begin,
+        .scan = Scan{.points = {reinterpret_cast<const std::byte*>(values.data()), times.size()},
+                     .times = times},
+        .pose_at = std::move(pose_at)};
   }
 
   std::vector<float> values;
@@ -93,16 +95,24 @@ std::size_t make_sweep(Cloud& cloud) {
   return of_bar;
 }
 
-std::size_t count(const CloudReport& report, Label label) {
-  return report.points[std::size_t(label)];
+std::vector<Label> labels_of(const FrameReport& report) {
+  std::vector<Label> labels;
+  for (int i = 0; i < report.labels.width; ++i)
+    labels.push_back(static_cast<Label>(report.labels(i, 0)));
+  return labels;
 }
 
-TEST(CloudPipeline, FollowsTheRobotDuringAScan) {
+std::size_t count(const FrameReport& report, Label label) {
+  const auto all = labels_of(report);
+  return std::size_t(std::ranges::count(all, label));
+}
+
+TEST(Scans, FollowsTheRobotDuringAScan) {
   Cloud cloud;
   const std::size_t of_bar = make_sweep(cloud);
   ASSERT_GT(of_bar, 3'000U);
-  CloudPipeline pipeline(bar_robot(), config());
-  const CloudReport& report = pipeline.process(cloud.scan(), turning());
+  Pipeline pipeline(bar_robot(), config());
+  const FrameReport& report = pipeline.process(cloud.scan(turning()));
   EXPECT_EQ(report.status, FrameStatus::ok) << report.message;
   // The bar's end moves by 0.2 m.
   EXPECT_GE(report.parts, 20U);
@@ -114,27 +124,26 @@ TEST(CloudPipeline, FollowsTheRobotDuringAScan) {
   EXPECT_LT(double(count(report, Label::front)), at_outlines * found);
 
   // As if all were measured at once.
-  Scan at_once = cloud.scan();
-  at_once.times = {};
-  const CloudReport& wrong = pipeline.process(at_once, turning());
+  Frame at_once = cloud.scan(turning());
+  at_once.scan->times = {};
+  const FrameReport& wrong = pipeline.process(at_once);
   EXPECT_EQ(wrong.parts, 1U);
   EXPECT_LT(double(count(wrong, Label::occluded)), 0.7 * double(of_bar));
 }
 
-TEST(CloudPipeline, SeesAMotionThatTurnsBack) {
+TEST(Scans, SeesAMotionThatTurnsBack) {
   Cloud cloud;
   make_sweep(cloud);
-  CloudPipeline pipeline(bar_robot(), config());
-  const CloudReport& report =
-      pipeline.process(cloud.scan(), [](std::int64_t stamp, RobotPose& pose) {
-        const double time = 1e-9 * double(stamp - scan_begin);
-        pose = {};
-        pose.positions = {turning_speed * std::abs(time - 0.05), 0.0};
-      });
+  Pipeline pipeline(bar_robot(), config());
+  const FrameReport& report = pipeline.process(cloud.scan([](std::int64_t stamp, RobotPose& pose) {
+    const double time = 1e-9 * double(stamp - scan_begin);
+    pose = {};
+    pose.positions = {turning_speed * std::abs(time - 0.05), 0.0};
+  }));
   EXPECT_GE(report.parts, 20U) << "although it ends where it began";
 }
 
-TEST(CloudPipeline, ThreadsChangeNothing) {
+TEST(Scans, ThreadsChangeNothing) {
   Cloud cloud;
   make_sweep(cloud);
   CloudConfig several = config();
@@ -142,20 +151,20 @@ TEST(CloudPipeline, ThreadsChangeNothing) {
   several.rule.beam = 0.003;
   CloudConfig one = several;
   one.threads = 1;
-  CloudPipeline a(bar_robot(), one), b(bar_robot(), several);
-  const CloudReport& of_one = a.process(cloud.scan(), turning());
-  const CloudReport& of_three = b.process(cloud.scan(), turning());
-  EXPECT_TRUE(std::equal(of_one.labels.begin(), of_one.labels.end(), of_three.labels.begin(),
-                         of_three.labels.end()));
-  EXPECT_TRUE(std::equal(of_one.point_links.begin(), of_one.point_links.end(),
-                         of_three.point_links.begin(), of_three.point_links.end()));
+  Pipeline a(bar_robot(), one), b(bar_robot(), several);
+  const FrameReport& of_one = a.process(cloud.scan(turning()));
+  const FrameReport& of_three = b.process(cloud.scan(turning()));
+  EXPECT_EQ(labels_of(of_one), labels_of(of_three));
+  const std::size_t links = cloud.times.size() * sizeof(std::uint16_t);
+  EXPECT_EQ(std::memcmp(of_one.virtual_depth.links.data, of_three.virtual_depth.links.data, links),
+            0);
 }
 
-TEST(CloudPipeline, WithoutPosesOfTheWholeScanNoPointIsTrusted) {
+TEST(Scans, WithoutPosesOfTheWholeScanNoPointIsTrusted) {
   Cloud cloud;
   make_sweep(cloud);
-  CloudPipeline pipeline(bar_robot(), config());
-  const CloudReport& report = pipeline.process(cloud.scan(), turning(scan_begin + 90 * ms));
+  Pipeline pipeline(bar_robot(), config());
+  const FrameReport& report = pipeline.process(cloud.scan(turning(scan_begin + 90 * ms)));
   EXPECT_EQ(report.status, FrameStatus::stale_joints);
   EXPECT_TRUE(holds(report.message, "joint 'turn' is stale"));
   EXPECT_EQ(count(report, Label::unknown), cloud.times.size());
@@ -177,16 +186,10 @@ PoseAt standing(RobotPose pose) {
   return [pose](std::int64_t, RobotPose& to) { to = pose; };
 }
 
-std::vector<Label> labels_of(const CloudReport& report) {
-  std::vector<Label> labels;
-  for (const std::uint8_t label : report.labels) labels.push_back(static_cast<Label>(label));
-  return labels;
-}
-
 /// The block's joint has no states at all: the rest of the cloud is not lost.
-TEST(CloudPipeline, AJointWithoutStatesTakesWhatItMovesAlone) {
+TEST(Scans, AJointWithoutStatesTakesWhatItMovesAlone) {
   const Cloud cloud = few_points();
-  CloudPipeline pipeline(bar_robot(), config());
+  Pipeline pipeline(bar_robot(), config());
   const Robot& robot = pipeline.robot();
   PoseHistory history(robot);
   const std::string turn[] = {"turn"};
@@ -194,76 +197,82 @@ TEST(CloudPipeline, AJointWithoutStatesTakesWhatItMovesAlone) {
   for (const std::int64_t stamp : {scan_begin - ms, scan_begin + ms})
     history.add_joints(stamp, turn, level);
   PoseLookup lookup(robot, {});
-  const CloudReport& report = pipeline.process(
-      cloud.scan(), [&](std::int64_t stamp, RobotPose& pose) { lookup.at(history, stamp, pose); });
+  const FrameReport& report = pipeline.process(
+      cloud.scan([&](std::int64_t stamp, RobotPose& pose) { lookup.at(history, stamp, pose); }));
   using enum Label;
   EXPECT_EQ(report.status, FrameStatus::missing_link);
   EXPECT_TRUE(holds(report.message, "'slide'")) << report.message;
   EXPECT_EQ(labels_of(report), (std::vector{occluded, unknown, unknown, clear}));
-  EXPECT_EQ(report.links[report.point_links[0] - 1], "bar");
-  EXPECT_EQ(report.point_links[1], 0);
+  EXPECT_EQ(report.links[report.virtual_depth.links(0, 0) - 1], "bar");
+  EXPECT_EQ(report.virtual_depth.links(1, 0), 0);
 }
 
-TEST(CloudPipeline, ALinkWithoutItsMeshLeavesAllUnknown) {
+TEST(Scans, ALinkWithoutItsMeshLeavesAllUnknown) {
   const Cloud cloud = few_points();
-  CloudPipeline pipeline(bar_robot(R"(<mesh filename="file:///none.stl"/>)"), config());
-  const CloudReport& report = pipeline.process(cloud.scan(), standing({}));
+  Pipeline pipeline(bar_robot(R"(<mesh filename="file:///none.stl"/>)"), config());
+  const FrameReport& report = pipeline.process(cloud.scan(standing({})));
   EXPECT_EQ(report.status, FrameStatus::missing_link);
   EXPECT_TRUE(holds(report.message, "no geometry of link 'block'"));
   EXPECT_EQ(labels_of(report), std::vector(4, Label::unknown));
 }
 
-TEST(CloudPipeline, WhatIsAttachedIsOfTheRobot) {
+TEST(Scans, WhatIsAttachedIsOfTheRobot) {
   const Cloud cloud = few_points();
-  CloudPipeline pipeline(bar_robot(), config());
+  Pipeline pipeline(bar_robot(), config());
   const auto mesh = std::make_shared<PreparedMesh>(make_box({0.1, 0.1, 0.1}));
-  const CloudReport& report = pipeline.process(
-      cloud.scan(), standing({.attached = {{"part", "block", mesh, at(0, 0, 0.5)}}}));
+  const FrameReport& report = pipeline.process(
+      cloud.scan(standing({.attached = {{"part", "block", mesh, at(0, 0, 0.5)}}})));
   using enum Label;
   EXPECT_EQ(labels_of(report), (std::vector{occluded, occluded, occluded, clear}));
-  EXPECT_EQ(report.links[report.point_links[2] - 1], "part");
-  EXPECT_EQ(labels_of(pipeline.process(cloud.scan(), standing({})))[2], clear) << "put down";
-  const CloudReport& unread =
-      pipeline.process(cloud.scan(), standing({.attached = {{"part", "block", nullptr}}}));
+  EXPECT_EQ(report.links[report.virtual_depth.links(2, 0) - 1], "part");
+  EXPECT_EQ(labels_of(pipeline.process(cloud.scan(standing({}))))[2], clear) << "put down";
+  const FrameReport& unread =
+      pipeline.process(cloud.scan(standing({.attached = {{"part", "block", nullptr}}})));
   EXPECT_EQ(unread.status, FrameStatus::missing_link);
   EXPECT_EQ(labels_of(unread), std::vector(4, unknown));
 }
 
-TEST(CloudPipeline, SaysWhatIsWrongWithACloud) {
-  CloudPipeline pipeline(bar_robot(), config());
-  const auto fault = [&](const Scan& scan) {
-    const CloudReport& report = pipeline.process(scan, standing({}));
-    EXPECT_EQ(count(report, Label::unknown), scan.points.count);
+TEST(Scans, SaysWhatIsWrongWithACloud) {
+  Pipeline pipeline(bar_robot(), config());
+  const auto fault = [&](const Frame& frame) {
+    const FrameReport& report = pipeline.process(frame);
+    EXPECT_EQ(count(report, Label::unknown), frame.scan->points.count);
     EXPECT_NE(report.status, FrameStatus::ok);
     return report.message;
   };
-  EXPECT_TRUE(holds(fault({.stamp = scan_begin}), "no points"));
+  const PoseAt pose = standing({});
+  EXPECT_TRUE(holds(fault(Cloud().scan(pose)), "no points"));
   Cloud none;
   for (int i = 0; i < 5'000; ++i) none.add(Vector3d::Constant(nan), 0);
-  EXPECT_TRUE(holds(fault(none.scan()), "no point of the cloud is a measurement"));
+  EXPECT_TRUE(holds(fault(none.scan(pose)), "no point of the cloud is a measurement"));
   Cloud millimetres = few_points();
   for (float& value : millimetres.values) value *= 1000.0F;
-  EXPECT_TRUE(holds(fault(millimetres.scan()), "millimetres"));
+  EXPECT_TRUE(holds(fault(millimetres.scan(pose)), "millimetres"));
   Cloud few = few_points();
   few.times.pop_back();
-  Scan scan = few.scan();
-  scan.points.count = 4;
-  EXPECT_TRUE(holds(fault(scan), "3 times for 4 points"));
-  scan = few.scan();
-  scan.times = {};
-  scan.origin = Vector3d(0.5, 2.0, 0.0);
-  EXPECT_TRUE(holds(fault(scan), "inside link 'bar'"));
+  Frame frame = few.scan(pose);
+  frame.scan->points.count = 4;
+  EXPECT_TRUE(holds(fault(frame), "3 times for 4 points"));
+  frame = few.scan(pose);
+  frame.scan->times = {};
+  frame.scan->origin = Vector3d(0.5, 2.0, 0.0);
+  EXPECT_TRUE(holds(fault(frame), "inside link 'bar'"));
+  frame.source_status = FrameStatus::bad_depth;
+  frame.source_message = "the file cannot be read";
+  EXPECT_EQ(fault(frame), "the file cannot be read");
+  EXPECT_EQ(pipeline.process({.stamp = scan_begin, .pose_at = pose}).status,
+            FrameStatus::missing_depth);
 }
 
-TEST(CloudPipeline, MergedCloudsHaveNoRays) {
+TEST(Scans, MergedCloudsHaveNoRays) {
   Cloud cloud = few_points();
   cloud.add({0.5, 2.2, 0}, 0);  // behind the bar
-  CloudPipeline pipeline(bar_robot(), config());
-  Scan scan = cloud.scan();
-  EXPECT_EQ(labels_of(pipeline.process(scan, standing({})))[4], Label::beyond);
-  scan.origin.reset();
+  Pipeline pipeline(bar_robot(), config());
+  Frame frame = cloud.scan(standing({}));
+  EXPECT_EQ(labels_of(pipeline.process(frame))[4], Label::beyond);
+  frame.scan->origin.reset();
   EXPECT_EQ(
-      labels_of(pipeline.process(scan, standing({}))),
+      labels_of(pipeline.process(frame)),
       (std::vector{Label::occluded, Label::occluded, Label::clear, Label::clear, Label::clear}));
 }
 
@@ -290,8 +299,8 @@ struct BoxScene {
   }
 };
 
-TEST(CloudPipeline, JudgesBoxesAsTheRaysSeeThem) {
-  CloudPipeline pipeline(bar_robot(), config());
+TEST(Scans, JudgesBoxesAsTheRaysSeeThem) {
+  Pipeline pipeline(bar_robot(), config());
   const auto judge = [&](BoxScene scene, const PoseAt& pose) {
     const Cloud cloud = scene.scan();
     Target target{
@@ -305,10 +314,9 @@ TEST(CloudPipeline, JudgesBoxesAsTheRaysSeeThem) {
         BoxTarget{.pose = at(scene.centre.x(), scene.centre.y() - 2.0, scene.centre.z()),
                   .size = 2.0 * scene.half,
                   .frame = ReferenceFrame::root()};
-    const std::vector<Target> targets{target, of_root};
-    Scan scan = cloud.scan();
-    scan.targets = targets;
-    const CloudReport& report = pipeline.process(scan, pose);
+    Frame frame = cloud.scan(pose);
+    frame.targets = {target, of_root};
+    const FrameReport& report = pipeline.process(frame);
     EXPECT_EQ(report.targets.size(), 2U);
     EXPECT_EQ(report.targets[0].verdict, report.targets[1].verdict);
     return report.targets[0];
@@ -338,43 +346,40 @@ TEST(CloudPipeline, JudgesBoxesAsTheRaysSeeThem) {
   EXPECT_TRUE(holds(no_pose.reason, "joint 'turn' is stale"));
 }
 
-TEST(CloudPipeline, JudgesPointsAndNoPixels) {
-  CloudPipeline pipeline(bar_robot(), config());
+TEST(Scans, JudgesPointsAndNoPixels) {
+  Pipeline pipeline(bar_robot(), config());
   BoxScene scene;
   const Cloud cloud = scene.scan();
-  const std::vector<Target> targets{
+  Frame frame = cloud.scan(standing({}));
+  frame.targets = {
       {.name = "behind", .shape = PointTarget{.position = {0.5, 2.95, 0.0}, .radius = 0.05}},
       {.name = "on the box", .shape = PointTarget{.position = {0.5, 2.95, 0.15}, .radius = 0.05}},
       {.name = "pixels", .shape = KeypointTarget{}}};
-  Scan scan = cloud.scan();
-  scan.targets = targets;
-  const CloudReport& report = pipeline.process(scan, standing({}));
+  const FrameReport& report = pipeline.process(frame);
   EXPECT_EQ(report.targets[0].verdict, Verdict::hidden);
   EXPECT_EQ(report.targets[1].verdict, Verdict::visible);
   EXPECT_TRUE(holds(report.targets[2].reason, "only 3-D boxes and points"));
-  scan.origin.reset();
-  EXPECT_TRUE(holds(pipeline.process(scan, standing({})).targets[0].reason, "without rays"));
+  frame.scan->origin.reset();
+  EXPECT_TRUE(holds(pipeline.process(frame).targets[0].reason, "without rays"));
 }
 
-TEST(CloudPipeline, FollowsAndForgetsTargetsAsInImages) {
+TEST(Scans, FollowsAndForgetsTargetsAsInImages) {
   constexpr double fall = 0.05, accuracy = 0.02;  // metres: in 0.1 s, of the prediction
-  CloudPipeline pipeline(bar_robot(), config());
+  Pipeline pipeline(bar_robot(), config());
   // A box comes down behind the bar.
   const auto at_step = [&](int step, std::size_t times = 1, int shift_ms = 0) {
     BoxScene scene{.centre = {0.5, 3.0, 0.35 - fall * step}, .half = {0.1, 0.1, 0.03}};
     const Cloud cloud = scene.scan();
     const Vector3d centre = scene.centre - Vector3d(0, 2, 0);
-    const std::vector<Target> targets(times,
-                                      {.name = "box",
-                                       .shape = BoxTarget{.pose = Isometry3d(Translation3d(centre)),
-                                                          .size = 2.0 * scene.half,
-                                                          .frame = ReferenceFrame::root()},
-                                       .handling = PoseTrackerConfig{}});
-    Scan scan = cloud.scan();
-    *scan.stamp += ms * (100 * step + shift_ms);
-    scan.targets = targets;
-    const CloudReport& report = pipeline.process(scan, standing({}));
-    return report.targets.back();
+    Frame frame = cloud.scan(standing({}));
+    frame.targets =
+        std::vector<Target>(times, {.name = "box",
+                                    .shape = BoxTarget{.pose = Isometry3d(Translation3d(centre)),
+                                                       .size = 2.0 * scene.half,
+                                                       .frame = ReferenceFrame::root()},
+                                    .handling = PoseTrackerConfig{}});
+    *frame.stamp += ms * (100 * step + shift_ms);
+    return pipeline.process(frame).targets.back();
   };
   for (int step = 0; step < 5; ++step) {
     const TargetReport seen = at_step(step);
@@ -393,13 +398,37 @@ TEST(CloudPipeline, FollowsAndForgetsTargetsAsInImages) {
   EXPECT_EQ(at_step(8, 1, -2'000).handled->source, Source::lost) << "the clock was set back";
 }
 
-TEST(CloudPipeline, BadConfigurationsAreRefused) {
+TEST(Scans, JudgesTargetsThatComeLateOnTheScanOfTheirStamp) {
+  CloudConfig config = test::config();
+  config.target_history = 0.5;
+  Pipeline pipeline(bar_robot(), config);
+  const auto judge = [&](int step, std::optional<int> step_of_target) {
+    BoxScene scene{.half = {0.1, 0.1, 0.03}};  // behind the bar, which then turns away
+    const Cloud cloud = scene.scan();
+    Frame frame = cloud.scan(standing({.positions = {step == 0 ? 0.0 : 2.0, 0.0}}));
+    *frame.stamp += 100 * ms * step;
+    if (step_of_target)
+      frame.targets = {{.name = "box",
+                        .shape = BoxTarget{.pose = Isometry3d(Translation3d(scene.centre)),
+                                           .size = 2.0 * scene.half},
+                        .stamp = scan_begin + 100 * ms * *step_of_target}};
+    const FrameReport& report = pipeline.process(frame);
+    return report.targets.empty() ? TargetReport() : report.targets[0];
+  };
+  judge(0, {});
+  EXPECT_EQ(judge(1, 0).verdict, Verdict::hidden);
+  EXPECT_EQ(judge(4, 0).verdict, Verdict::hidden);
+  EXPECT_TRUE(holds(judge(6, 0).reason, "no scan of its stamp is stored"));
+  EXPECT_TRUE(holds(judge(7, 9).reason, "no scan of its stamp is stored"));
+}
+
+TEST(Scans, BadConfigurationsAreRefused) {
   CloudConfig wrong = config();
   wrong.sensor_parent = "nobody";
-  EXPECT_THROW(CloudPipeline(bar_robot(), wrong), InputError);
+  EXPECT_THROW(Pipeline(bar_robot(), wrong), InputError);
   wrong = config();
   wrong.T_parent_sensor.linear() *= 2.0;
-  EXPECT_THROW(CloudPipeline(bar_robot(), wrong), InputError);
+  EXPECT_THROW(Pipeline(bar_robot(), wrong), InputError);
   EXPECT_THROW((void)CloudRule::for_sensor("eyes"), InputError);
 }
 

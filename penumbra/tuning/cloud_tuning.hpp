@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/cloud/cloud_pipeline.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 
 namespace penumbra {
 
@@ -34,7 +34,7 @@ class CloudTuner {
 
   /// Adds a scan; takes as long as labelling it 35 times. Returns false for a scan without rays, or
   /// whose poses are not all known. Leaves the pipeline with `rule`.
-  bool add(CloudPipeline& pipeline, const Scan& scan, const PoseAt& pose_at);
+  bool add(Pipeline& pipeline, const Frame& frame);
 
   [[nodiscard]] CloudTuning result() const;
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include <penumbra/cloud/cloud_tuning.hpp>
+#include <penumbra/tuning/cloud_tuning.hpp>
 
 namespace penumbra {
 namespace {
@@ -18,10 +18,6 @@ constexpr double largest_share = 0.3;       // of them if the robot stands free
 constexpr double wide = 0.15;               // metres, several deviations of any sensor
 constexpr double millimetre = 1e-3;
 
-std::size_t count(const CloudReport& report, Label label) {
-  return report.points[static_cast<std::size_t>(label)];
-}
-
 double share_of(std::size_t some, std::size_t of) {
   return static_cast<double>(some) / static_cast<double>(std::max<std::size_t>(of, 1));
 }
@@ -35,37 +31,36 @@ double CloudTuner::tolerance_at(std::size_t step) {
   return millimetre * std::pow(1.3, static_cast<double>(step));
 }
 
-bool CloudTuner::add(CloudPipeline& pipeline, const Scan& scan, const PoseAt& pose_at) {
-  const auto report_by = [&](const CloudRule& rule) -> const CloudReport& {
+bool CloudTuner::add(Pipeline& pipeline, const Frame& frame) {
+  const auto report_by = [&](const CloudRule& rule) -> const FrameReport& {
     pipeline.set_rule(rule);
-    return pipeline.process(scan, pose_at);
+    return pipeline.process(frame);
   };
+  const bool has_rays = frame.scan && frame.scan->origin;
   CloudRule rule = rule_;
   rule.beam = 0.0;  // no fringe: all rays that meet the robot are front, occluded or beyond
   rule.beyond_factor = 1.0;
   for (std::size_t i = 0; i < steps; ++i) {
     rule.tolerance = {.a = tolerance_at(i), .b = 0.0, .c = 0.0};
-    const CloudReport& report = report_by(rule);
-    if (i == 0 && (report.status != FrameStatus::ok || !scan.origin)) {
+    const FrameReport& report = report_by(rule);
+    if (i == 0 && (report.status != FrameStatus::ok || !has_rays)) {
       pipeline.set_rule(rule_);
       if (refused_because_.empty())
-        refused_because_ = scan.origin ? report.message : "clouds without rays show no ranges";
+        refused_because_ = has_rays ? report.message : "clouds without rays show no ranges";
       return false;
     }
-    front_[i] += count(report, Label::front);
-    beyond_[i] += count(report, Label::beyond);
-    if (i == 0)
-      on_robot_ += count(report, Label::front) + count(report, Label::occluded) +
-                   count(report, Label::beyond);
+    front_[i] += report.pixels.front;
+    beyond_[i] += report.pixels.beyond;
+    if (i == 0) on_robot_ += *report.pixels.robot;
   }
   rule = rule_;
   rule.tolerance = {.a = wide, .b = 0.0, .c = 0.0};  // what is on the robot is no fringe
   for (std::size_t i = 0; i < beams.size(); ++i) {
     rule.beam = beams[i];
     rule.mixing = rule_.mixing;
-    mixed_[i] += count(report_by(rule), Label::fringe);
+    mixed_[i] += report_by(rule).pixels.fringe;
     rule.mixing = CloudRule::max_mixing;
-    behind_[i] += count(report_by(rule), Label::fringe);
+    behind_[i] += report_by(rule).pixels.fringe;
   }
   ++scans_;
   pipeline.set_rule(rule_);

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <io/assembly/arrivals.hpp>
+#include <io/assembly/assembled_frame.hpp>
+#include <io/assembly/robot_input.hpp>
+
+namespace penumbra::io {
+
+/// Targets that were never judged.
+struct UnjudgedTargets {
+  std::size_t replaced = 0;  ///< replaced by newer targets of the same name
+  /// Sums TargetInbox::discarded, the targets that waited when the setup changed, and the targets
+  /// of frames that failed.
+  std::size_t discarded = 0;
+  std::size_t early = 0;  ///< messages received before robot and sensor were known
+};
+
+/// The messages of one sensor: keeps its images or clouds until their poses, and what comes with
+/// them, are known. Part of FrameAssembler; uses no threads and no clock. There are two policies.
+/// Lossless, for bags: each message becomes a frame of the one setup, and one without a pose says
+/// why. Newest, for live topics: the setup follows what is received, and the newest frame is given.
+class SensorInput {
+ public:
+  SensorInput(const SensorInput&) = delete;
+  SensorInput& operator=(const SensorInput&) = delete;
+  virtual ~SensorInput() = default;
+
+  template <typename M>
+  void take_targets(const std::string& topic, const M& message) {
+    if (setup_)
+      setup_->targets.add(topic, message);
+    else
+      ++targets_.early;
+  }
+
+  /// Updates the setup. Call this when the robot may have changed.
+  void refresh();
+  /// Gives out what waits: no further message will come.
+  void finish();
+
+  /// See FrameAssembler.
+  bool next(std::int64_t now, bool with_color, AssembledFrame& next);
+  void done(bool is_judged, std::size_t unjudged_targets);
+  [[nodiscard]] std::optional<std::int64_t> wake_at() const {
+    return setup_ ? setup_->queue.wake_at() : std::nullopt;
+  }
+
+  [[nodiscard]] ImageCounts counts() const;
+  /// Returns the current setup, or null if setup_fault() is set or robot or sensor are not known.
+  [[nodiscard]] const SensorSetup* setup() const { return setup_.get(); }
+  [[nodiscard]] const std::string& setup_fault() const { return setup_fault_; }
+  [[nodiscard]] const Arrivals& arrivals() const { return arrivals_; }  ///< of images or clouds
+  [[nodiscard]] UnjudgedTargets targets() const;
+
+ protected:
+  /// `name`: of what becomes a frame. `robot` must outlive this.
+  SensorInput(const RobotInput& robot, std::string name, PoseSource poses, bool is_lossless)
+      : robot_(robot), name_(std::move(name)), poses_(poses), is_lossless_(is_lossless) {}
+
+  /// Returns the setup of what is known now; null: that is not enough. Throws InputError.
+  virtual std::shared_ptr<SensorSetup> find_setup() = 0;
+  /// Returns whether what comes with a frame is there. `over`: it is awaited no longer. Targets of
+  /// bags may always come.
+  [[nodiscard]] virtual Companions check(const Frame& /*frame*/, bool over) {
+    return awaits_targets_ && !over ? Companions::awaited : Companions::complete;
+  }
+  /// Adds what comes with the frame, whose setup is known.
+  virtual void complete(AssembledFrame& frame) = 0;
+
+  [[nodiscard]] bool is_lossless() const { return is_lossless_; }
+  /// `options`: CameraInputOptions or CloudInputOptions.
+  template <typename Options>
+  std::shared_ptr<SensorSetup> make_setup(const Options& options, JudgedSensor sensor,
+                                          double companion_wait) {
+    awaits_targets_ = is_lossless() && options.has_targets;
+    if (awaits_targets_) companion_wait = topic_target_history;
+    return make_setup(std::move(sensor),
+                      {.policy = is_lossless() ? DropPolicy::every : DropPolicy::newest,
+                       .time_offset = options.time_offset,
+                       .max_wait = options.max_wait,
+                       .companion_wait = companion_wait,
+                       .max_frames = options.max_frames,
+                       .poses = {.source = options.poses,
+                                 .frame_prefix = options.mount.frame_prefix,
+                                 .camera_parent = sensor.mount.parent,
+                                 .camera_frame = sensor.mount.frame}},
+                      options.hidden_targets);
+  }
+  /// Counts a message, and returns its frame.
+  std::shared_ptr<AssembledFrame> begin(std::int64_t now);
+  /// Adds a frame to those that wait for their pose.
+  void push(std::shared_ptr<AssembledFrame> frame, std::int64_t now);
+  /// Gives out a frame of a bag that does not wait for its pose.
+  void keep_without_pose(std::shared_ptr<Frame> frame, const std::string& why);
+
+  const RobotInput& robot_;
+  std::shared_ptr<SensorSetup> setup_;
+  std::string frame_;                // of the last message, TF
+  std::uint64_t camera_infos_ = 0;   // that changed the camera
+  std::size_t without_info_ = 0;     // consecutive images without camera_info
+  bool with_color_ = false;          // of the last call of next()
+  bool awaits_targets_ = false;
+  ImageCounts counts_;
+
+ private:
+  /// The inputs of a setup.
+  struct Basis {
+    const PosedRobot* robot = nullptr;
+    std::uint64_t frames = 0, cameras = 0;
+    std::string frame;
+    bool operator==(const Basis&) const = default;
+  };
+
+  std::shared_ptr<SensorSetup> make_setup(JudgedSensor sensor, const FrameQueueOptions& options,
+                                          HiddenTargets hidden);
+  void drop(std::shared_ptr<Frame> frame, DropReason reason);
+
+  std::string name_;
+  PoseSource poses_;
+  bool is_lossless_;
+  Basis basis_;  // of the setup, or of the last attempt to make one
+  std::string setup_fault_;
+  std::deque<std::shared_ptr<Frame>> without_pose_;  // not in the queue
+  Arrivals arrivals_;
+  UnjudgedTargets targets_;  // of previous setups
+};
+
+}  // namespace penumbra::io

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <penumbra/cloud/cloud_labels.hpp>
+#include <penumbra/poses/robot_pose.hpp>
+
+namespace penumbra {
+
+/// The points of a scan, or of a cloud that is measured at once, in the sensor's frame.
+struct Scan {
+  PointsView points = {};
+  /// When each point was measured: nanoseconds after the frame's stamp. Empty: all at the stamp, as
+  /// points without rays are.
+  std::span<const std::int32_t> times = {};
+  /// Where the rays start, in the points' frame. Null: points without rays, as of merged clouds.
+  std::optional<Eigen::Vector3d> origin = Eigen::Vector3d::Zero();
+};
+
+/// Sets `pose` to the robot's pose at a stamp, or its fault, as PoseLookup::at.
+using PoseAt = std::function<void(std::int64_t stamp, RobotPose& pose)>;
+
+/// A sensor that measures points.
+struct CloudConfig {
+  /// During a scan with times, the robot's poses are looked up so often that no link moves by more
+  /// than 1 cm in between, or so many times.
+  static constexpr std::size_t max_parts = 64;
+  /// Metres. If half of the points are farther away, they are no measurement: no sensor of a
+  /// robot's surroundings sees so far, and millimetres are mistaken for metres.
+  static constexpr double max_range = 300.0;
+
+  CloudRule rule = {};
+  int threads = 1;
+  std::string sensor_parent = {};  ///< link that carries the sensor; empty: the root
+  /// Pose of the points' frame in that link's frame, metres. RobotPose::T_parent_camera, where
+  /// given, replaces it.
+  Eigen::Isometry3d T_parent_sensor = Eigen::Isometry3d::Identity();
+  double target_history = 0.0;  ///< as in PipelineConfig, of scans
+};
+
+}  // namespace penumbra
