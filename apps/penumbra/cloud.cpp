@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -230,35 +231,41 @@ int execute(const CloudArguments& arguments) {
   options.input = arguments.run.input;
   io::WebOptions web = web_options(arguments.server);
   std::vector<std::unique_ptr<CloudPage>> pages;
-  for (const io::RunInput& input : inputs) {
-    if (!arguments.server.port) break;
+  std::vector<std::string> sensors;
+  std::vector<std::unique_ptr<io::InputSession>> sessions;
+  for (io::RunInput& input : inputs) {
+    sensors.push_back(input.sensor);
+    sessions.push_back(std::make_unique<io::InputSession>(options, std::move(input)));
+  }
+  for (std::size_t i = 0; i < sensors.size() && arguments.server.port; ++i) {
     pages.push_back(std::make_unique<CloudPage>(
-        input.robot, options.input.path.string() + ", " + input.sensor, web));
-    print_line(input.sensor + ": " + pages.back()->url());
+        sessions[i]->pipeline().robot(), options.input.path.string() + ", " + sensors[i], web));
+    print_line(sensors[i] + ": " + pages.back()->url());
     std::cout.flush();
     if (web.port > 0) ++web.port;
   }
   std::vector<std::vector<std::string>> rows{
       {"", "clouds", "labelled", "points", "robot", "front", "fringe", "unknown", "ms a cloud"}};
   std::size_t labelled = 0;
-  for (std::size_t i = 0; i < inputs.size() && !was_interrupted(); ++i) {
-    const std::string sensor = inputs[i].sensor;
-    io::InputSession session(options, std::move(inputs[i]));
+  std::set<std::string> said;  // notes of the whole bag, once
+  for (std::size_t i = 0; i < sessions.size() && !was_interrupted(); ++i) {
+    io::InputSession& session = *sessions[i];
     Outputs outputs;
     std::unique_ptr<io::RunOutput> files;
     if (folder) files = io::open_cloud_folder(*folder, session.source(), arguments.how);
-    if (bag) files = bag->sensor(sensor, session.source(), arguments.how);
+    if (bag) files = bag->sensor(sensors[i], session.source(), arguments.how);
     if (files) outputs.add(*files);
     if (!pages.empty()) outputs.add(pages[i]->store);
     outputs.begin(session.head());
     const io::RunResult result = judge_all(session, outputs);
-    rows.push_back(table_row(sensor, result.statistics));
+    rows.push_back(table_row(sensors[i], result.statistics));
     labelled += result.statistics.usable_frames();
     if (result.statistics.parts() > 1)
-      print_line(sensor + ": the robot moved: up to " + std::to_string(result.statistics.parts()) +
-                 " poses a scan");
-    print_faults(result);
-    print_notes_of(sensor, result.notes);
+      print_line(sensors[i] + ": the robot moved: up to " +
+                 std::to_string(result.statistics.parts()) + " poses a scan");
+    print_faults(result, sensors[i] + ": ");
+    for (const std::string& note : result.notes)
+      if (said.insert(note).second) print_notes_of(sensors[i], {note});
   }
   if (bag) bag->finish();
   print_table(std::move(rows));

@@ -55,7 +55,9 @@ io::WrittenResults GraphResults::counts() const {
 
 void GraphClouds::set_cloud_type(const std::string& type) {
   const auto advertise = [&](io::Result result, const std::string& topic, const std::string& of) {
-    publications_[result] = graph_.advertise(topic, of, {.reliable = true, .depth = result_depth});
+    if (!publications_[result])
+      publications_[result] =
+          graph_.advertise(topic, of, {.reliable = true, .depth = result_depth});
   };
   advertise(io::Result::without_robot, topics_[0], type);
   if (type == io::message_type<io::PointCloud2Message>())

@@ -70,23 +70,24 @@ void print_summary(const io::Statistics& statistics, const std::string& where) {
 
 }  // namespace
 
-void print_faults(const io::RunResult& result) {
+void print_faults(const io::RunResult& result, const std::string& of) {
   const io::Statistics& statistics = result.statistics;
   const auto frames = [&](std::size_t n) {
     return std::to_string(n) + " of " + std::to_string(statistics.frames()) + " frames";
   };
   for (const io::Fault& fault : statistics.faults())
-    print_error(std::string(to_string(fault.status)) + " in " + frames(fault.frames) +
+    print_error(of + std::string(to_string(fault.status)) + " in " + frames(fault.frames) +
                 first_in(fault.reasons.front().first) + fault.reasons.front().message +
                 more_reasons(fault));
   std::size_t unknown = 0;
   for (const io::TargetStatistics& target : judged_targets(statistics))
     if (target.frames(Verdict::unknown) > 0 && ++unknown <= most_targets)
-      print_error("target '" + target.name + "' unknown in " +
+      print_error(of + "target '" + target.name + "' unknown in " +
                   frames(target.frames(Verdict::unknown)) + first_in(target.first_unknown) +
                   target.reason);
   if (unknown > most_targets)
-    print_error(std::to_string(unknown - most_targets) + " more targets unknown in some frames");
+    print_error(of + std::to_string(unknown - most_targets) +
+                " more targets unknown in some frames");
   if (result.frames_without_color > 0)
     print_error("no colour in the overlay of " + frames(result.frames_without_color) +
                 ", first: " + result.first_without_color);

@@ -7,8 +7,8 @@
 
 namespace penumbra::app {
 
-/// Prints faults of frames, targets and overlays on stderr.
-void print_faults(const io::RunResult& result);
+/// Prints faults of frames, targets and overlays on stderr, each after `of`: "/points: ".
+void print_faults(const io::RunResult& result, const std::string& of = {});
 
 /// Prints faults of frames, targets and overlays, and all notes, on stderr; counts, times and the
 /// place of the results on stdout.

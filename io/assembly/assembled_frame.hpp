@@ -38,13 +38,11 @@ struct SensorSetup {
               FrameQueue::Check check)
       : posed(std::move(of)),
         sensor(std::move(sensor_)),
-        lookup(posed->robot, options.poses),
         queue(posed->robot, posed->history, options, std::move(on_drop), std::move(check)),
         targets(posed->robot, sensor.frame, options.poses.frame_prefix, hidden) {}
 
   const std::shared_ptr<PosedRobot> posed;
   const JudgedSensor sensor;
-  PoseLookup lookup;  ///< of the poses during scans
   FrameQueue queue;
   TargetInbox targets;
 };

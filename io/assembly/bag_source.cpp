@@ -158,7 +158,6 @@ std::vector<std::string> BagSource::notes() const {
   std::vector<std::string> lines = bag_notes(name_, *bag_, assembler_.faults());
   for (const std::string& line : assembler_.notes()) lines.push_back(name_ + ": " + line);
   if (!time_note_.empty()) lines.push_back(sensor().name + ": " + time_note_);
-  if (assembler_.sensor(0).setup() == nullptr) return lines;  // no cloud came
   const TargetInbox& targets = assembler_.sensor(0).setup()->targets;
   if (targets.waiting() > 0)
     lines.push_back(name_ + ": " + std::to_string(targets.waiting()) +

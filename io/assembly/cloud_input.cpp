@@ -12,7 +12,11 @@ namespace penumbra::io {
 
 CloudInput::CloudInput(CloudInputOptions options, const RobotInput& robot)
     : SensorInput(robot, "cloud", options.poses, options.known.has_value()),
-      options_(std::move(options)) {}
+      options_(std::move(options)) {
+  if (!options_.known) return;
+  frame_ = options_.known_frame;
+  setup_ = make_setup(*options_.known);
+}
 
 template <typename M>
 std::string CloudInput::take(M message, const SerializedMessage& bytes, std::int64_t now) {
@@ -51,11 +55,7 @@ std::string CloudInput::take(M message, const SerializedMessage& bytes, std::int
   if (fault.empty() && !frame_.empty() && cloud->frame_id != frame_) {
     cloud->source_status = FrameStatus::missing_transform;
     cloud->source_message = "the cloud is of the frame '" + printable(cloud->frame_id) +
-                            "', the first one of '" + printable(frame_) + "'";
-  }
-  if (!setup_) {
-    frame_ = cloud->frame_id;
-    setup_ = make_setup(*options_.known);
+                            "', expected '" + printable(frame_) + "'";
   }
   push(cloud, now);
   return {};
@@ -87,13 +87,9 @@ std::shared_ptr<SensorSetup> CloudInput::make_setup(CameraMount mount) {
       {.cameras = {}, .cloud = std::move(config), .frame = frame_, .mount = std::move(mount)}, 0.0);
 }
 
-/// Adds the poses during the scan, and where its rays start if that is not the points' frame.
+/// Adds where a scan's rays start if that is not the points' frame.
 void CloudInput::complete(AssembledFrame& cloud) {
   SensorSetup& setup = *cloud.setup;
-  if (!has_pose(cloud.pose.status)) return;
-  cloud.pose_at = [kept = cloud.setup](std::int64_t stamp, RobotPose& pose) {
-    kept->lookup.at(kept->posed->history, kept->queue.pose_stamp(stamp), pose);
-  };
   if (options_.sensor_frame.empty() || cloud.source_status != FrameStatus::ok) return;
   TransformAnswer sensor;
   setup.posed->history.transforms().at(setup.queue.pose_stamp(cloud.stamp.value_or(0)),

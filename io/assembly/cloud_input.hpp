@@ -35,6 +35,7 @@ struct CloudInputOptions {
   /// (DropPolicy::every). Not set for live topics: the setup follows what is received, and the
   /// newest cloud is given (DropPolicy::newest).
   std::optional<CameraMount> known = {};
+  std::string known_frame = {};  ///< of these clouds, without "/"
 
   /// Returns whether the clouds' own frame need not be their sensor's.
   [[nodiscard]] bool is_in_other_frame() const { return !has_rays || !sensor_frame.empty(); }

@@ -276,7 +276,8 @@ MessageHandler FrameAssembler::handler_of_targets_as(std::size_t topic) {
     };
     const auto lacks_setup = [](const SensorInput* sensor) { return sensor->setup() == nullptr; };
     const bool is_known = std::ranges::any_of(sensors, knows);
-    const bool is_early = std::ranges::any_of(sensors, lacks_setup);
+    const bool is_early =
+        std::ranges::any_of(std::span(sensors_).first(cameras_.size()), lacks_setup);
     for (SensorInput* const sensor : sensors)
       if (is_known ? knows(sensor) : !is_early || lacks_setup(sensor))
         sensor->take_targets(topics_[topic].name, found);

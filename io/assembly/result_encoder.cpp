@@ -48,7 +48,8 @@ void CloudEncoder::encode(const FrameReport& report, const Frame& frame,
       sink.write(result, stamp, payload_);
     }
   };
-  std::visit(write, cloud.message);
+  const bool is_read = frame.scan->points.count > 0 || frame.source_message.empty();
+  if (is_read) std::visit(write, cloud.message);
   if (frame.targets.empty() || !sink.wants(Result::targets)) return;
   io::encode(targets_message(report, cloud.frame_id, root_), payload_);
   sink.write(Result::targets, stamp, payload_);

@@ -56,7 +56,8 @@ class ResultSink {
   ResultSink& operator=(const ResultSink&) = delete;
   virtual ~ResultSink() = default;
 
-  /// Tells the message type of a sensor's clouds, before it asks wants() for the first one.
+  /// Tells the message type of a sensor's clouds, before wants() is asked for the first one of a
+  /// setup.
   virtual void set_cloud_type(const std::string& /*type*/) {}
   /// Returns whether to make this result.
   [[nodiscard]] virtual bool wants(Result result) const = 0;
@@ -70,8 +71,8 @@ class CloudEncoder {
   /// `root`: the robot's root link.
   CloudEncoder(CloudOutput how, std::string root) : how_(how), root_(std::move(root)) {}
 
-  /// Encodes and writes the results of a scan. `cloud`: its message, whose Frame part may have been
-  /// moved away.
+  /// Encodes and writes the results of a scan; of a cloud that was not read, its targets. `cloud`:
+  /// its message, whose Frame part may have been moved away.
   void encode(const FrameReport& report, const Frame& frame, const AssembledFrame& cloud,
               ResultSink& sink);
 

@@ -98,7 +98,7 @@ bool SensorInput::next(std::int64_t now, bool with_color, AssembledFrame& next) 
   without_info_ = 0;
   next = std::move(static_cast<AssembledFrame&>(*found));
   next.setup = setup_;
-  next.targets = setup_->targets.take(next.stamp.value_or(0));
+  if (next.stamp) next.targets = setup_->targets.take(*next.stamp);
   complete(next);
   ++counts_.in_work;
   return true;

@@ -81,18 +81,17 @@ class SensorInput {
   std::shared_ptr<SensorSetup> make_setup(const Options& options, JudgedSensor sensor,
                                           double companion_wait) {
     awaits_targets_ = is_lossless() && options.has_targets;
-    if (awaits_targets_) companion_wait = topic_target_history;
-    return make_setup(std::move(sensor),
-                      {.policy = is_lossless() ? DropPolicy::every : DropPolicy::newest,
-                       .time_offset = options.time_offset,
-                       .max_wait = options.max_wait,
-                       .companion_wait = companion_wait,
-                       .max_frames = options.max_frames,
-                       .poses = {.source = options.poses,
-                                 .frame_prefix = options.mount.frame_prefix,
-                                 .camera_parent = sensor.mount.parent,
-                                 .camera_frame = sensor.mount.frame}},
-                      options.hidden_targets);
+    const FrameQueueOptions queue{
+        .policy = is_lossless() ? DropPolicy::every : DropPolicy::newest,
+        .time_offset = options.time_offset,
+        .max_wait = options.max_wait,
+        .companion_wait = awaits_targets_ ? topic_target_history : companion_wait,
+        .max_frames = options.max_frames,
+        .poses = {.source = options.poses,
+                  .frame_prefix = options.mount.frame_prefix,
+                  .camera_parent = sensor.mount.parent,
+                  .camera_frame = sensor.mount.frame}};
+    return make_setup(std::move(sensor), queue, options.hidden_targets);
   }
   /// Counts a message, and returns its frame.
   std::shared_ptr<AssembledFrame> begin(std::int64_t now);
@@ -103,10 +102,10 @@ class SensorInput {
 
   const RobotInput& robot_;
   std::shared_ptr<SensorSetup> setup_;
-  std::string frame_;                // of the last message, TF
-  std::uint64_t camera_infos_ = 0;   // that changed the camera
-  std::size_t without_info_ = 0;     // consecutive images without camera_info
-  bool with_color_ = false;          // of the last call of next()
+  std::string frame_;               // of the last message, TF
+  std::uint64_t camera_infos_ = 0;  // that changed the camera
+  std::size_t without_info_ = 0;    // consecutive images without camera_info
+  bool with_color_ = false;         // of the last call of next()
   bool awaits_targets_ = false;
   ImageCounts counts_;
 

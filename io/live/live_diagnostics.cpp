@@ -54,11 +54,11 @@ void add_counts(Status& status, const ImageCounts& counts) {
 
 void add_targets(Status& status, const UnjudgedTargets& targets) {
   if (targets.early > 0)
-    add_count(status, "target messages before robot and camera were known", targets.early);
+    add_count(status, "target messages before robot and sensor were known", targets.early);
   if (targets.replaced > 0)
     add_count(status, "targets not judged: newer ones came first", targets.replaced);
   if (targets.discarded > 0)
-    add_count(status, "targets not judged: no image came in time", targets.discarded);
+    add_count(status, "targets not judged: no frame came in time", targets.discarded);
 }
 
 void add_tally(Status& status, const LiveTally& tally) {

@@ -100,7 +100,7 @@ std::string stamps_differ(const RobotInput& robot, std::int64_t stamp, std::int6
   if (stamp_distance(*newest, stamp) <= std::uint64_t{least_clock_jump}) return {};
   return std::string("; the stamps of joint states are ") +
          seconds(stamp_distance(*newest, stamp)) + (*newest > stamp ? " later" : " earlier") +
-         " than those of the images: a clock was set back, or stamps are frozen";
+         " than those of the sensor: a clock was set back, or stamps are frozen";
 }
 
 /// Returns what is wrong with the stamps of a sensor's messages that are dropped, or nothing.

@@ -25,10 +25,10 @@ namespace penumbra::io {
 /// Judges the messages of the graph. One thread serves each sensor, one does what takes a second
 /// (makes robots, diagnoses setups), and one receives.
 ///
-/// One mutex guards the inbox: robot, poses, waiting images and counts. It is held while a message
-/// is received and while a job is picked, and never while a job is processed or meshes are read. So
-/// no thread waits for rendering, files or the network. Only a
-/// sensor's own thread writes to its sink, without the mutex.
+/// One mutex guards the inbox: robot, poses, waiting frames and counts. It is held while a message
+/// is received, while a job is picked and while a pose during a scan is looked up, and never while
+/// a job is rendered or meshes are read. So no thread waits for rendering, files or the network.
+/// Only a sensor's own thread writes to its sink, without the mutex.
 class LiveRunner {
  public:
   using RobotMaker = std::function<MadeRobot(const RobotLoadRequest&)>;

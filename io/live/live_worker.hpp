@@ -24,7 +24,7 @@ struct LiveWorkerOptions {
   std::mutex* poses = nullptr;  ///< guards the robot's poses; null: nobody changes them
 };
 
-/// Judges the frames of one sensor. Use one thread at a time; no lock is needed meanwhile.
+/// Judges the frames of one sensor. Use one thread at a time, without the lock of the poses.
 class LiveWorker {
  public:
   explicit LiveWorker(LiveWorkerOptions options) : options_(std::move(options)) {}

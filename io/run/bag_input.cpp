@@ -169,6 +169,7 @@ std::vector<RunInput> open_bag_clouds(const InputOptions& options, const CloudIn
     source.cloud = clouds;
     source.cloud->topic = use.name;
     source.cloud->known = mount;
+    source.cloud->known_frame = frame_name(frame);
     const double history = reader.topics().targets.empty() ? 0.0 : topic_target_history;
     inputs.push_back(
         {.robot_options = robot_options,

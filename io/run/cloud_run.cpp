@@ -197,7 +197,6 @@ class CloudTopics final : public RunOutput, private ResultSink {
 
   void begin(const ReportHead& head) override { encoder_.emplace(how_, head.links.front()); }
   void save(const FrameReport& report, const Frame& frame, const ShownTargets&) override {
-    if (frame.scan->points.count == 0 && !frame.source_message.empty()) return;  // not read
     encoder_->encode(report, frame, *source_.assembled(), *this);
   }
   void finish(const Statistics&, std::span<const std::string>) override {}

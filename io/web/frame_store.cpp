@@ -40,9 +40,9 @@ std::string marks_json(std::span<const TargetMark> marks) {
 FrameStore::FrameStore(const Rectification* rectification) : rectification_(rectification) {}
 
 void FrameStore::begin(const ReportHead& head) {
+  const std::lock_guard lock(mutex_);
   missing_links_.assign(head.missing_links.begin(), head.missing_links.end());
   notes_.assign(head.notes.begin(), head.notes.end());
-  const std::lock_guard lock(mutex_);
   text_ = report_start(head);
   head_size_ = text_.size();
 }
@@ -157,9 +157,9 @@ std::optional<PacketFrame> FrameStore::frame(std::size_t i) const {
 
 std::vector<std::string> FrameStore::missing() const {
   std::vector<std::string> lines;
+  const std::lock_guard lock(mutex_);
   for (const std::string& link : missing_links_)
     lines.push_back("link " + link + " is drawn without its geometry, which could not be read");
-  const std::lock_guard lock(mutex_);
   if (without_color_ > 0)
     lines.push_back("no colour in " + std::to_string(without_color_) +
                     " frames, first: " + first_without_color_);

@@ -32,7 +32,7 @@ struct Frame {
   PoseAt pose_at = {};
   std::vector<Target> targets = {};
   /// The motion that the robot follows, or waits to follow; null: none is known. Session tells what
-  /// it will hide.
+  /// it will hide from a camera.
   std::shared_ptr<const Trajectory> plan = {};
   SharedColor color = {};          ///< for pictures; empty: none
   std::string color_message = {};  ///< why a recorded colour image is not usable; empty if it is

@@ -50,7 +50,8 @@ void FrameQueue::push(std::shared_ptr<Frame> frame, std::int64_t now) {
   follow(now);
   const std::int64_t stamp = end_of(*frame);
   if (stamp <= 0) return on_drop_(std::move(frame), DropReason::no_stamp);
-  if (newest_ && history_.note_stamp(stamp, *newest_, "depth images")) follow(now);
+  if (newest_ && history_.note_stamp(stamp, *newest_, frame->scan ? "clouds" : "depth images"))
+    follow(now);
   newest_ = std::max(newest_.value_or(stamp), stamp);
   if (!first_) first_ = pose_stamp(stamp);
   const bool every = options_.policy == DropPolicy::every;
@@ -96,7 +97,14 @@ std::shared_ptr<Frame> FrameQueue::next(std::int64_t now) {
     on_drop_(std::move(before->frame), DropReason::superseded);
   std::shared_ptr<Frame> frame = std::move(found->frame);
   given_out_ = std::max(given_out_.value_or(found->stamp), found->stamp);
+  const bool is_sweep = found->stamp != *frame->stamp;
   waiting_.erase(waiting_.begin(), found + 1);
+  if (is_sweep && has_pose(frame->pose.status)) {  // so far that of the last point
+    frame->pose_at = [this](std::int64_t stamp, RobotPose& pose) {
+      lookup_.at(history_, pose_stamp(stamp), pose);
+    };
+    frame->pose_at(*frame->stamp, frame->pose);
+  }
   return frame;
 }
 

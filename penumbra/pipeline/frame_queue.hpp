@@ -56,8 +56,9 @@ enum class Companions {
   missing  ///< the image is dropped (no_camera_info)
 };
 
-/// Holds depth images and scans until the joint states or transforms around their stamps, of scans
-/// around the stamp of the last point, have arrived. Its pose is then Frame::pose. Never
+/// Holds depth images and scans until the joint states or transforms around their stamps, and
+/// around the stamp of a scan's last point, have arrived. A scan comes with Frame::pose_at, which
+/// reads the history, and is valid as long as the queue. Never
 /// extrapolates: a frame is returned with its pose, or after max_wait with the status. Links that
 /// are uncertain are awaited as well, unless their last state is older than the image by more than
 /// max_wait.

@@ -141,15 +141,14 @@ bool ScanLabeller::place_parts(const Frame& frame, PoseStage& poses) {
   parts_ = 1;
   const bool is_at_once = scan.times.empty() || !scan.origin;
   const std::int64_t first = is_at_once ? 0 : std::ranges::min(scan.times);
-  const bool is_placed = place_at(first);
+  if (!place_at(first)) return false;
   if (frame.source_status != FrameStatus::ok) return refuse(begin_.status, begin_.message);
-  if (!frame.scan) return refuse(worse(FrameStatus::missing_depth, begin_.status), "no scan");
+  if (!frame.scan) return refuse(FrameStatus::missing_depth, "the frame has no scan");
   if (!scan.times.empty() && scan.times.size() != scan.points.count)
     return refuse(FrameStatus::bad_depth, std::to_string(scan.times.size()) + " times for " +
                                               std::to_string(scan.points.count) + " points");
   if (std::string fault = fault_of(scan); !fault.empty())
     return refuse(FrameStatus::bad_depth, std::move(fault));
-  if (!is_placed) return false;
   const std::int64_t length = is_at_once ? 0 : std::int64_t{std::ranges::max(scan.times)} - first;
   if (length == 0) return true;
   constexpr std::int64_t instants = 8;  // of the motion
@@ -158,10 +157,10 @@ bool ScanLabeller::place_parts(const Frame& frame, PoseStage& poses) {
   const auto count =
       static_cast<std::int64_t>(std::clamp(std::ceil(instants * movement() / part_movement), 1.0,
                                            static_cast<double>(CloudConfig::max_parts)));
-  parts_ = static_cast<std::size_t>(count);
   const auto tried = static_cast<std::ptrdiff_t>(T_sensor_body_.size());
   for (std::int64_t part = 0; part < count; ++part)
     if (!place_at(first + (2 * part + 1) * length / (2 * count))) return false;
+  parts_ = static_cast<std::size_t>(count);
   T_sensor_body_.erase(T_sensor_body_.begin(), T_sensor_body_.begin() + tried);
   for (const std::int32_t time : scan.times)
     part_of_.push_back(
@@ -296,6 +295,7 @@ LabelledFrame ScanLabeller::label(const Frame& frame, PoseStage& poses) {
                      : labeller_->label(scan.points, T_sensor_body_));
   }
   begin_.stamp = frame.stamp;
+  if (!has_pose(now_.status)) begin_.status = now_.status;  // unknown in a part is unknown
   link_count_ = poses.links().size();
   LabelledFrame out = frame_of(now_, begin_);
   out.classify_ms = classify_ms;

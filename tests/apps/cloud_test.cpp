@@ -112,7 +112,7 @@ TEST_F(CloudBag, WithoutPosesTrustsNothing) {
     return message.topic == "/joint_states" && message.log_time > tiny_stamp(1) - 300 * one_ms;
   });
   expect_has(succeed(cloud({"--topic", "/points"})).err,
-             {"stale_joints in 2 of 3 frames", "slide"});
+             {"/points: stale_joints in 2 of 3 frames", "slide"});
   std::vector<std::size_t> sizes;
   for_each<io::PointCloud2Message>("/penumbra/points",
                                    [&](const auto& message) { sizes.push_back(message.width); });
@@ -208,6 +208,20 @@ TEST_F(CloudFolder, HandlingNeedsStamps) {
              "frame,stamp,slide\n0,1000000000,0\n1,2000000000,0.05\n2,3000000000,0.1\n");
   expect_lacks(succeed(cloud()).err, {"handling"});
   EXPECT_FALSE(report()["frames"][0]["targets"][0]["handled"].is_null());
+}
+
+TEST_F(CloudFolder, WarningsAreThoseOfImages) {
+  write_file(path("joint_states.csv"),
+             "frame,stamp,slide\n0,3000000000,0\n1,2000000000,5\n2,4000000000,0\n");
+  expect_has(succeed(cloud()).err, {"joint 'slide' beyond its limits in 1 frame",
+                                    "stamp not after the frame's before, first in frame 1"});
+}
+
+TEST_F(CloudFolder, MergedCloudsHaveNoRays) {
+  succeed(cloud({"--label"}));
+  EXPECT_EQ(report()["frames"][0]["points"]["front"], 1);
+  succeed(cloud({"--label", "--merged"}));
+  EXPECT_EQ(report()["frames"][0]["points"]["front"], 0);
 }
 
 TEST_F(CloudFolder, CloudsOfOthersStay) {

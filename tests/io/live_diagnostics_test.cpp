@@ -155,7 +155,7 @@ TEST_F(LiveDiagnosticsTest, SaysThatAClockWasSetBack) {
     bench_.now += 250 * milliseconds;
     bench_.work();
   }
-  expect_camera(Status::error, "20.0 s later than those of the images: a clock was set back");
+  expect_camera(Status::error, "20.0 s later than those of the sensor: a clock was set back");
   bench_.tell_joints(bench_.now - 60 * seconds);
   expect_robot(Status::warn, "the clock jumped back by");
   expect_robot(Status::ok, "tiny");

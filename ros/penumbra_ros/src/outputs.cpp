@@ -131,7 +131,8 @@ void Outputs::publish_detections(const penumbra::io::AssembledFrame& job,
 
 void CloudOutputs::set_cloud_type(const std::string& type) {
   const auto publish = [&](Result result, const std::string& topic, const std::string& of) {
-    publishers_[result] = node_.create_generic_publisher(topic, of, rclcpp::QoS(points_depth));
+    if (!publishers_[result])
+      publishers_[result] = node_.create_generic_publisher(topic, of, rclcpp::QoS(points_depth));
   };
   publish(Result::without_robot, topic_, type);
   if (type == penumbra::io::message_type<penumbra::io::PointCloud2Message>())
