@@ -6,21 +6,8 @@
 
 namespace penumbra::python {
 
-PipelineState::PipelineState(const Robot& robot, const Camera& given,
-                             const PipelineConfig& settings)
-    : session(robot, given, settings),
-      depth_size(given.intrinsics),
-      cloud_maker(session.pipeline().report_camera()),
-      camera(session.pipeline().report_camera()) {}
-
-std::vector<std::string> PipelineState::notes() const {
-  const auto of_robot = session.pipeline().robot().notes();
-  std::vector<std::string> notes(of_robot.begin(), of_robot.end());
-  for (auto& line : session.warnings()) notes.push_back(line);
-  return notes;
-}
-
-Report::Report(std::shared_ptr<PipelineState> state, const FrameReport& report, py::object depth)
+Report::Report(std::shared_ptr<SessionState> state, const FrameReport& report,
+               std::shared_ptr<const void> depth)
     : state_(std::move(state)),
       call_(state_->calls),
       report_(report),
@@ -49,7 +36,7 @@ FrameReport Report::with_names() const {
 void Report::check_is_last() const {
   if (state_->calls != call_)
     throw py::value_error(
-        "FrameReport: the pipeline has judged another frame since: read the "
+        "FrameReport: the session has judged another frame since: read the "
         "images of frame " +
         std::to_string(report_.index) + " before the next call");
 }
@@ -115,16 +102,8 @@ struct CloudArrays {
 
 /// Of each point's pixel in a colour image of the labels' size.
 py::array colors_of(const py::object& color, const py::array& pixels, const FrameReport& report) {
-  const auto image = py::reinterpret_borrow<py::array>(color);
-  const bool fits = py::isinstance<py::array>(color) && image.ndim() == 3 &&
-                    is_native(image.dtype(), py::detail::npy_api::NPY_UBYTE_) &&
-                    image.shape(0) == report.labels.height &&
-                    image.shape(1) == report.labels.width && image.shape(2) == 3;
-  if (!fits)
-    throw py::value_error("color: expected numpy.ndarray of uint8 with shape (" +
-                          std::to_string(report.labels.height) + ", " +
-                          std::to_string(report.labels.width) + ", 3); got " +
-                          description_of(color));
+  const ImageView<const Rgb8> image = color_of(color, "color").view;
+  check_size("color", image.width, image.height, report.labels.width, report.labels.height);
   return color.attr("reshape")(-1, 3).attr("__getitem__")(pixels);
 }
 
@@ -205,7 +184,7 @@ void bind_report_properties(py::class_<Report>& report) {
       Field{"labels", &R::labels,
             "Label values, (H, W); all unknown if the robot's pose is not known. A read-only copy, "
             "made when it is first read. Raises ValueError if it was not read before the "
-            "pipeline's next call."},
+            "session's next call."},
       Field{"virtual_depth", &R::virtual_depth,
             "Metres along the optical axis, 0 where no robot is; None: the robot's pose is not "
             "known. As labels."},
@@ -224,8 +203,8 @@ void bind_report_properties(py::class_<Report>& report) {
 void bind_report(py::module_& m) {
   bind_report_parts(m);
   py::class_<Report> report(m, "FrameReport",
-                            "The pipeline's results for one frame. Read its images before the "
-                            "pipeline's next call; everything else stays.");
+                            "The results for one frame. Read its images before the "
+                            "session's next call; everything else stays.");
   bind_report_properties(report);
   bind_without_robot(m, report);
 }
