@@ -8,28 +8,27 @@ namespace penumbra::python {
 
 Report::Report(std::shared_ptr<SessionState> state, const FrameReport& report,
                std::shared_ptr<const void> depth)
-    : state_(std::move(state)),
+    : numbers(report),
+      targets(report.targets.begin(), report.targets.end()),
+      T_root_link(report.T_root_link.begin(), report.T_root_link.end()),
+      links(report.links.begin(), report.links.end()),
+      missing_links(report.missing_links.begin(), report.missing_links.end()),
+      state_(std::move(state)),
       call_(state_->calls),
-      report_(report),
-      depth_(std::move(depth)),
-      targets_(report.targets.begin(), report.targets.end()),
-      T_root_link_(report.T_root_link.begin(), report.T_root_link.end()),
-      links_(report.links.begin(), report.links.end()),
-      missing_links_(report.missing_links.begin(), report.missing_links.end()) {
-  for (const std::size_t link : report.near_links) near_links_.push_back(report.links[link]);
-  for (const std::size_t body : report.attached) attached_.push_back(report.links[body]);
-  report_.T_root_link = {};
-  report_.near_links = {};
-  report_.targets = {};
-  report_.links = report_.missing_links = {};
-  report_.attached = {};
+      depth_(std::move(depth)) {
+  for (const std::size_t link : report.near_links) near_links.push_back(links[link]);
+  for (const std::size_t body : report.attached) attached.push_back(links[body]);
+  numbers.T_root_link = {};
+  numbers.near_links = numbers.attached = {};
+  numbers.targets = {};
+  numbers.links = numbers.missing_links = {};
 }
 
 FrameReport Report::with_names() const {
-  FrameReport report = report_;
-  report.T_root_link = T_root_link_;
-  report.links = links_;
-  report.missing_links = missing_links_;
+  FrameReport report = numbers;
+  report.T_root_link = T_root_link;
+  report.links = links;
+  report.missing_links = missing_links;
   return report;
 }
 
@@ -38,15 +37,15 @@ void Report::check_is_last() const {
     throw py::value_error(
         "FrameReport: the session has judged another frame since: read the "
         "images of frame " +
-        std::to_string(report_.index) + " before the next call");
+        std::to_string(numbers.index) + " before the next call");
 }
 
-ImageResult<std::uint8_t> Report::labels() const { return *read(labels_, report_.labels); }
+ImageResult<std::uint8_t> Report::labels() const { return *read(labels_, numbers.labels); }
 std::optional<ImageResult<float>> Report::virtual_depth() const {
-  return read(virtual_depth_, report_.virtual_depth.depth);
+  return read(virtual_depth_, numbers.virtual_depth.depth);
 }
 std::optional<ImageResult<std::uint16_t>> Report::link_image() const {
-  return read(link_image_, report_.virtual_depth.links);
+  return read(link_image_, numbers.virtual_depth.links);
 }
 
 BoolImage Report::robot_mask() const {
@@ -119,7 +118,7 @@ CloudArrays points_of(const Report& report, const std::optional<std::string>& fr
                             keeper_of(cloud));
   arrays.colors = color.is_none()
                       ? py::array(py::dtype::of<std::uint8_t>(), std::vector<py::ssize_t>{0, 3})
-                      : colors_of(color, arrays.pixels, report.numbers());
+                      : colors_of(color, arrays.pixels, report.numbers);
   return arrays;
 }
 
@@ -154,7 +153,7 @@ void bind_without_robot(py::module_& m, py::class_<Report>& report) {
 void bind_report_properties(py::class_<Report>& report) {
   using F = FrameReport;
   using R = Report;
-  const auto of = [](auto member) { return [member](const R& r) { return r.numbers().*member; }; };
+  const auto of = [](auto member) { return [member](const R& r) { return r.numbers.*member; }; };
   show_properties(
       report, Field{"index", of(&F::index), "In its source."},
       Field{"stamp", of(&F::stamp), "Nanoseconds."},
@@ -169,7 +168,7 @@ void bind_report_properties(py::class_<Report>& report) {
             "The optical frame in the root link's frame, metres; None: not known."},
       Field{"T_root_link",
             [](const R& r) {
-              return r.T_root_link().empty() ? std::nullopt : std::optional(r.T_root_link());
+              return r.T_root_link.empty() ? std::nullopt : std::optional(r.T_root_link);
             },
             "Poses of the links, metres; None: not known."},
       Field{"near_links", &R::near_links,

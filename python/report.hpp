@@ -38,14 +38,10 @@ class Report {
   Report(std::shared_ptr<SessionState> state, const FrameReport& report,
          std::shared_ptr<const void> depth);
 
-  [[nodiscard]] const FrameReport& numbers() const { return report_; }
-  [[nodiscard]] const std::vector<TargetReport>& targets() const { return targets_; }
-  [[nodiscard]] const Poses& T_root_link() const { return T_root_link_; }
-  [[nodiscard]] const std::vector<std::string>& near_links() const { return near_links_; }
-  [[nodiscard]] const std::vector<std::string>& links() const { return links_; }
-  [[nodiscard]] const std::vector<std::string>& attached() const { return attached_; }
-  [[nodiscard]] const std::vector<std::string>& missing_links() const { return missing_links_; }
-  [[nodiscard]] const SessionState& state() const { return *state_; }
+  FrameReport numbers;  ///< without spans of poses, names and targets
+  std::vector<TargetReport> targets;
+  Poses T_root_link;
+  std::vector<std::string> links, missing_links, attached, near_links;
 
   /// Images. All throw ValueError once the pipeline has judged another frame, if they were not
   /// read before.
@@ -70,11 +66,7 @@ class Report {
 
   std::shared_ptr<SessionState> state_;
   std::uint64_t call_;
-  FrameReport report_;  // without spans of poses, names and targets
   std::shared_ptr<const void> depth_;
-  std::vector<TargetReport> targets_;
-  Poses T_root_link_;
-  std::vector<std::string> links_, missing_links_, attached_, near_links_;
   ReadImage<std::uint8_t> labels_;
   ReadImage<float> virtual_depth_;
   ReadImage<std::uint16_t> link_image_;

@@ -34,13 +34,13 @@ std::shared_ptr<State> make_session(const Robot& robot, const Camera& camera,
 
 Report process(const std::shared_ptr<State>& self, const Frame& frame) {
   const OneThread::Use use(self->thread, "Session.process");
-  if (!is_empty(frame.depth.view))
-    std::visit(
-        [&](const auto& depth) {
-          check_size("depth", depth.width, depth.height, self->depth_size.width(),
-                     self->depth_size.height());
-        },
-        frame.depth.view);
+  const Intrinsics& size = self->depth_size;
+  std::visit(
+      [&](const auto& depth) {
+        if (!depth.empty())
+          check_size("depth", depth.width, depth.height, size.width(), size.height());
+      },
+      frame.depth.view);
   check_positions(frame.pose, self->session.pipeline().robot());
   ++self->calls;
   const FrameReport* report = nullptr;
@@ -89,8 +89,8 @@ void bind_session(py::module_& m) {
            "pose that is not rigid, and what the parts refuse.")
       .def("process", &process, py::arg("frame"),
            "Judges one frame. Whatever is wrong with it is the report's status. Raises ValueError "
-           "for a depth image of another size than the camera's, KeyError for joint names that are "
-           "not the robot's, DeviceError if a graphics device fails.")
+           "for a depth image of another size than the camera's and for another number of joint "
+           "positions than the robot has, DeviceError if a graphics device fails.")
       .def("attach_target", &attach_target, py::arg("target"), py::arg("link"),
            "Returns a target of the last frame as the AttachedBody that `link` carries from that "
            "frame on: a BoxTarget, MeshTarget or PointTarget (its ball). Call it when the gripper "
