@@ -104,6 +104,20 @@ ColorResult array_of(ImageView<const Rgb8> view, std::shared_ptr<const void> own
       keeper_of(std::move(owner))))};
 }
 
+SharedColor color_of(py::handle source, const char* argument) {
+  const bool is_array = py::isinstance<py::array>(source) && !is_masked(source);
+  const auto given = is_array ? py::reinterpret_borrow<py::array>(source) : py::array();
+  if (given.ndim() != 3 || given.shape(2) != 3 || given.size() == 0 ||
+      !is_native(given.dtype(), pixel_type<std::uint8_t>.number))
+    throw py::type_error(std::string(argument) +
+                         ": expected numpy.ndarray of uint8 with shape (H, W, 3); got " +
+                         description_of(source));
+  const auto array = py::array::ensure(given, py::array::c_style);
+  const int width = static_cast<int>(array.shape(1)), height = static_cast<int>(array.shape(0));
+  const ImageView<const Rgb8> view{static_cast<const Rgb8*>(array.data()), width, height, width};
+  return {view, owner_of(array)};
+}
+
 OneThread::Use::Use(OneThread& object, const char* what) : lock_(object.mutex_, std::try_to_lock) {
   if (!lock_)
     throw py::value_error(std::string(what) +

@@ -90,6 +90,10 @@ template <typename T>
 }
 [[nodiscard]] ColorResult array_of(ImageView<const Rgb8> view, std::shared_ptr<const void> owner);
 
+/// Returns an image that keeps the array, or a copy if its pixels have gaps. Throws TypeError,
+/// which names the argument, for what is no array of uint8 with shape (H, W, 3).
+[[nodiscard]] SharedColor color_of(py::handle source, const char* argument);
+
 /// An image that the next call of its maker overwrites: copied when it is first read, then kept.
 template <typename T>
 class ReadImage {
@@ -201,6 +205,45 @@ struct type_caster<penumbra::python::ImageArgument<Argument, T...>>
   static handle cast(const penumbra::python::ImageArgument<Argument, T...>& image,
                      return_value_policy /*policy*/, handle /*parent*/) {
     return image.array.inc_ref();
+  }
+};
+
+// Images of a frame. None: empty. They keep what has their pixels.
+template <>
+struct type_caster<penumbra::SharedDepth> : penumbra::python::ValueCaster<penumbra::SharedDepth> {
+  using Argument = make_caster<penumbra::python::DepthArgument<"depth">>;
+  static constexpr auto name = const_name("Optional[") + Argument::name + const_name("]");
+
+  bool load(handle source, bool convert) {
+    if (source.is_none()) return true;
+    Argument given;
+    given.load(source, convert);
+    value = {given.value.view, penumbra::python::owner_of(given.value.array)};
+    return true;
+  }
+  static handle cast(const penumbra::SharedDepth& depth, return_value_policy /*policy*/,
+                     handle /*parent*/) {
+    if (is_empty(depth.view)) return none().release();
+    return std::visit(
+        [&](const auto& view) {
+          return penumbra::python::array_of(view, depth.owner).array.release();
+        },
+        depth.view);
+  }
+};
+template <>
+struct type_caster<penumbra::SharedColor> : penumbra::python::ValueCaster<penumbra::SharedColor> {
+  static constexpr auto name =
+      const_name("Optional[") + make_caster<penumbra::python::ColorResult>::name + const_name("]");
+
+  bool load(handle source, bool /*convert*/) {
+    if (!source.is_none()) value = penumbra::python::color_of(source, "color");
+    return true;
+  }
+  static handle cast(const penumbra::SharedColor& color, return_value_policy /*policy*/,
+                     handle /*parent*/) {
+    if (color.view.empty()) return none().release();
+    return penumbra::python::array_of(color.view, color.owner).release();
   }
 };
 

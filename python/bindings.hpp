@@ -38,12 +38,14 @@ void bind_trackers(py::module_& m);
 void bind_regions(py::module_& m);
 void bind_targets(py::module_& m);
 void bind_judgement(py::module_& m);
+void bind_robot_pose(py::module_& m);
+void bind_trajectory(py::module_& m);
 void bind_frame(py::module_& m);
 void bind_report(py::module_& m);
-void bind_pipeline(py::module_& m);
+void bind_session(py::module_& m);
 void bind_target_fusion(py::module_& m);
 void bind_look_ahead(py::module_& m);
-void bind_recording(py::module_& m);
+void bind_targets_file(py::module_& m);
 void bind_input(py::module_& m);
 void bind_calibration(py::module_& m);
 

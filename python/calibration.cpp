@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 #include <python/frame.hpp>
@@ -10,49 +8,43 @@
 #include <penumbra/calibration/watch.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
 
+#include <io/files/image_size.hpp>
+
 namespace penumbra::python {
 
 namespace {
 
 using MaskArgument = ImageArgument<"masks", std::uint8_t>;
 
-Image<std::uint8_t> copied(const ImageView<const std::uint8_t>& view) {
-  Image<std::uint8_t> image(view.width, view.height);
-  for (int v = 0; v < view.height; ++v) std::copy_n(view.row(v), view.width, &image(0, v));
-  return image;
-}
-
 /// A frame's joints and poses. `name`: as errors call it.
-CalibrationFrame posed_frame(const OwnedFrame& owned, const std::string& name, const Robot& robot) {
-  RobotPose pose = owned.view(robot).pose;
+CalibrationFrame posed_frame(const Frame& frame, const std::string& name, const Robot& robot) {
+  const RobotPose& pose = frame.pose;
   CalibrationFrame result;
-  result.T_root_link = std::move(pose.T_root_link);
+  result.T_root_link = pose.T_root_link;
   if (!result.T_root_link.empty()) return result;
-  if (pose.positions.size() != robot.variables().size())
+  if (pose.status != FrameStatus::ok || pose.positions.size() != robot.variables().size())
     throw py::value_error(name + ": needs " + std::to_string(robot.variables().size()) +
                           " joint positions");
-  result.joints = std::move(pose.positions);
+  result.joints = pose.positions;
   result.T_root_link.resize(robot.links().size());
   robot.forward_kinematics(result.joints, result.T_root_link);
   return result;
 }
 
-CalibrationFrame calibration_frame(const OwnedFrame& owned, std::size_t number,
-                                   const Robot& robot) {
-  const std::string name = "frames[" + std::to_string(number) + "]";
-  CalibrationFrame result = posed_frame(owned, name, robot);
-  result.index = owned.index.value_or(number);
-  if (owned.depth) result.depth = metres_of(owned.depth->view);
+CalibrationFrame calibration_frame(const Frame& frame, std::size_t number, const Robot& robot) {
+  CalibrationFrame result = posed_frame(frame, "frames[" + std::to_string(number) + "]", robot);
+  result.index = frame.index.value_or(number);
+  if (!is_empty(frame.depth.view)) result.depth = metres_of(frame.depth.view);
   return result;
 }
 
 /// `name`: as errors call the frame.
-std::int64_t stamp_of(const OwnedFrame& frame, const std::string& name) {
+std::int64_t stamp_of(const Frame& frame, const std::string& name) {
   if (!frame.stamp) throw py::value_error(name + ": needs a stamp for the time offset");
   return *frame.stamp;
 }
 
-StampedPoses trajectory_of(const std::vector<OwnedFrame>& motion, const Robot& robot) {
+StampedPoses trajectory_of(const std::vector<Frame>& motion, const Robot& robot) {
   StampedPoses trajectory;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const std::string name = "motion[" + std::to_string(i) + "]";
@@ -62,11 +54,11 @@ StampedPoses trajectory_of(const std::vector<OwnedFrame>& motion, const Robot& r
   return trajectory;
 }
 
-Calibration calibrate_frames(const std::vector<OwnedFrame>& frames, const Intrinsics& camera,
+Calibration calibrate_frames(const std::vector<Frame>& frames, const Intrinsics& camera,
                              const Robot& robot, const std::optional<Eigen::Isometry3d>& initial,
                              const std::string& camera_parent,
                              const std::vector<MaskArgument>& masks, bool focal, bool joint_offsets,
-                             const std::vector<OwnedFrame>& motion, std::uint64_t seed) {
+                             const std::vector<Frame>& motion, std::uint64_t seed) {
   if (!masks.empty() && masks.size() != frames.size())
     throw py::value_error("masks: expected one for each of " + std::to_string(frames.size()) +
                           " frames; got " + std::to_string(masks.size()));
@@ -77,7 +69,7 @@ Calibration calibrate_frames(const std::vector<OwnedFrame>& frames, const Intrin
     if (!motion.empty())
       all.back().nearby =
           nearby_poses(trajectory, stamp_of(frames[i], "frames[" + std::to_string(i) + "]"));
-    if (!masks.empty()) all.back().mask = copied(std::get<0>(masks[i].view));
+    if (!masks.empty()) all.back().mask = io::copy_of(std::get<0>(masks[i].view));
   }
   const py::gil_scoped_release others;
   return calibrate(all, camera, robot,
@@ -192,7 +184,7 @@ void bind_calibration(py::module_& m) {
       "calibrate", &calibrate_frames, py::arg("frames"), py::arg("camera"), py::arg("robot"),
       py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
       py::arg("masks") = std::vector<MaskArgument>(), py::arg("focal") = false,
-      py::arg("joint_offsets") = false, py::arg("motion") = std::vector<OwnedFrame>(),
+      py::arg("joint_offsets") = false, py::arg("motion") = std::vector<Frame>(),
       py::arg("seed") = 1,
       "Estimates a camera's pose from the robot that it sees. frames: three or more, with joints "
       "(or T_root_link) and with depth or masks, between which the robot moves. camera: of images "

@@ -115,6 +115,22 @@ void bind_camera_class(py::module_& m) {
               Field{"frame_id", &Camera::frame_id, "The optical frame; may be empty."});
 }
 
+using PngSource = Shown<"Annotated[Union[NDArray[uint8], NDArray[uint16]], '(H, W) or (H, W, 3)']">;
+
+void write_png(const std::filesystem::path& file, const PngSource& image) {
+  if (py::isinstance<py::array>(image) && py::reinterpret_borrow<py::array>(image).ndim() == 3) {
+    const SharedColor color = color_of(image, "image");
+    const py::gil_scoped_release others;
+    return io::write_png(file, color.view);
+  }
+  static constexpr PixelType types[] = {pixel_type<std::uint8_t>, pixel_type<std::uint16_t>};
+  const bool is_wide = check_image(image, "image", types) == 1;
+  const auto array = py::reinterpret_borrow<py::array>(image);
+  const py::gil_scoped_release others;
+  if (is_wide) return io::write_png(file, view_of<std::uint16_t>(array));
+  io::write_png(file, view_of<std::uint8_t>(array));
+}
+
 void bind_files(py::module_& m) {
   m.def("read_camera_info", &io::read_camera_info, py::arg("file"), py::kw_only(),
         py::arg("rectified"), WithoutGil(),
@@ -127,6 +143,9 @@ void bind_files(py::module_& m) {
         "Reads a pose, metres: 4 x 4 or 3 x 4 numbers or x y z qx qy qz qw (text or .npy), or YAML "
         "of "
         "easy_handeye. Raises InputError for anything that is no rigid transform.");
+  m.def("write_png", &write_png, py::arg("file"), py::arg("image"),
+        "Writes uint8 or uint16 as grey, uint8 (H, W, 3) as red, green, blue. Raises InputError if "
+        "the file cannot be written.");
 }
 
 void bind_rectification(py::module_& m) {

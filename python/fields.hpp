@@ -67,6 +67,8 @@ template <typename V>
 Frozen<V> shown(const std::vector<V>& values) {
   return {values};
 }
+inline Numbers shown(const Numbers& numbers) { return numbers; }
+inline Poses shown(const Poses& poses) { return poses; }
 template <typename V, std::size_t n>
 Frozen<V> shown(const std::array<V, n>& values) {
   return {{values.begin(), values.end()}};

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <map>
+#include <variant>
+
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 #include <python/frame.hpp>
@@ -6,54 +9,38 @@
 
 namespace penumbra::python {
 
+void check_positions(const RobotPose& pose, const Robot& robot) {
+  const std::size_t expected = robot.variables().size();
+  if (pose.positions.empty() || pose.positions.size() == expected) return;
+  throw py::value_error("joints: expected " + std::to_string(expected) +
+                        " positions in the order of Robot.variables; got " +
+                        std::to_string(pose.positions.size()));
+}
+
 namespace {
 
-std::vector<double> in_order(const NamedPositions& named, const Robot& robot) {
+using NamedPositions = std::map<std::string, double>;
+using Joints = std::variant<JointAnswer, NamedPositions, PoseArgument>;
+
+RobotPose in_order(const NamedPositions& named, const Robot& robot) {
   for (const auto& [name, position] : named)
     if (!robot.find_variable(name)) throw py::key_error(no_variable(robot, name));
-  std::vector<double> positions;
+  RobotPose pose;
   for (const std::string& variable : robot.variables()) {
     const auto at = named.find(variable);
     if (at == named.end())
       throw py::key_error("joints: the position of '" + variable + "' is missing");
-    positions.push_back(at->second);
+    pose.positions.push_back(at->second);
   }
-  return positions;
+  return pose;
 }
 
-}  // namespace
-
-Frame OwnedFrame::view(const Robot& robot) const {
-  Frame frame;
-  frame.stamp = stamp;
-  if (depth) frame.depth = depth->view;
-  RobotPose& pose = frame.pose;
-  if (const auto* positions = std::get_if<Numbers>(&joints)) {
-    const std::size_t expected = robot.variables().size();
-    if (positions->values.size() != expected)
-      throw py::value_error("joints: expected " + std::to_string(expected) +
-                            " positions in the order of Robot.variables; got " +
-                            std::to_string(positions->values.size()));
-    pose.positions = positions->values;
-    pose.age = joint_age;
-  } else if (const auto* named = std::get_if<NamedPositions>(&joints)) {
-    pose.positions = in_order(*named, robot);
-    pose.age = joint_age;
-  } else if (const auto* answer = std::get_if<JointAnswer>(&joints)) {
-    pose = pose_of(robot, *answer);
-  }
-  if (T_root_link) pose.T_root_link = *T_root_link;
-  pose.T_parent_camera = T_parent_camera;
-  pose.uncertain_links.insert(pose.uncertain_links.end(), uncertain_links.begin(),
-                              uncertain_links.end());
-  if (!uncertain_reason.empty()) pose.uncertain_reason = uncertain_reason;
-  pose.attached = attached;
-  frame.targets = targets;
-  if (plan) frame.plan = plan->trajectory;
-  frame.source_status = source_status;
-  frame.source_message = source_message;
-  frame.index = index;
-  return frame;
+RobotPose pose_by(const Robot& robot, const Joints& joints) {
+  if (const auto* answer = std::get_if<JointAnswer>(&joints)) return pose_of(robot, *answer);
+  if (const auto* named = std::get_if<NamedPositions>(&joints)) return in_order(*named, robot);
+  const RobotPose& pose = std::get<PoseArgument>(joints).pose;
+  check_positions(pose, robot);
+  return pose;
 }
 
 void bind_attached_body(py::module_& m) {
@@ -74,55 +61,66 @@ void bind_attached_body(py::module_& m) {
   bind_repr(body, {"name", "link"});
 }
 
-void bind_frame(py::module_& m) {
+}  // namespace
+
+void bind_robot_pose(py::module_& m) {
   bind_attached_body(m);
-  py::class_<PlannedMotion>(
-      m, "Trajectory",
-      "A planned motion. Between two points it is linear, with velocities cubic, "
-      "with accelerations, too, quintic.");
-  using F = OwnedFrame;
+  using P = RobotPose;
+  py::class_<P> pose(m, "RobotPose", "The robot's pose at a stamp, and the camera's on it.");
+  bind_members(
+      pose,
+      Field{"positions", &P::positions,
+            "Of the joints in the order of Robot.variables, rad and m. Unused if there are poses "
+            "of links."},
+      Field{"status", &P::status, "Another one than ok: the pose is not known."},
+      Field{"message", &P::message, "One line that says why; empty if the status is ok."},
+      Field{"age", &P::age,
+            "Nanoseconds from the stamp to the farthest joint state used, or None."},
+      Field{"T_root_link", &P::T_root_link,
+            "Poses of all links, metres, if they are known otherwise than by joints; else empty."},
+      Field{"T_parent_camera", &P::T_parent_camera,
+            "The camera's pose in its parent link in this frame, metres; None: the "
+            "configuration's."},
+      Field{"uncertain_links", &P::uncertain_links,
+            "Indices of links whose pose is not known: what they could hide is unknown, and "
+            "targets in them are not judged."},
+      Field{"uncertain_reason", &P::uncertain_reason, "The reason, one line."},
+      Field{"attached", &P::attached, "What the robot's links carry."});
+  bind_repr(pose, {"status", "positions"});
+  m.def("pose_of", &pose_by, py::arg("robot"), py::arg("joints"),
+        "Returns the RobotPose of joint positions by name, of what JointBuffer.at() returns, or of "
+        "what a Frame takes. Raises KeyError for names that are not those of Robot.variables, and "
+        "ValueError for another number of positions.");
+}
+
+void bind_frame(py::module_& m) {
+  using F = Frame;
   py::class_<F> frame(m, "Frame",
-                      "What goes into Pipeline.process. The depth image is read where it is: do "
-                      "not change it while it is judged.");
+                      "An image, and all that is needed to judge it: what Session.process takes. "
+                      "Images are read where they are: do not change them while they are judged.");
   bind_members<2>(
       frame,
       Field{"depth", &F::depth,
             "Of the camera's size, millimetres (uint16) or metres (float32), 0 = no measurement; "
             "None: no image."},
-      Field{"joints", &F::joints,
-            "A dict of positions by name, or an array in the order of Robot.variables, rad and m, "
-            "or what JointBuffer.at() returns; None: not known."},
+      Field{"pose", &F::pose,
+            "The robot's, at the stamp. As an argument also positions in the order of "
+            "Robot.variables, rad and m; None: not known. See pose_of()."},
       Field{"stamp", &F::stamp, "Of the depth image, nanoseconds."},
       Field{"targets", &F::targets, "To be judged."},
-      Field{
-          "T_root_link", &F::T_root_link,
-          "Poses of the links, metres, that are known otherwise than by joints; None: by joints."},
-      Field{"T_parent_camera", &F::T_parent_camera,
-            "The camera's pose in its parent link in this frame, metres; None: the "
-            "configuration's."},
-      Field{"source_status", &F::source_status, "What its source knows to be wrong with it."},
-      Field{"source_message", &F::source_message, "One line that describes it."},
-      Field{"index", &F::index, "In its source."},
-      Field{"joint_age", &F::joint_age, "Of positions, nanoseconds."},
-      Field{"uncertain_links", &F::uncertain_links,
-            "Indices of links whose pose is not known: what they could hide is unknown, and "
-            "targets in "
-            "them are not judged."},
-      Field{"uncertain_reason", &F::uncertain_reason, "The reason, one line."},
-      Field{"attached", &F::attached, "What the robot's links carry."},
       Field{"plan", &F::plan,
-            "The Trajectory that the robot follows, or waits to follow; None: none is known. Its "
-            "targets' reports then have forecasts."});
+            "The motion that the robot follows, or waits to follow; None: none is known. Its "
+            "targets' reports then have forecasts."},
+      Field{"color", &F::color,
+            "Red, green, blue, uint8, for pictures; None: not asked for, not recorded or not "
+            "usable."},
+      Field{"color_message", &F::color_message,
+            "Why a recorded colour image is not usable; empty if it is."},
+      Field{"source_status", &F::source_status,
+            "A fault of the depth image that its source knows."},
+      Field{"source_message", &F::source_message, "One line that describes it."},
+      Field{"index", &F::index, "In its source; None: the number of the call."});
   bind_repr(frame, {"index", "stamp", "source_status"});
-  frame.def(
-      "positions",
-      [](const F& self, const Robot& robot) {
-        Frame view = self.view(robot);
-        const bool known = view.pose.status == FrameStatus::ok && !view.pose.positions.empty();
-        return known ? std::optional(Numbers{std::move(view.pose.positions)}) : std::nullopt;
-      },
-      py::arg("robot"),
-      "Its joints in the order of Robot.variables; None: not known. Raises as Pipeline.process.");
 }
 
 }  // namespace penumbra::python

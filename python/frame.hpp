@@ -1,50 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <memory>
-#include <optional>
-#include <string>
-#include <variant>
-#include <vector>
 
+#include <python/arrays.hpp>
+#include <python/fields.hpp>
 #include <python/targets.hpp>
 
 #include <penumbra/pipeline/frame.hpp>
 
 namespace penumbra::python {
 
-using NamedPositions = std::map<std::string, double>;
-
-/// Joint positions, by name or in order, an answer of a JointBuffer, or nothing: not known.
-using OwnedJoints = std::variant<std::monostate, JointAnswer, NamedPositions, Numbers>;
-
-/// A planned motion of a robot.
-struct PlannedMotion {
-  Robot robot;
-  std::shared_ptr<const Trajectory> trajectory;
+/// A pose as an argument: a RobotPose, positions in the order of Robot.variables, or None: unknown.
+struct PoseArgument {
+  RobotPose pose;
+  operator RobotPose() && { return std::move(pose); }  // NOLINT(google-explicit-constructor)
+};
+template <>
+struct GivenAs<RobotPose> {
+  using type = PoseArgument;
 };
 
-/// A frame of Python's: it keeps what C++'s refers to.
-struct OwnedFrame {
-  std::optional<DepthArgument<"depth">> depth;
-  OwnedJoints joints;
-  std::optional<std::int64_t> stamp;
-  std::vector<Target> targets;
-  std::optional<Poses> T_root_link;
-  std::optional<Eigen::Isometry3d> T_parent_camera;
-  FrameStatus source_status = FrameStatus::ok;
-  std::string source_message;
-  std::optional<std::size_t> index;
-  std::optional<std::int64_t> joint_age;  ///< of Numbers, nanoseconds
-  std::vector<std::size_t> uncertain_links;
-  std::string uncertain_reason;
-  std::vector<AttachedBody> attached;
-  std::optional<PlannedMotion> plan = {};
-
-  /// Refers to this. Raises KeyError for named positions that are not those of the robot's
-  /// variables, and ValueError for another number of them.
-  [[nodiscard]] Frame view(const Robot& robot) const;
-};
+/// Raises ValueError for positions that are not one for each of the robot's variables.
+void check_positions(const RobotPose& pose, const Robot& robot);
 
 }  // namespace penumbra::python
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<penumbra::python::PoseArgument>
+    : penumbra::python::ValueCaster<penumbra::python::PoseArgument> {
+  static constexpr auto name = const_name("Union[penumbra.RobotPose, ") +
+                               make_caster<penumbra::python::Numbers>::name + const_name(", None]");
+  bool load(handle source, bool /*convert*/) {
+    if (source.is_none()) return true;
+    if (hasattr(source, "keys")) return false;  // names need the robot: pose_of()
+    if (isinstance<penumbra::RobotPose>(source))
+      value.pose = source.cast<const penumbra::RobotPose&>();
+    else
+      value.pose.positions = penumbra::python::vector_of(source);
+    return true;
+  }
+};
+template <>
+struct type_caster<std::shared_ptr<const penumbra::Trajectory>>
+    : penumbra::python::ValueCaster<std::shared_ptr<const penumbra::Trajectory>> {
+  using Held = make_caster<std::shared_ptr<penumbra::Trajectory>>;
+  static constexpr auto name = const_name("Optional[") + Held::name + const_name("]");
+  bool load(handle source, bool convert) {
+    Held held;
+    if (!source.is_none() && !held.load(source, convert)) return false;
+    if (!source.is_none()) value = cast_op<std::shared_ptr<penumbra::Trajectory>&>(held);
+    return true;
+  }
+  static handle cast(const std::shared_ptr<const penumbra::Trajectory>& of,
+                     return_value_policy policy, handle parent) {
+    return Held::cast(std::const_pointer_cast<penumbra::Trajectory>(of), policy, parent);
+  }
+};
+
+}  // namespace pybind11::detail

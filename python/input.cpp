@@ -2,44 +2,46 @@
 // What `penumbra run` takes: recording folders and bags, opened by its own code.
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
-#include <python/recording.hpp>
+#include <python/frame.hpp>
 
+#include <io/files/frame_reader.hpp>
+#include <io/files/image_size.hpp>
 #include <io/run/run_input.hpp>
 
 namespace penumbra::python {
 namespace {
 
 /// What `run` judges, as its options say.
-struct Input {
-  explicit Input(const io::InputOptions& options)
-      : input(io::open_input(
-            options, [this](const std::string& line) { messages.values.push_back(line); })) {}
-  Frozen<std::string> messages;
-  io::RunInput input;
+struct Input : io::RunInput {
+  io::InputOptions options;
+  std::vector<std::string> messages;
+  std::optional<io::FrameReader> reader = {};  ///< of a recording; null: not used yet
 };
 
 /// The frames of an input, one after the other.
 struct Frames {
   explicit Frames(std::shared_ptr<Input> of)
-      : input(std::move(of)), source(input->input.frames(input->input.robot)) {}
+      : input(std::move(of)), source(input->frames(input->robot)) {}
   std::shared_ptr<Input> input;
   std::unique_ptr<io::FrameSource> source;
   OneThread thread;
 };
 
-RecordedFrame next(const std::shared_ptr<Frames>& self) {
-  const OneThread::Use use(self->thread, "the iterator of an Input");
+/// Copies an image that the next frame would overwrite.
+template <typename View, typename T>
+void keep(Shared<View>& image, ImageView<const T> view) {
+  if (!image.owner && !view.empty())
+    image = Shared<View>(std::make_shared<const Image<T>>(io::copy_of(view)));
+}
+
+Frame next(Frames& self) {
+  const OneThread::Use use(self.thread, "the iterator of an Input");
+  const py::gil_scoped_release others;
   Frame frame;
-  bool found = false;
-  {
-    const py::gil_scoped_release others;
-    found = self->source->next(frame);
-  }
-  if (!found) throw py::stop_iteration();
-  const std::shared_ptr<const Trajectory> plan = frame.plan;
-  RecordedFrame read = recorded(std::move(frame));
-  if (plan) read.frame.plan = PlannedMotion{self->input->input.robot, plan};
-  return read;
+  if (!self.source->next(frame)) throw py::stop_iteration();
+  std::visit([&](const auto& view) { keep(frame.depth, view); }, frame.depth.view);
+  keep(frame.color, frame.color.view);
+  return frame;
 }
 
 std::size_t size_of(const std::shared_ptr<Input>& self) {
@@ -49,24 +51,40 @@ std::size_t size_of(const std::shared_ptr<Input>& self) {
   return *size;
 }
 
-/// Reads the frames before it, too.
-RecordedFrame frame_at(const std::shared_ptr<Input>& self, std::size_t i) {
-  const auto frames = std::make_shared<Frames>(self);
+Frame frame_of_bag(const std::shared_ptr<Input>& self, std::size_t i) {
+  Frames frames(self);
+  for (std::size_t before = 0; before < i; ++before) next(frames);
+  return next(frames);
+}
+
+Frame frame_of_recording(Input& self, std::size_t i) {
+  if (!self.reader)
+    self.reader.emplace(io::Recording::open(self.options.path, self.options.camera), self.robot);
+  const io::FrameRange& range = self.options.frames;
+  for (std::size_t at = 0; at < self.reader->size(); ++at) {
+    const std::int64_t index = self.reader->index(at);
+    if (index < range.first.value_or(index) || index >= range.end.value_or(index + 1)) continue;
+    if (i-- > 0) continue;
+    const py::gil_scoped_release others;
+    return self.reader->read(at, self.options.with_color);
+  }
+  throw py::stop_iteration();
+}
+
+Frame frame_at(const std::shared_ptr<Input>& self, std::size_t i) {
   try {
-    for (std::size_t before = 0; before < i; ++before) next(frames);
-    return next(frames);
+    return io::is_bag(self->options.path) ? frame_of_bag(self, i) : frame_of_recording(*self, i);
   } catch (const py::stop_iteration&) {
     throw py::index_error("frame " + std::to_string(i) + ": the input has fewer");
   }
 }
 
-std::shared_ptr<Input> open_input(const std::filesystem::path& path, bool color,
-                                  std::optional<Geometry> geometry, bool geometry_fallback,
-                                  bool allow_missing_meshes,
-                                  std::optional<std::pair<std::int64_t, std::int64_t>> frames,
-                                  const std::optional<io::BagOptions>& bag,
-                                  const std::string& camera,
-                                  const std::map<std::string, double>& joints) {
+std::shared_ptr<Input> open(const std::filesystem::path& path, bool color,
+                            std::optional<Geometry> geometry, bool geometry_fallback,
+                            bool allow_missing_meshes,
+                            std::optional<std::pair<std::int64_t, std::int64_t>> frames,
+                            const std::optional<io::BagOptions>& bag, const std::string& camera,
+                            const std::map<std::string, double>& joints) {
   io::InputOptions options{.path = path,
                            .camera = camera,
                            .with_color = color,
@@ -82,7 +100,10 @@ std::shared_ptr<Input> open_input(const std::filesystem::path& path, bool color,
                            .bag_option = bag ? "bag" : ""};  // a recording folder refuses it
   if (frames) options.frames = {frames->first, frames->second};
   const py::gil_scoped_release others;
-  return std::make_shared<Input>(options);
+  std::vector<std::string> messages;
+  const auto add = [&](const std::string& line) { messages.push_back(line); };
+  io::RunInput input = io::open_input(options, add);
+  return std::make_shared<Input>(Input{std::move(input), options, std::move(messages)});
 }
 
 void bind_bag_options(py::module_& m) {
@@ -134,35 +155,28 @@ void bind_input_classes(py::module_& m) {
           },
           "What was found wrong with the source itself, a line each; all of it is "
           "known at the end.");
-  py::class_<Input, std::shared_ptr<Input>>(
+  py::class_<Input, std::shared_ptr<Input>> input(
       m, "Input",
       "What `penumbra run` takes: a recording folder or a ROS 2 bag (*.mcap, *.db3 or a folder). "
       "Iterating reads its frames; each keeps its images. A bag's depth image is copied once, from "
-      "its message.")
+      "its message.");
+  input
       .def("__iter__",
            [](const std::shared_ptr<Input>& self) { return std::make_shared<Frames>(self); })
       .def("__len__", &size_of)
-      .def("__repr__", [](const Input& of) { return "<Input: " + of.input.robot.name() + ">"; })
-      .def("__getitem__", &frame_at, py::arg("i"), "Reads the frames before it, too.")
-      .def_property_readonly(
-          "robot", [](const Input& self) { return self.input.robot; }, "The robot.")
-      .def_property_readonly(
-          "camera", [](const Input& self) { return self.input.camera; }, "Of the judged images.")
-      .def_property_readonly(
-          "config", [](const Input& self) { return self.input.config; },
-          "Defaults of a pipeline with the input's own settings.")
-      .def_property_readonly(
-          "targets", [](const Input& self) { return self.input.targets; },
-          "The input's own targets.yaml, or None.")
-      .def_property_readonly(
-          "target_history", [](const Input& self) { return self.input.target_history; },
-          "PipelineConfig.target_history for targets that come with the frames, s.")
-      .def_property_readonly(
-          "beyond", [](const Input& self) { return self.input.beyond; },
-          "What verdicts make of beyond; None: it does not say.")
-      .def_property_readonly(
-          "messages", [](const Input& self) { return self.messages; },
-          "Which topics and poses of a bag are used, a line each.");
+      .def("__repr__", [](const Input& self) { return "<Input: " + self.robot.name() + ">"; })
+      .def("__getitem__", &frame_at, py::arg("i"),
+           "Reads a frame, of a bag also those before it. Several threads may use it.");
+  using I = Input;
+  show_properties(
+      input, Field{"robot", &I::robot, "The robot."},
+      Field{"camera", &I::camera, "Of the judged images."},
+      Field{"config", &I::config, "Defaults of a session with the input's own settings."},
+      Field{"targets", &I::targets, "The input's own targets.yaml, or None."},
+      Field{"target_history", &I::target_history,
+            "PipelineConfig.target_history for targets that come with the frames, s."},
+      Field{"beyond", &I::beyond, "What verdicts make of beyond; None: it does not say."},
+      Field{"messages", &I::messages, "Which topics and poses of a bag are used, a line each."});
 }
 
 }  // namespace
@@ -171,8 +185,8 @@ void bind_input(py::module_& m) {
   bind_bag_options(m);
   bind_input_classes(m);
   const io::InputOptions defaults;
-  m.def("open_input", &open_input, py::arg("path"), py::kw_only(),
-        py::arg("color") = defaults.with_color, py::arg("geometry") = defaults.geometry,
+  m.def("open", &open, py::arg("path"), py::kw_only(), py::arg("color") = defaults.with_color,
+        py::arg("geometry") = defaults.geometry,
         py::arg("geometry_fallback") = defaults.geometry_fallback,
         py::arg("allow_missing_meshes") = defaults.allow_missing_meshes,
         py::arg("frames") = std::optional<std::pair<std::int64_t, std::int64_t>>(),

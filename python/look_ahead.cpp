@@ -20,84 +20,87 @@ using Rows = Shown<"Annotated[NDArray[float64], '(N, J)']">;
 using SeenRows = Shown<"Annotated[NDArray[float32], '(N, T)']">;
 using GivenTarget = std::variant<ForecastTarget, Target>;
 
-std::vector<double> positions_in(const OwnedFrame& start, const Robot& robot) {
-  std::vector<double> positions = start.view(robot).pose.positions;
-  if (positions.empty()) throw InputError("start: has no joint positions");
-  return positions;
+const RobotPose& check_start(const RobotPose& start, const Robot& robot) {
+  if (start.status != FrameStatus::ok || start.positions.empty())
+    throw InputError("start: has no joint positions");
+  check_positions(start, robot);
+  return start;
 }
 
-Rows positions_at(const PlannedMotion& motion, const Numbers& times) {
-  const std::size_t variables = motion.robot.variables().size();
-  std::vector<double> positions(times.values.size() * variables);
-  for (std::size_t i = 0; i < times.values.size(); ++i)
-    motion.trajectory->at(times.values[i], std::span(positions).subspan(i * variables, variables));
-  return Rows(copied(positions, {static_cast<py::ssize_t>(times.values.size()),
-                                 static_cast<py::ssize_t>(variables)}));
+Rows positions_at(const Trajectory& motion, const Numbers& times) {
+  const std::size_t variables = motion.robot().variables().size();
+  std::vector<double> positions(times.size() * variables);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    motion.at(times[i], std::span(positions).subspan(i * variables, variables));
+  return Rows(copied(
+      positions, {static_cast<py::ssize_t>(times.size()), static_cast<py::ssize_t>(variables)}));
 }
 
-std::vector<TrajectoryPoint> points_of(const Numbers& times, std::size_t joints,
-                                       const Rows& positions, const std::optional<Rows>& velocities,
-                                       const std::optional<Rows>& accelerations) {
-  const auto n = static_cast<py::ssize_t>(times.values.size());
+std::vector<TrajectoryPoint> trajectory_points(const Numbers& times, std::size_t joints,
+                                               const Rows& positions,
+                                               const std::optional<Rows>& velocities,
+                                               const std::optional<Rows>& accelerations) {
+  const auto n = static_cast<py::ssize_t>(times.size());
   const std::array<py::ssize_t, 2> shape{n, static_cast<py::ssize_t>(joints)};
-  std::vector<TrajectoryPoint> points(times.values.size());
+  std::vector<TrajectoryPoint> points(times.size());
   const auto read = [&](const Rows& rows, const char* what,
                         std::vector<double> TrajectoryPoint::*to) {
     const auto numbers = numbers_of(rows, shape, what);
     for (std::size_t i = 0; i < points.size(); ++i)
       (points[i].*to).assign(numbers.data() + i * joints, numbers.data() + (i + 1) * joints);
   };
-  for (std::size_t i = 0; i < points.size(); ++i) points[i].time = times.values[i];
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].time = times[i];
   read(positions, "positions", &TrajectoryPoint::positions);
   if (velocities) read(*velocities, "velocities", &TrajectoryPoint::velocities);
   if (accelerations) read(*accelerations, "accelerations", &TrajectoryPoint::accelerations);
   return points;
 }
 
-void bind_trajectory() {
-  // Frames, which a start is, have a plan: the class is made before them.
-  auto motion = py::reinterpret_borrow<py::class_<PlannedMotion>>(py::type::of<PlannedMotion>());
+}  // namespace
+
+void bind_trajectory(py::module_& m) {
+  py::class_<Trajectory, std::shared_ptr<Trajectory>> motion(
+      m, "Trajectory",
+      "A planned motion. Between two points it is linear, with velocities cubic, "
+      "with accelerations, too, quintic.");
   motion.def(
       py::init([](const Robot& robot, const std::vector<std::string>& variables,
-                  const Numbers& times, const Rows& positions, const OwnedFrame& start,
+                  const Numbers& times, const Rows& positions, const PoseArgument& start,
                   const std::optional<Rows>& velocities, const std::optional<Rows>& accelerations) {
-        return PlannedMotion{
-            robot, std::make_shared<const Trajectory>(
-                       robot, variables,
-                       points_of(times, variables.size(), positions, velocities, accelerations),
-                       positions_in(start, robot))};
+        return Trajectory(
+            robot, variables,
+            trajectory_points(times, variables.size(), positions, velocities, accelerations),
+            check_start(start.pose, robot).positions);
       }),
       py::arg("robot"), py::arg("variables"), py::arg("times"), py::arg("positions"),
       py::arg("start"), py::kw_only(), py::arg("velocities") = py::none(),
       py::arg("accelerations") = py::none(),
-      "variables: names of J of Robot.variables; the others stay at the joints of `start`. "
+      "variables: names of J of Robot.variables; the others stay at the joints of `start`, a "
+      "frame's pose. "
       "times: seconds from the start of the motion, (N,). positions, velocities, "
       "accelerations: (N, J), rad and m. Raises InputError for what no motion can be.");
-  motion.def_property_readonly(
-      "duration", [](const PlannedMotion& self) { return self.trajectory->duration(); },
-      "Seconds.");
+  motion.def_property_readonly("duration", &Trajectory::duration, "Seconds.");
   motion.def_property_readonly(
       "jump",
-      [](const PlannedMotion& self) {
-        const Trajectory::Jump jump = self.trajectory->jump();
-        return std::pair(self.robot.variables()[jump.variable], jump.by);
+      [](const Trajectory& self) {
+        const Trajectory::Jump jump = self.jump();
+        return std::pair(self.robot().variables()[jump.variable], jump.by);
       },
       "The variable that differs most from `start` where the motion begins, and by how much.");
   motion.def_property_readonly(
-      "notes",
-      [](const PlannedMotion& self) {
-        return Frozen<std::string>{self.trajectory->notes(self.robot)};
-      },
+      "notes", [](const Trajectory& self) { return Frozen<std::string>{self.notes(self.robot())}; },
       "One line for each likely mistake: joints that exceed a limit of the URDF, times that may be "
       "in milliseconds.");
   motion.def("at", &positions_at, py::arg("times"),
              "Positions at times, (N,), seconds: rows in the order of Robot.variables.");
 }
 
+namespace {
+
 template <typename Get>
 Numbers numbers_of_samples(const CameraForecast& of, Get get) {
   Numbers numbers;
-  for (const Prediction& prediction : of.predictions) numbers.values.push_back(prediction.*get);
+  for (const Prediction& prediction : of.predictions) numbers.push_back(prediction.*get);
   return numbers;
 }
 
@@ -108,8 +111,7 @@ void bind_forecasts(py::module_& m) {
   show_properties(
       camera,
       Field{"intervals", &C::intervals, "VerdictIntervals of the whole motion, without gaps."},
-      Field{"times", [](const C& of) { return Numbers{of.times}; },
-            "Seconds, of the samples; empty for all cameras together."},
+      Field{"times", &C::times, "Seconds, of the samples; empty for all cameras together."},
       Field{"verdicts",
             [](const C& of) {
               Frozen<Verdict> verdicts;
@@ -207,17 +209,16 @@ struct Ahead {
 };
 
 std::unique_ptr<Ahead> make_ahead(const Robot& robot, std::vector<ForecastCamera> cameras,
-                                  const std::vector<GivenTarget>& given, const OwnedFrame& start,
+                                  const std::vector<GivenTarget>& given, PoseArgument start,
                                   const LookAheadConfig& config) {
   std::vector<ForecastTarget> targets;
   for (const GivenTarget& target : given)
     targets.push_back(std::holds_alternative<Target>(target)
                           ? ForecastTarget{.target = std::get<Target>(target)}
                           : std::get<ForecastTarget>(target));
-  RobotPose pose = start.view(robot).pose;
-  pose.positions = positions_in(start, robot);
+  check_start(start.pose, robot);
   return std::unique_ptr<Ahead>(
-      new Ahead{LookAhead(robot, std::move(cameras), targets, std::move(pose), config),
+      new Ahead{LookAhead(robot, std::move(cameras), targets, std::move(start.pose), config),
                 robot.variables().size(),
                 targets.size(),
                 {}});
@@ -226,7 +227,6 @@ std::unique_ptr<Ahead> make_ahead(const Robot& robot, std::vector<ForecastCamera
 }  // namespace
 
 void bind_look_ahead(py::module_& m) {
-  bind_trajectory();
   bind_given(m);
   bind_forecasts(m);
   py::class_<Ahead>(m, "LookAhead",
@@ -234,14 +234,15 @@ void bind_look_ahead(py::module_& m) {
                     "docs/look_ahead.md. Serves one thread at a time.")
       .def(py::init(&make_ahead), py::arg("robot"), py::arg("cameras"), py::arg("targets"),
            py::arg("start"), py::arg("config") = LookAheadConfig(),
-           "start: a Frame with the joints of now, and what links carry. Raises InputError for no "
+           "start: a frame's pose: the joints of now, and what links carry. Raises InputError for "
+           "no "
            "cameras, targets that are invalid in every frame and settings out of range.")
       .def(
           "along",
-          [](Ahead& self, const PlannedMotion& trajectory) {
+          [](Ahead& self, const Trajectory& trajectory) {
             const OneThread::Use use(self.one, "LookAhead");
             const py::gil_scoped_release others;
-            return Frozen<TargetForecast>{self.look.along(*trajectory.trajectory)};
+            return Frozen<TargetForecast>{self.look.along(trajectory)};
           },
           py::arg("trajectory"), "A TargetForecast for each target.")
       .def("visibility", &Ahead::visibility, py::arg("positions"), py::arg("camera") = 0,

@@ -20,12 +20,14 @@ PYBIND11_MODULE(_core, m) {
   bind_regions(m);
   bind_targets(m);
   bind_judgement(m);
+  bind_robot_pose(m);
+  bind_trajectory(m);
   bind_frame(m);
   bind_report(m);
   bind_calibration(m);
-  bind_pipeline(m);
+  bind_session(m);
   bind_target_fusion(m);
   bind_look_ahead(m);
-  bind_recording(m);
+  bind_targets_file(m);
   bind_input(m);
 }

@@ -6,60 +6,46 @@
 
 namespace penumbra::python {
 
-PipelineState::PipelineState(const Robot& robot, const Camera& given,
-                             const PipelineConfig& settings)
-    : session(robot, given, settings),
-      depth_size(given.intrinsics),
-      cloud_maker(session.pipeline().report_camera()),
-      camera(session.pipeline().report_camera()) {}
-
-std::vector<std::string> PipelineState::notes() const {
-  const auto of_robot = session.pipeline().robot().notes();
-  std::vector<std::string> notes(of_robot.begin(), of_robot.end());
-  for (auto& line : session.warnings()) notes.push_back(line);
-  return notes;
-}
-
-Report::Report(std::shared_ptr<PipelineState> state, const FrameReport& report, py::object depth)
-    : state_(std::move(state)),
+Report::Report(std::shared_ptr<SessionState> state, const FrameReport& report,
+               std::shared_ptr<const void> depth)
+    : numbers(report),
+      targets(report.targets.begin(), report.targets.end()),
+      T_root_link(report.T_root_link.begin(), report.T_root_link.end()),
+      links(report.links.begin(), report.links.end()),
+      missing_links(report.missing_links.begin(), report.missing_links.end()),
+      state_(std::move(state)),
       call_(state_->calls),
-      report_(report),
-      depth_(std::move(depth)),
-      targets_(report.targets.begin(), report.targets.end()),
-      T_root_link_(report.T_root_link.begin(), report.T_root_link.end()),
-      links_(report.links.begin(), report.links.end()),
-      missing_links_(report.missing_links.begin(), report.missing_links.end()) {
-  for (const std::size_t link : report.near_links) near_links_.push_back(report.links[link]);
-  for (const std::size_t body : report.attached) attached_.push_back(report.links[body]);
-  report_.T_root_link = {};
-  report_.near_links = {};
-  report_.targets = {};
-  report_.links = report_.missing_links = {};
-  report_.attached = {};
+      depth_(std::move(depth)) {
+  for (const std::size_t link : report.near_links) near_links.push_back(links[link]);
+  for (const std::size_t body : report.attached) attached.push_back(links[body]);
+  numbers.T_root_link = {};
+  numbers.near_links = numbers.attached = {};
+  numbers.targets = {};
+  numbers.links = numbers.missing_links = {};
 }
 
 FrameReport Report::with_names() const {
-  FrameReport report = report_;
-  report.T_root_link = T_root_link_;
-  report.links = links_;
-  report.missing_links = missing_links_;
+  FrameReport report = numbers;
+  report.T_root_link = T_root_link;
+  report.links = links;
+  report.missing_links = missing_links;
   return report;
 }
 
 void Report::check_is_last() const {
   if (state_->calls != call_)
     throw py::value_error(
-        "FrameReport: the pipeline has judged another frame since: read the "
+        "FrameReport: the session has judged another frame since: read the "
         "images of frame " +
-        std::to_string(report_.index) + " before the next call");
+        std::to_string(numbers.index) + " before the next call");
 }
 
-ImageResult<std::uint8_t> Report::labels() const { return *read(labels_, report_.labels); }
+ImageResult<std::uint8_t> Report::labels() const { return *read(labels_, numbers.labels); }
 std::optional<ImageResult<float>> Report::virtual_depth() const {
-  return read(virtual_depth_, report_.virtual_depth.depth);
+  return read(virtual_depth_, numbers.virtual_depth.depth);
 }
 std::optional<ImageResult<std::uint16_t>> Report::link_image() const {
-  return read(link_image_, report_.virtual_depth.links);
+  return read(link_image_, numbers.virtual_depth.links);
 }
 
 BoolImage Report::robot_mask() const {
@@ -115,16 +101,8 @@ struct CloudArrays {
 
 /// Of each point's pixel in a colour image of the labels' size.
 py::array colors_of(const py::object& color, const py::array& pixels, const FrameReport& report) {
-  const auto image = py::reinterpret_borrow<py::array>(color);
-  const bool fits = py::isinstance<py::array>(color) && image.ndim() == 3 &&
-                    is_native(image.dtype(), py::detail::npy_api::NPY_UBYTE_) &&
-                    image.shape(0) == report.labels.height &&
-                    image.shape(1) == report.labels.width && image.shape(2) == 3;
-  if (!fits)
-    throw py::value_error("color: expected numpy.ndarray of uint8 with shape (" +
-                          std::to_string(report.labels.height) + ", " +
-                          std::to_string(report.labels.width) + ", 3); got " +
-                          description_of(color));
+  const ImageView<const Rgb8> image = color_of(color, "color").view;
+  check_size("color", image.width, image.height, report.labels.width, report.labels.height);
   return color.attr("reshape")(-1, 3).attr("__getitem__")(pixels);
 }
 
@@ -140,7 +118,7 @@ CloudArrays points_of(const Report& report, const std::optional<std::string>& fr
                             keeper_of(cloud));
   arrays.colors = color.is_none()
                       ? py::array(py::dtype::of<std::uint8_t>(), std::vector<py::ssize_t>{0, 3})
-                      : colors_of(color, arrays.pixels, report.numbers());
+                      : colors_of(color, arrays.pixels, report.numbers);
   return arrays;
 }
 
@@ -175,7 +153,7 @@ void bind_without_robot(py::module_& m, py::class_<Report>& report) {
 void bind_report_properties(py::class_<Report>& report) {
   using F = FrameReport;
   using R = Report;
-  const auto of = [](auto member) { return [member](const R& r) { return r.numbers().*member; }; };
+  const auto of = [](auto member) { return [member](const R& r) { return r.numbers.*member; }; };
   show_properties(
       report, Field{"index", of(&F::index), "In its source."},
       Field{"stamp", of(&F::stamp), "Nanoseconds."},
@@ -190,7 +168,7 @@ void bind_report_properties(py::class_<Report>& report) {
             "The optical frame in the root link's frame, metres; None: not known."},
       Field{"T_root_link",
             [](const R& r) {
-              return r.T_root_link().empty() ? std::nullopt : std::optional(r.T_root_link());
+              return r.T_root_link.empty() ? std::nullopt : std::optional(r.T_root_link);
             },
             "Poses of the links, metres; None: not known."},
       Field{"near_links", &R::near_links,
@@ -205,7 +183,7 @@ void bind_report_properties(py::class_<Report>& report) {
       Field{"labels", &R::labels,
             "Label values, (H, W); all unknown if the robot's pose is not known. A read-only copy, "
             "made when it is first read. Raises ValueError if it was not read before the "
-            "pipeline's next call."},
+            "session's next call."},
       Field{"virtual_depth", &R::virtual_depth,
             "Metres along the optical axis, 0 where no robot is; None: the robot's pose is not "
             "known. As labels."},
@@ -224,8 +202,8 @@ void bind_report_properties(py::class_<Report>& report) {
 void bind_report(py::module_& m) {
   bind_report_parts(m);
   py::class_<Report> report(m, "FrameReport",
-                            "The pipeline's results for one frame. Read its images before the "
-                            "pipeline's next call; everything else stays.");
+                            "The results for one frame. Read its images before the "
+                            "session's next call; everything else stays.");
   bind_report_properties(report);
   bind_without_robot(m, report);
 }

@@ -17,17 +17,16 @@ namespace penumbra::python {
 /// None, or a mask.
 using BoolImage = Shown<"Optional[Annotated[NDArray[bool_], '(H, W)']]">;
 
-/// A session, and what Python needs next to it.
-struct PipelineState {
-  PipelineState(const Robot& robot, const Camera& given, const PipelineConfig& settings);
-
-  /// Returns warnings about the robot and the frames, a line each.
-  [[nodiscard]] std::vector<std::string> notes() const;
+/// A session, and what its reports need.
+struct SessionState {
+  SessionState(const Robot& robot, const Camera& camera, const PipelineConfig& config)
+      : session(robot, camera, config),
+        depth_size(camera.intrinsics),
+        cloud_maker(session.pipeline().report_camera()) {}
 
   Session session;
   Intrinsics depth_size;  ///< of depth images as they come
   CloudMaker cloud_maker;
-  Camera camera;  ///< of the reports' images
   std::uint64_t calls = 0;
   OneThread thread;
 };
@@ -35,17 +34,14 @@ struct PipelineState {
 /// A report whose numbers are its own. Images lie in the pipeline until the next frame.
 class Report {
  public:
-  /// `depth`: the frame's image, which the report may refer to.
-  Report(std::shared_ptr<PipelineState> state, const FrameReport& report, py::object depth);
+  /// `depth`: the owner of the frame's image, which the report may refer to.
+  Report(std::shared_ptr<SessionState> state, const FrameReport& report,
+         std::shared_ptr<const void> depth);
 
-  [[nodiscard]] const FrameReport& numbers() const { return report_; }
-  [[nodiscard]] const std::vector<TargetReport>& targets() const { return targets_; }
-  [[nodiscard]] const Poses& T_root_link() const { return T_root_link_; }
-  [[nodiscard]] const std::vector<std::string>& near_links() const { return near_links_; }
-  [[nodiscard]] const std::vector<std::string>& links() const { return links_; }
-  [[nodiscard]] const std::vector<std::string>& attached() const { return attached_; }
-  [[nodiscard]] const std::vector<std::string>& missing_links() const { return missing_links_; }
-  [[nodiscard]] const PipelineState& state() const { return *state_; }
+  FrameReport numbers;  ///< without spans of poses, names and targets
+  std::vector<TargetReport> targets;
+  Poses T_root_link;
+  std::vector<std::string> links, missing_links, attached, near_links;
 
   /// Images. All throw ValueError once the pipeline has judged another frame, if they were not
   /// read before.
@@ -68,13 +64,9 @@ class Report {
     return image.read([&] { return check_is_last(), view; });
   }
 
-  std::shared_ptr<PipelineState> state_;
+  std::shared_ptr<SessionState> state_;
   std::uint64_t call_;
-  FrameReport report_;  // without spans of poses, names and targets
-  py::object depth_;
-  std::vector<TargetReport> targets_;
-  Poses T_root_link_;
-  std::vector<std::string> links_, missing_links_, attached_, near_links_;
+  std::shared_ptr<const void> depth_;
   ReadImage<std::uint8_t> labels_;
   ReadImage<float> virtual_depth_;
   ReadImage<std::uint16_t> link_image_;

@@ -159,12 +159,12 @@ std::vector<OwnedBody> bodies_of(const Robot& robot) {
 }
 
 Poses link_poses(const Robot& robot, const Numbers& positions) {
-  if (positions.values.size() != robot.variables().size())
+  if (positions.size() != robot.variables().size())
     throw py::value_error("positions: expected shape (" + std::to_string(robot.variables().size()) +
                           ",), in the order of Robot.variables; got " +
-                          std::to_string(positions.values.size()) + " numbers");
+                          std::to_string(positions.size()) + " numbers");
   Poses poses(robot.links().size());
-  robot.forward_kinematics(positions.values, poses);
+  robot.forward_kinematics(positions, poses);
   return poses;
 }
 
@@ -202,7 +202,7 @@ void bind_robot_class(py::module_& m) {
       .def("find_variable", &find_variable, py::arg("name"),
            "Its index. Raises KeyError for an unknown name.")
       .def(
-          "rest_positions", [](const Robot& r) { return Numbers{r.rest_positions()}; },
+          "rest_positions", [](const Robot& r) { return r.rest_positions(); },
           "Positions of every variable at rest: 0, and the unit quaternion. A read-only array.")
       .def(
           "meshes", [](const Robot& r, std::size_t i) { return Frozen<Mesh>{meshes_of(r, i)}; },

@@ -10,8 +10,8 @@ namespace penumbra::python {
 namespace {
 
 void add_report(TargetFusion& self, std::size_t camera, const Report& of) {
-  FrameReport report = of.numbers();
-  report.targets = of.targets();
+  FrameReport report = of.numbers;
+  report.targets = of.targets;
   self.add(camera, report);
 }
 

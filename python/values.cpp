@@ -81,13 +81,13 @@ Poses poses_of(py::handle source) {
 Numbers vector_of(py::handle source) {
   constexpr py::ssize_t shape[] = {-1};
   const auto array = numbers_of(source, shape, "numbers");
-  return {{array.data(), array.data() + array.size()}};
+  return {array.data(), array.data() + array.size()};
 }
 
 py::array array_of(const Eigen::Isometry3d& pose) { return array_of_matrix(pose.matrix()); }
 
 py::array array_of(const Numbers& numbers) {
-  return copied(numbers.values, {static_cast<py::ssize_t>(numbers.values.size())});
+  return copied(numbers, {static_cast<py::ssize_t>(numbers.size())});
 }
 
 py::array array_of(const Poses& poses) {

@@ -35,9 +35,7 @@ class Shown : public py::object {
 using Poses = std::vector<Eigen::Isometry3d>;
 
 /// Numbers as an array of shape (N,).
-struct Numbers {
-  std::vector<double> values;
-};
+using Numbers = std::vector<double>;
 
 /// Whether it is an array with a mask (numpy.ma's), which no conversion would keep.
 [[nodiscard]] bool is_masked(py::handle object);

@@ -45,10 +45,10 @@ def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else ROOT / "examples/arm_over_table"
     wanted = int(sys.argv[2]) if len(sys.argv) > 2 else 4
     png = sys.argv[3] if len(sys.argv) > 3 else ROOT / "docs/images/cloud.png"
-    source = penumbra.open_input(folder, color=True)
-    pipeline = penumbra.Pipeline(source.robot, source.camera, source.config)
+    source = penumbra.open(folder, color=True)
+    session = penumbra.Session(source.robot, source.camera, source.config)
     for frame in source:
-        report = pipeline.process(frame.frame)
+        report = session.process(frame)
         if frame.index != wanted:
             continue
         cloud = report.points(color=frame.color)

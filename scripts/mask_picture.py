@@ -19,10 +19,10 @@ CROP = (110, 30, 590, 430)
 
 
 def main():
-    source = penumbra.open_input(ROOT / "examples/arm_over_table", color=True)
-    pipeline = penumbra.Pipeline(source.robot, source.camera, source.config)
+    source = penumbra.open(ROOT / "examples/arm_over_table", color=True)
+    session = penumbra.Session(source.robot, source.camera, source.config)
     frame = next(frame for frame in source if frame.index == FRAME)
-    report = pipeline.process(penumbra.Frame(None, frame.frame.joints))
+    report = session.process(penumbra.Frame(None, frame.pose.positions))
     links, names = report.link_image.astype(np.uint8), report.links
     colors = np.array([[0, 0, 0], *(colorsys.hsv_to_rgb(i / len(names), 0.8, 1)
                                     for i in range(len(names)))]) * 255

@@ -37,10 +37,10 @@ def coloured(values, low, high, name, nothing, blank=NO_DEPTH):
 
 def judged():
     """The frame, copies of its measured and virtual depth in metres, and of its labels."""
-    given = penumbra.open_input(ROOT / "examples" / "arm_over_table", color=True)
-    pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
+    given = penumbra.open(ROOT / "examples" / "arm_over_table", color=True)
+    session = penumbra.Session(given.robot, given.camera, given.config)
     frame = next(frame for frame in given if frame.index == FRAME)
-    report = pipeline.process(frame.frame)
+    report = session.process(frame)
     return frame, frame.depth / 1000, report.virtual_depth.copy(), report.labels.copy()
 
 

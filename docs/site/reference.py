@@ -59,8 +59,8 @@ GROUPS = {
     "Errors": "InputError", "Names": "Label", "Cameras": "Intrinsics", "Robots": "TriangleMesh",
     "Joint states": "JointBufferOptions", "Renderers": "RendererOptions", "Labels": "Tolerance",
     "Trackers": "PoseTrackerConfig", "Regions": "PixelBox", "Targets": "TargetThresholds",
-    "What is said of targets": "Blame", "Frames and reports": "Frame", "The pipeline": "PipelineConfig",
-    "Several cameras": "ViewCamera", "Files": "RecordingCamera", "Recording": "Recorder",
+    "What is said of targets": "Blame", "Frames and reports": "AttachedBody", "The session": "PipelineConfig",
+    "Several cameras": "ViewCamera", "Files": "TargetsFile", "Recording": "Recorder",
 }
 IDENTITY = r"array\(\[\[1\., 0\., 0\., 0\.\],[^)]*1\.\]\]\)"
 SHOWN = ("__len__", "__getitem__", "__iter__", "__next__")

@@ -2,7 +2,7 @@
 """A folder of recordings and bags on all cores: python3 batch_folder.py FOLDER OUT
 
 Writes what is not the robot of every depth image, and says how many pixels were. Threads are
-enough: Python runs on while frames are read and judged. Each thread has a pipeline of its own.
+enough: Python runs on while frames are read and judged. Each thread has a session of its own.
 """
 
 import os
@@ -22,11 +22,11 @@ def inputs_in(folder: pathlib.Path) -> List[pathlib.Path]:
 
 
 def judge(source: pathlib.Path, out: pathlib.Path) -> str:
-    given = penumbra.open_input(source)
-    pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
+    given = penumbra.open(source)
+    session = penumbra.Session(given.robot, given.camera, given.config)
     frames = robot = 0
     for frame in given:
-        report = pipeline.process(frame.frame)
+        report = session.process(frame)
         if frame.depth is None or report.pixels.robot is None:
             print(f"{source}: frame {report.index}: {report.message}", file=sys.stderr)
             continue

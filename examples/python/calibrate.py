@@ -13,9 +13,8 @@ import penumbra
 
 
 def main(source: pathlib.Path, out: pathlib.Path) -> int:
-    given = penumbra.open_input(source)
-    frames = [frame.frame for frame in given]
-    found = penumbra.calibrate(frames, given.camera.intrinsics, given.robot,
+    given = penumbra.open(source)
+    found = penumbra.calibrate(list(given), given.camera.intrinsics, given.robot,
                                given.config.T_parent_camera,
                                camera_parent=given.config.camera_parent)
     for line in [*found.notes, *found.faults]:

@@ -32,10 +32,10 @@ def measured(depth: NDArray[Any]) -> NDArray[np.bool_]:
 
 
 def main(source: str, out: pathlib.Path) -> None:
-    given = penumbra.open_input(source, color=True)
-    pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
+    given = penumbra.open(source, color=True)
+    session = penumbra.Session(given.robot, given.camera, given.config)
     for frame in given:
-        report = pipeline.process(frame.frame)
+        report = session.process(frame)
         if frame.depth is None or report.T_root_camera is None:
             print(f"frame {report.index}: no points: {report.message}")
             continue

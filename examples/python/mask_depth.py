@@ -7,10 +7,10 @@ import numpy as np
 
 import penumbra
 
-source = penumbra.open_input(sys.argv[1])
-pipeline = penumbra.Pipeline(source.robot, source.camera, source.config)
+source = penumbra.open(sys.argv[1])
+session = penumbra.Session(source.robot, source.camera, source.config)
 for frame in source:
-    report = pipeline.process(frame.frame)
+    report = session.process(frame)
     out = pathlib.Path(sys.argv[2]) / f"{frame.index:06d}"
     np.save(f"{out}.npy", report.filtered_depth())
     np.save(f"{out}_points.npy", report.points(frame=source.robot.links[0]).points)

@@ -45,8 +45,8 @@ def joints_at(frame: int, robot: penumbra.Robot) -> NDArray[np.float64]:
 
 robot = penumbra.Robot.load(FOLDER / "arm.urdf", penumbra.RobotOptions(packages={"arm_description": FOLDER}))
 intrinsics = penumbra.Intrinsics(640, 480, 610.0, 610.0, 322.5, 236.0)
-pipeline = penumbra.Pipeline(robot, penumbra.Camera(intrinsics),
-                             penumbra.PipelineConfig(T_parent_camera=camera_pose()))
+session = penumbra.Session(robot, penumbra.Camera(intrinsics),
+                           penumbra.PipelineConfig(T_parent_camera=camera_pose()))
 world = penumbra.Renderer(penumbra.Backend.cpu, intrinsics, [*robot.bodies, penumbra.Body("part", [box(SIZE)])])
 gripper = robot.find_link("gripper")
 in_gripper = np.eye(4)
@@ -61,8 +61,9 @@ for i in range(FRAMES):
         part = links[gripper] @ in_gripper
     depth = world.render(np.linalg.inv(camera_pose()) @ np.concatenate([links, [part]])).depth
     target = penumbra.Target("part", penumbra.BoxTarget(part, SIZE, frame=""), handling=penumbra.PoseTrackerConfig())
-    report = pipeline.process(penumbra.Frame(np.where(depth > 0, depth, np.float32(3)), joints, stamp=i * 33_000_000,
-                                             targets=[target], attached=attached))
+    report = session.process(penumbra.Frame(
+        np.where(depth > 0, depth, np.float32(3)), penumbra.RobotPose(positions=joints, attached=attached),
+        stamp=i * 33_000_000, targets=[target]))
     found = report.targets[0]
     if i % 15 == 0:
         line = f"frame {i}: {found.verdict.value} {found.reason}"
@@ -71,6 +72,6 @@ for i in range(FRAMES):
             line += f", {found.handled.source.value}, {1000 * off:.3f} mm off"
         print(line)
     if i == CLOSES:
-        attached = [pipeline.attach_target(target, "gripper")]
+        attached = [session.attach_target(target, "gripper")]
     if i == OPENS:
         attached = []

@@ -22,14 +22,14 @@ Array = NDArray[Any]
 
 class Planner:
     def __init__(self) -> None:
-        given = penumbra.open_input(RECORDING)
+        given = penumbra.open(RECORDING)
         camera = penumbra.ForecastCamera("cell", given.camera, parent=given.config.camera_parent,
                                          T_parent_camera=given.config.T_parent_camera)
         lid = penumbra.Target("lid", penumbra.PointTarget([0.42, 0.56, 0.30], radius=0.03, frame=""))
-        start = given[0].frame
+        start = given[0].pose
         config = penumbra.LookAheadConfig(clearance=0, threads=2)
         self.ahead = penumbra.LookAhead(given.robot, [camera], [lid], start, config)
-        self.rest = np.array([start.positions(given.robot)])
+        self.rest = start.positions[None]
         self.columns = [given.robot.find_variable(joint) for joint in JOINTS]
 
     def positions(self, between: Array) -> Array:

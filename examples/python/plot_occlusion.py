@@ -17,18 +17,19 @@ COLORS = {Verdict.visible: "#009e73", Verdict.partial: "#e69f00", Verdict.hidden
 
 def judge(source: str) -> Dict[str, List[penumbra.TargetReport]]:
     """Each target's reports, one per frame."""
-    given = penumbra.open_input(source)
+    given = penumbra.open(source)
     if given.targets is None:
         sys.exit(f"{source}: has no targets")
-    pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
+    session = penumbra.Session(given.robot, given.camera, given.config)
     targets = penumbra.TargetsFile.open(
-        given.targets, robot=given.robot, image=given.config.image, images=pipeline.intrinsics,
+        given.targets, robot=given.robot, image=given.config.image, images=session.intrinsics,
         has_distortion=not given.camera.distortion.is_none,
         beyond_hides=given.beyond is not penumbra.BeyondMeans.visible)
     judged: Dict[str, List[penumbra.TargetReport]] = {}
     for frame in given:
-        with_targets = frame.frame.replace(targets=targets.of_frame(frame.index))
-        for target in pipeline.process(with_targets).targets:
+        assert frame.index is not None
+        with_targets = frame.replace(targets=targets.of_frame(frame.index))
+        for target in session.process(with_targets).targets:
             judged.setdefault(target.name, []).append(target)
     return judged
 

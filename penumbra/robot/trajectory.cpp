@@ -96,7 +96,7 @@ double interpolate(const TrajectoryPoint& a, const TrajectoryPoint& b, std::size
 
 Trajectory::Trajectory(const Robot& robot, std::span<const std::string> variables,
                        std::vector<TrajectoryPoint> points, std::span<const double> start)
-    : points_(std::move(points)), start_(start.begin(), start.end()) {
+    : robot_(robot), points_(std::move(points)), start_(start.begin(), start.end()) {
   if (start.size() != robot.variables().size())
     throw std::invalid_argument("a trajectory's start has " + std::to_string(start.size()) +
                                 " values; the robot has " +

@@ -36,6 +36,7 @@ class Trajectory {
   Trajectory(const Robot& robot, std::span<const std::string> variables,
              std::vector<TrajectoryPoint> points, std::span<const double> start);
 
+  [[nodiscard]] const Robot& robot() const { return robot_; }
   [[nodiscard]] double duration() const { return points_.back().time; }  ///< seconds
   [[nodiscard]] std::span<const TrajectoryPoint> points() const { return points_; }
 
@@ -67,6 +68,7 @@ class Trajectory {
   void append_limits(const Joint& joint, std::size_t i, std::vector<std::string>& lines) const;
   [[nodiscard]] std::string slow_line(const Robot& robot) const;
 
+  Robot robot_;
   std::vector<std::optional<std::size_t>> variables_;  // null: mimics
   std::vector<TrajectoryPoint> points_;
   std::vector<double> start_;

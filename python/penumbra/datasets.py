@@ -28,9 +28,10 @@ from penumbra import (
     FrameStatus,
     InputError,
     JointType,
-    Pipeline,
     PipelineConfig,
     Robot,
+    RobotPose,
+    Session,
     batch,
     dataset_yaml,
     mask_files,
@@ -226,14 +227,16 @@ class Dataset:
         for t, joints in enumerate(episode.joints):
             image = episode.depth(t) if depth and episode.depth else None
             pose = episode.pose if episode.pose.ndim == 2 else episode.pose[t]
-            report = self._pipeline.process(Frame(image, joints, T_parent_camera=pose))
+            report = self._session.process(
+                Frame(image, RobotPose(positions=joints, T_parent_camera=pose))
+            )
             if report.status not in pose_is_known:
                 raise InputError(f"frame {t}: {report.status.value}: {report.message}")
             yield report
 
     @functools.cached_property
-    def _pipeline(self) -> Pipeline:
-        return Pipeline(self.robot, self.camera, self.config)
+    def _session(self) -> Session:
+        return Session(self.robot, self.camera, self.config)
 
     def _joints(self, columns: NDArray[Any]) -> NDArray[np.float64]:
         if columns.ndim != 2:

@@ -16,21 +16,25 @@ from numpy.typing import ArrayLike, NDArray
 from penumbra import (
     Camera,
     Frame,
+    FrameStatus,
+    Input,
     InputError,
     JointAnswer,
     LabelRule,
     PipelineConfig,
-    Recording,
     Robot,
     RobotOptions,
+    RobotPose,
+    pose_of,
     read_pose_csv,
     write_png,
 )
+from penumbra import open as open_input
 
 PathLike = Union[str, "os.PathLike[str]"]
 Depth = Union["NDArray[np.uint16]", "NDArray[np.float32]"]
 Color = NDArray[np.uint8]
-Joints = Union[None, JointAnswer, Dict[str, float], ArrayLike]
+Joints = Union[None, RobotPose, JointAnswer, Dict[str, float], ArrayLike]
 
 rule_keys = ("front_min_width", "edge_margin", "fringe_reach", "beyond_factor")
 far_enough = 1e9  # metres: a range in a recording has two finite ends
@@ -58,7 +62,7 @@ class Recorder:
         *,
         targets: Optional[PathLike] = None,
     ) -> None:
-        """folder: new or empty. robot, camera, config: as of Pipeline; the robot comes from a file.
+        """folder: new or empty. robot, camera, config: as of Session; the robot comes from a file.
         targets: a targets.yaml. Raises InputError."""
         config = config or PipelineConfig()
         parent = config.camera_parent or robot.links[0]
@@ -107,15 +111,16 @@ class Recorder:
     ) -> int:
         """Writes a frame and returns its number.
 
-        depth, joints, stamp: as of Frame. All depth images have one dtype, and all frames a stamp
+        depth, stamp: as of Frame; joints: as of pose_of(). All depth images have one dtype, and all frames a stamp
         or none. A frame without depth image or valid positions is recorded as such. color: uint8
         (H, W, 3), red, green, blue, of the depth image's size.
 
-        Raises what Frame and Pipeline.process raise, ValueError for what does not fit the earlier
+        Raises what Frame, pose_of() and Session.process raise, ValueError for what does not fit the earlier
         frames, and InputError or OSError if it cannot be written.
         """
-        frame = Frame(depth, joints, stamp=stamp)
-        positions = frame.positions(self._robot)
+        frame = Frame(depth, pose_of(self._robot, joints), stamp=stamp)
+        is_known = frame.pose.status is FrameStatus.ok and len(frame.pose.positions)
+        positions = frame.pose.positions if is_known else None
         self._check(depth, color, frame.stamp)
         number, self._count = self._count, self._count + 1
         parts = []
@@ -214,7 +219,7 @@ def from_arrays(
     stamps: Optional[Sequence[int]] = None,
     *,
     targets: Optional[PathLike] = None,
-) -> Recording:
+) -> Input:
     """Writes a whole sequence as Recorder does, and opens it.
 
     depths, joints, colors, stamps: one for each frame, as arrays with the frames along the first
@@ -235,7 +240,7 @@ def from_arrays(
                 depths[i], joints[i], None if colors is None else colors[i],
                 None if stamps is None else stamps[i],
             )  # fmt: skip
-    return Recording.open(folder)
+    return open_input(folder, color=colors is not None)
 
 
 def _scalar(value: object) -> str:

@@ -121,7 +121,7 @@ def write_bag(file, given, frames, urdf_text, parent):
     bag.write("/tf_static", "tf2_msgs/msg/TFMessage", start,
               static_transform(parent, frame_id, given.config.T_parent_camera, start))
     for frame in frames:
-        joints = joint_state(given.robot.variables, frame.frame.joints, frame.stamp)
+        joints = joint_state(given.robot.variables, frame.pose.positions, frame.stamp)
         bag.write("/joint_states", "sensor_msgs/msg/JointState", frame.stamp, joints)
         camera = "/camera/camera/depth/"
         bag.write(camera + "camera_info", "sensor_msgs/msg/CameraInfo", frame.stamp,

@@ -42,10 +42,10 @@ def template(tmp_path_factory):
         (folder / name).write_text(json.dumps([box]))
     for name in ("targets.yaml", "wrist.csv", "camera_info.yaml", "camera_pose.csv", "joint_states.csv"):
         shutil.copy(SHIPPED / name, folder)
-    given = penumbra.open_input(SHIPPED)
-    pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
+    given = penumbra.open(SHIPPED)
+    session = penumbra.Session(given.robot, given.camera, given.config)
     for i, frame in enumerate(given):
-        mask = pipeline.process(frame.frame).robot_mask
+        mask = session.process(frame).robot_mask
         penumbra.write_png(folder / "my_recording" / f"mask_{i}.png", mask.astype(np.uint8))
     write_bag(folder / "recording.mcap", given, list(given), urdf, "base_link")
     return folder

@@ -122,7 +122,7 @@ def read_targets(text, work):
     mask[100:200, 100:200] = 255
     (work / "masks").mkdir()
     Image.fromarray(mask).save(work / "masks" / "000000.png")
-    given = penumbra.open_input(work / "my_recording")
+    given = penumbra.open(work / "my_recording")
     images = penumbra.Intrinsics(width, height, 900, 900, 640, 360)
     return penumbra.TargetsFile.open(
         work / "shown.yaml", robot=given.robot, image=penumbra.ImageSpace.raw, images=images,
@@ -163,7 +163,7 @@ def test_yaml_is_read(block, work, environment):
         assert len(read_targets(block.text, work)) == len(shown["targets"])
         return
     camera = next(iter(shown.get("cameras", [""])))
-    given = penumbra.open_input(recording_of(block.text, work), camera=camera)
+    given = penumbra.open(recording_of(block.text, work), camera=camera)
     prefix = "left/" if "robots" in shown else ""
     assert len(list(given)) == 12 and given.robot.find_link(prefix + "forearm_link")
 

@@ -33,16 +33,14 @@ class Opened:
     """A recording with all that judges its frames."""
 
     def __init__(self, folder, color=False, **config):
-        self.recording = penumbra.Recording.open(folder)
-        self.robot = self.recording.load_robot()
-        self.frames = penumbra.FrameReader(self.recording, self.robot, color=color)
-        self.camera = self.recording.camera.camera
-        self.config = self.recording.pipeline_config().replace(**config)
-        self.pipeline = penumbra.Pipeline(self.robot, self.camera, self.config)
+        self.frames = penumbra.open(folder, color=color)
+        self.robot, self.camera = self.frames.robot, self.frames.camera
+        self.config = self.frames.config.replace(**config)
+        self.session = penumbra.Session(self.robot, self.camera, self.config)
 
     def targets(self):
-        return penumbra.TargetsFile.open(self.recording.targets, robot=self.robot, image=self.config.image,
-                                         images=self.pipeline.intrinsics, has_distortion=False, beyond_hides=True)
+        return penumbra.TargetsFile.open(self.frames.targets, robot=self.robot, image=self.config.image,
+                                         images=self.session.intrinsics, has_distortion=False, beyond_hides=True)
 
 
 @pytest.fixture

@@ -6,8 +6,8 @@ import numpy as np
 import penumbra
 from conftest import refuses, SHIPPED
 
-GIVEN = penumbra.open_input(SHIPPED)
-FRAMES = [frame.frame for frame in GIVEN]
+GIVEN = penumbra.open(SHIPPED)
+FRAMES = list(GIVEN)
 TRUTH = GIVEN.config.T_parent_camera
 ROUGH = TRUTH.copy()
 ROUGH[:3, 3] += [0.05, -0.04, 0.04]
@@ -39,8 +39,8 @@ def test_faults_are_told():
 
 
 def test_masks_alone_are_enough():
-    pipeline = penumbra.Pipeline(GIVEN.robot, GIVEN.camera, GIVEN.config)
-    masks = [pipeline.process(frame).robot_mask.astype(np.uint8) for frame in FRAMES]
+    session = penumbra.Session(GIVEN.robot, GIVEN.camera, GIVEN.config)
+    masks = [session.process(frame).robot_mask.astype(np.uint8) for frame in FRAMES]
     frames = [frame.replace(depth=None) for frame in FRAMES]
     found = calibrated(frames, ROUGH, masks=masks)
     assert found.is_good
@@ -54,7 +54,7 @@ def test_masks_alone_are_enough():
 def test_the_time_between_images_and_joints():
     late = 0.03  # seconds: the stamps of the images
     stamps = [frame.stamp for frame in FRAMES]
-    joints = np.array([frame.joints for frame in FRAMES])
+    joints = np.array([frame.pose.positions for frame in FRAMES])
     motion = [
         penumbra.Frame(None, [np.interp(t, stamps, one) for one in joints.T], stamp=t)
         for t in range(stamps[0], stamps[-1] + 1, 20_000_000)

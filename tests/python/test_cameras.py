@@ -25,21 +25,21 @@ def folder(tmp_path):
 
 
 def test_a_recording_of_several_cameras_wants_a_name(folder):
-    refuses("left, right", lambda: penumbra.open_input(folder))
-    assert len(penumbra.open_input(folder, camera="right")) == 12
+    refuses("left, right", lambda: penumbra.open(folder))
+    assert len(penumbra.open(folder, camera="right")) == 12
 
 
 def test_targets_are_fused(folder):
-    given = [penumbra.open_input(folder, camera=name) for name in ("left", "right")]
-    pipelines = [penumbra.Pipeline(one.robot, one.camera, one.config) for one in given]
+    given = [penumbra.open(folder, camera=name) for name in ("left", "right")]
+    sessions = [penumbra.Session(one.robot, one.camera, one.config) for one in given]
     fusion = penumbra.TargetFusion([
         penumbra.ViewCamera(name, one.camera.intrinsics, one.config.rule.tolerance)
         for name, one in zip(("left", "right"), given)])
     box = penumbra.PixelBox(460, 172, 38, 98)
     target = penumbra.Target("cylinder", penumbra.RegionTarget(box, expected_depth=1.87), depth_margin=0.10)
-    frames = [one[0].frame for one in given]
-    reports = [pipelines[0].process(frames[0].replace(targets=[target])),
-               pipelines[1].process(frames[1].replace(targets=[target]))]
+    frames = [one[0] for one in given]
+    reports = [sessions[0].process(frames[0].replace(targets=[target])),
+               sessions[1].process(frames[1].replace(targets=[target]))]
     for i, report in enumerate(reports):
         fusion.add(i, report)
     (fused,) = fusion.fused()

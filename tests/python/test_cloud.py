@@ -55,7 +55,7 @@ def test_a_depth_image_as_a_cloud_has_the_labels_of_the_image():
     cloud = penumbra.CloudLabeller(opened.robot.bodies, penumbra.CloudRule(tolerance=rule.tolerance, beam=0))
     same = total = 0
     for recorded in opened.frames:
-        report = opened.pipeline.process(recorded.frame)
+        report = opened.session.process(recorded)
         depth = np.asarray(recorded.depth, np.float64) * 1e-3
         v, u = np.nonzero(depth)
         rays = np.array([opened.camera.intrinsics.ray(a, b) for a, b in zip(u[::50], v[::50])])

@@ -17,10 +17,10 @@ BAG_OPTIONS = penumbra.BagOptions(packages=PACKAGES)
 
 def judged(folder):
     """Reports and copies of the images of every frame, as a user of the module gets them."""
-    given = penumbra.open_input(folder, bag=BAG_OPTIONS if folder == BAG else None)
-    pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
+    given = penumbra.open(folder, bag=BAG_OPTIONS if folder == BAG else None)
+    session = penumbra.Session(given.robot, given.camera, given.config)
     for frame in given:
-        report = pipeline.process(frame.frame)
+        report = session.process(frame)
         yield report, report.labels.copy(), report.virtual_depth.copy(), report.link_image.copy()
 
 
@@ -74,7 +74,7 @@ def test_targets_are_judged_alike(tmp_path):
     file = opened.targets()
     verdicts = set()
     for frame, expected in zip(opened.frames, told, strict=True):
-        report = opened.pipeline.process(frame.frame.replace(targets=file.of_frame(frame.index)))
+        report = opened.session.process(frame.replace(targets=file.of_frame(frame.index)))
         assert len(report.targets) == len(expected["targets"]) == 4
         for target, of in zip(report.targets, expected["targets"]):
             check_target(of, target)
@@ -83,7 +83,7 @@ def test_targets_are_judged_alike(tmp_path):
 
 
 def test_an_input_is_what_run_takes():
-    given = penumbra.open_input(SHIPPED, color=True, frames=(2, 5))
+    given = penumbra.open(SHIPPED, color=True, frames=(2, 5))
     frames = list(given)
     assert [frame.index for frame in frames] == [2, 3, 4]
     assert frames[0].color.shape == (480, 640, 3) and given.targets.name == "targets.yaml"
@@ -94,12 +94,14 @@ def test_an_input_is_what_run_takes():
 
 def test_a_bag_tells_what_is_taken_of_it():
     skip_without_data()
-    given = penumbra.open_input(BAG, color=True, bag=BAG_OPTIONS)
+    given = penumbra.open(BAG, color=True, bag=BAG_OPTIONS)
     assert any(line.startswith("depth: /camera/") for line in given.messages)
     frames = iter(given)
     first = next(frames)
     assert first.depth.shape == first.color.shape[:2] == (720, 1280)
-    assert first.frame.joint_age is not None and frames.notes == ()
+    assert first.pose.age is not None and frames.notes == ()
+    colors = first.color.copy()
+    assert len(list(frames)) > 3 and np.array_equal(first.color, colors), "it is not overwritten"
 
 
 def test_python_m_penumbra_is_the_command_line(tmp_path):

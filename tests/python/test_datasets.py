@@ -31,7 +31,7 @@ def arm():
 @pytest.fixture(scope="module")
 def joints(arm):
     """Of the shipped recording, radians and metres."""
-    return np.array([frame.frame.joints for frame in arm.frames])[:5]
+    return np.array([frame.pose.positions for frame in arm.frames])[:5]
 
 
 @pytest.fixture(scope="module")
@@ -284,7 +284,7 @@ def test_prompts_lie_on_the_robot_of_real_images(recording):
         file = DATA / recording / f"robot_mask_{frame.index}.png"
         if file.exists():
             mask = read_png(file) > 0
-            report = real.pipeline.process(penumbra.Frame(None, frame.frame.joints))
+            report = real.session.process(penumbra.Frame(None, frame.pose.positions))
             for prompt in mask_files.prompts(report.link_image.astype(np.uint8)).values():
                 inside += [mask[v, u] for u, v in prompt["points"]]
     print(f"{recording}: {np.mean(inside):.4f} of {len(inside)} points")
@@ -465,7 +465,7 @@ def test_clouds_are_the_pipelines_without_the_robot(kind, arm, joints, tmp_path)
     to_camera = np.linalg.inv(arm.config.T_parent_camera)
     for t, frame in enumerate(frames):
         image = (frame.depth / 1000).astype(np.float32) if kind == "metres" else frame.depth
-        report = arm.pipeline.process(penumbra.Frame(image, frame.frame.joints))
+        report = arm.session.process(penumbra.Frame(image, frame.pose.positions))
         whole, mask = report.points("base_link", frame.color), np.pad(report.robot_mask, 1)
         chosen = np.hstack([clouds["points"][t], clouds["colors"][t]]).astype(float)
         known = {row.tobytes() for row in np.hstack([whole.points, whole.colors]).astype(float)}
@@ -485,7 +485,7 @@ def test_clouds_are_the_pipelines_without_the_robot(kind, arm, joints, tmp_path)
 
 def test_few_points_are_repeated_and_none_are_zeros(arm, joints, tmp_path):
     frame = arm.frames[0]
-    report = arm.pipeline.process(frame.frame)
+    report = arm.session.process(frame)
     options = datasets.CloudOptions(crop=((-9, -9, 0), (9, 9, 9)), voxel=0.5, points=500)
     made = mask_files.cloud(report, options)
     few = len(np.unique(made["points"], axis=0))

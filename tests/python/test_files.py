@@ -37,7 +37,7 @@ def recording(tmp_path):
 
 
 def frames_of(folder):
-    return [given.frame.depth for given in penumbra.open_input(folder)]
+    return [given.depth for given in penumbra.open(folder)]
 
 
 def judge(folder, status=0):
@@ -91,7 +91,7 @@ def test_a_jpeg_is_a_colour_image(recording, images):
     folder = recording(color="color/%d.jpg")
     for i, color in enumerate(images[1]):
         Image.fromarray(color).save(folder / f"color/{i}.jpg", quality=95)
-    for given, color in zip(penumbra.open_input(folder, color=True), images[1], strict=True):
+    for given, color in zip(penumbra.open(folder, color=True), images[1], strict=True):
         assert np.abs(given.color.astype(int) - color).mean() < 3  # what JPEG of this quality loses
 
 
@@ -107,8 +107,7 @@ def test_a_video_gives_frames_in_any_order(recording, images):
     # Pictures between key frames, shown in another order than they are stored.
     ffmpeg("-framerate", 29.97, "-i", SHIPPED / "color/%d.png", "-c:v", "libx264", "-g", 5, "-bf", 2,
            "-pix_fmt", "yuv420p", "-crf", 5, folder / "color.mp4")
-    opened = penumbra.Recording.open(folder)
-    frames = penumbra.FrameReader(opened, opened.load_robot(), color=True)
+    frames = penumbra.open(folder, color=True)
     for i in [0, 7, 3, 11, 10, 1, 6, 5, 4]:
         off = [np.abs(frames[i].color.astype(int) - color).mean() for color in images[1]]
         assert np.argmin(off) == i
@@ -196,13 +195,12 @@ def folder(tmp_path):
 def test_init_finds_what_a_recording_has(folder):
     told = run("init", folder).stdout
     assert "penumbra run" in told and "parent" in told
-    made, shipped = penumbra.Recording.open(folder), penumbra.Recording.open(SHIPPED)
-    assert made.camera.parent == shipped.camera.parent
-    for ours, theirs in zip(penumbra.open_input(folder, color=True), penumbra.open_input(SHIPPED, color=True),
-                            strict=True):
-        np.testing.assert_array_equal(ours.frame.depth, theirs.frame.depth)
+    made, shipped = (penumbra.open(each, color=True) for each in (folder, SHIPPED))
+    assert made.config.camera_parent == shipped.config.camera_parent
+    for ours, theirs in zip(made, shipped, strict=True):
+        np.testing.assert_array_equal(ours.depth, theirs.depth)
         np.testing.assert_array_equal(ours.color, theirs.color)
-        assert ours.frame.stamp == theirs.frame.stamp
+        assert ours.stamp == theirs.stamp
     assert "--force" in run("init", folder, status=2).stderr
     run("init", folder, "--force")
 

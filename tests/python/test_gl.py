@@ -48,12 +48,12 @@ def test_labels_are_the_cpus(folder, opengl):
     if folder != SHIPPED:
         skip_without_data()
     cpu, gl = Opened(folder, backend=Backend.cpu), Opened(folder, backend=Backend.gl)
-    assert gl.pipeline.renderer.backend is Backend.gl
-    assert opengl.name in gl.pipeline.renderer.device
+    assert gl.session.renderer.backend is Backend.gl
+    assert opengl.name in gl.session.renderer.device
     robot = other_surface = other_label = 0
     for frame in cpu.frames:
-        labels, depth, links = images(cpu.pipeline.process(frame.frame))
-        gl_labels, gl_depth, gl_links = images(gl.pipeline.process(frame.frame))
+        labels, depth, links = images(cpu.session.process(frame))
+        gl_labels, gl_depth, gl_links = images(gl.session.process(frame))
         alike = (links == gl_links) & (abs(gl_depth - depth) <= DEPTH * depth)
         robot += np.count_nonzero(links)
         other_surface += np.count_nonzero(~alike)

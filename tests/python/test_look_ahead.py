@@ -14,8 +14,9 @@ MOTION = ROOT / "examples" / "look_ahead" / "sweep_left.csv"
 
 class Cell:
     def __init__(self):
-        self.given = penumbra.open_input(SHIPPED)
-        self.start = self.given[0].frame
+        self.given = penumbra.open(SHIPPED)
+        self.frame = self.given[0]
+        self.start = self.frame.pose
         self.camera = penumbra.ForecastCamera(
             "cell", self.given.camera, parent=self.given.config.camera_parent,
             T_parent_camera=self.given.config.T_parent_camera, rule=self.given.config.rule)
@@ -76,18 +77,18 @@ def test_a_target_moves_with_its_velocity(cell):
 
 
 def test_reports_of_frames_have_forecasts_of_their_plan(cell):
-    pipeline = penumbra.Pipeline(cell.given.robot, cell.given.camera, cell.given.config)
-    frame = cell.start.replace(targets=[cell.lid])
-    assert pipeline.process(frame).targets[0].forecast == ()
+    session = penumbra.Session(cell.given.robot, cell.given.camera, cell.given.config)
+    frame = cell.frame.replace(targets=[cell.lid])
+    assert session.process(frame).targets[0].forecast == ()
     motion = cell.motion()
-    told = pipeline.process(frame.replace(plan=motion)).targets[0].forecast
+    told = session.process(frame.replace(plan=motion)).targets[0].forecast
     (expected,) = cell.ahead(clearance=0, step=0.05).along(motion)
     assert told[0].begin == 0 and told[-1].end == pytest.approx(2.0)  # it looks 2 s ahead
     hidden = [each for each in told if each.verdict is penumbra.Verdict.hidden]
     assert hidden[0].begin == pytest.approx(expected.any.hidden_at, abs=0.02)
-    off = frame.joints.copy()
+    off = frame.pose.positions.copy()
     off[1] += 0.5
-    (none,) = pipeline.process(frame.replace(plan=motion, joints=off)).targets[0].forecast
+    (none,) = session.process(frame.replace(plan=motion, pose=off)).targets[0].forecast
     assert none.verdict is penumbra.Verdict.unknown and "not on the planned motion" in none.reason
 
 
@@ -101,5 +102,5 @@ def test_a_trajectory_has_its_faults(cell):
     refuses("positions", lambda: penumbra.Trajectory(cell.given.robot, cell.joints, [0, 1], [[0, 0]], cell.start),
             ValueError)
     refuses("joint positions", lambda: penumbra.LookAhead(cell.given.robot, [cell.camera], [cell.lid],
-                                                          penumbra.Frame(None, None)))
+                                                          penumbra.RobotPose()))
     refuses("positions", lambda: cell.ahead().visibility([[0.0]]), ValueError)

@@ -15,13 +15,13 @@ from conftest import address, only_in_full, Opened, refuses, run_python, SHIPPED
 
 def test_nothing_is_copied_on_the_way_in(opened):
     frame = opened.frames[4]
-    assert frame.frame.depth is frame.depth
+    assert address(frame.depth) == address(frame.depth)
     depth = frame.depth.copy()
-    given = frame.frame.replace(depth=depth)
-    assert given.depth is depth
-    before = opened.pipeline.process(given).pixels.unknown
+    given = frame.replace(depth=depth)
+    assert address(given.depth) == address(depth)
+    before = opened.session.process(given).pixels.unknown
     depth[:] = 0  # the frame looks at this very array
-    report = opened.pipeline.process(given)
+    report = opened.session.process(given)
     assert report.status is penumbra.FrameStatus.bad_depth
     assert report.pixels.unknown == depth.size > report.pixels.robot > before
 
@@ -30,8 +30,8 @@ def test_masks_are_not_copied(opened):
     mask = np.zeros((480, 640), bool)
     target = penumbra.Target("t", penumbra.RegionTarget(penumbra.PixelMask(mask)))
     mask[100:120, 100:120] = True
-    frame = opened.frames[0].frame.replace(targets=[target])
-    assert opened.pipeline.process(frame).targets[0].judgement.covered == 400
+    frame = opened.frames[0].replace(targets=[target])
+    assert opened.session.process(frame).targets[0].judgement.covered == 400
     kept = penumbra.PixelMask(mask).mask
     assert kept.dtype == np.uint8 and address(kept) == address(mask)
 
@@ -41,12 +41,12 @@ def test_arrays_stay_as_they_are(opened):
     alone = Opened(SHIPPED)
     kept = []
     for frame in opened.frames:
-        report = opened.pipeline.process(frame.frame)
+        report = opened.session.process(frame)
         labels = report.labels
         assert report.labels is labels and not labels.flags.writeable
         kept.append((labels, report.virtual_depth[10:20, ::2].T, report.link_image, report))
     for frame, (labels, depth, links, report) in zip(alone.frames, kept, strict=True):
-        expected = alone.pipeline.process(frame.frame)
+        expected = alone.session.process(frame)
         assert np.array_equal(labels, expected.labels)
         assert np.array_equal(depth, expected.virtual_depth[10:20, ::2].T)
         assert np.array_equal(links, expected.link_image)
@@ -54,9 +54,9 @@ def test_arrays_stay_as_they_are(opened):
 
 
 def test_old_reports_keep_their_numbers_and_give_no_unread_images(opened):
-    old = opened.pipeline.process(opened.frames[0].frame)
+    old = opened.session.process(opened.frames[0])
     robot, poses = old.pixels.robot, old.T_root_link.copy()
-    opened.pipeline.process(opened.frames[8].frame)
+    opened.session.process(opened.frames[8])
     assert old.pixels.robot == robot and old.index == 0
     assert np.array_equal(old.T_root_link, poses)
     refuses("another frame since.*frame 0", lambda: old.labels, ValueError)
@@ -66,7 +66,7 @@ def test_stages_give_arrays_that_stay(opened):
     renderer = penumbra.Renderer(penumbra.Backend.cpu, opened.camera.intrinsics, opened.robot.bodies)
     classifier = penumbra.Classifier(640, 480, penumbra.LabelRule())
     registration = penumbra.DepthRegistration(opened.camera, opened.camera)
-    poses = opened.pipeline.process(opened.frames[0].frame)
+    poses = opened.session.process(opened.frames[0])
     poses = np.linalg.inv(poses.T_root_camera) @ poses.T_root_link
     shown = renderer.render(poses)
     labelled = classifier.classify(shown, opened.frames[0].depth)
@@ -90,9 +90,9 @@ def test_stages_give_arrays_that_stay(opened):
 def test_arrays_outlive_their_owners():
     opened = Opened(SHIPPED, color=True)
     recorded = opened.frames[3]
-    report = opened.pipeline.process(recorded.frame)
+    report = opened.session.process(recorded)
     arrays = [recorded.depth, recorded.color, report.labels, report.virtual_depth, report.T_root_link,
-              opened.robot.meshes(1)[0].vertices, recorded.frame.joints]
+              opened.robot.meshes(1)[0].vertices, recorded.pose.positions]
     sums = [array.astype(float).sum() for array in arrays]
     gone = weakref.ref(opened)
     del opened, recorded, report
@@ -112,9 +112,9 @@ def test_targets_of_a_file_are_values(opened):
     file = opened.targets()
     first = file.of_frame(0)
     assert [t.name for t in first] == ["cube", "cylinder", "lid", "wrist"] and len(file) == 4
-    frame = opened.frames[0].frame.replace(targets=first)
+    frame = opened.frames[0].replace(targets=first)
     file.of_frame(1)
-    assert len(opened.pipeline.process(frame).targets) == 4
+    assert len(opened.session.process(frame).targets) == 4
 
 
 SLOW = dict(backend=penumbra.Backend.reference)
@@ -122,7 +122,7 @@ SLOW = dict(backend=penumbra.Backend.reference)
 
 def test_other_threads_run_while_a_frame_is_judged():
     opened = Opened(SHIPPED, **SLOW)
-    frame = opened.frames[0].frame
+    frame = opened.frames[0]
     ticks, done = [0], threading.Event()
 
     def tick():
@@ -134,7 +134,7 @@ def test_other_threads_run_while_a_frame_is_judged():
     moved = 0
     for _ in range(200):  # one call holds the interpreter throughout, or it does not
         before = ticks[0]
-        opened.pipeline.process(frame)
+        opened.session.process(frame)
         moved += ticks[0] > before
     done.set()
     thread.join()
@@ -149,7 +149,7 @@ def in_threads(count, work):
 
 def test_a_second_thread_is_refused():
     opened = Opened(SHIPPED, **SLOW)
-    frame = opened.frames[0].frame
+    frame = opened.frames[0]
     refused = []
 
     def judge():
@@ -157,7 +157,7 @@ def test_a_second_thread_is_refused():
             if refused:
                 break
             try:
-                opened.pipeline.process(frame)
+                opened.session.process(frame)
             except ValueError as error:
                 refused.append(str(error))
 
@@ -166,13 +166,13 @@ def test_a_second_thread_is_refused():
 
 
 def test_many_pipelines_in_many_threads(shipped):
-    expected = [shipped.pipeline.process(frame.frame).labels.copy() for frame in shipped.frames]
+    expected = [shipped.session.process(frame).labels.copy() for frame in shipped.frames]
     wrong = []
 
     def judge():
         own = Opened(SHIPPED)
         for frame, labels in zip(shipped.frames, expected):
-            if not np.array_equal(own.pipeline.process(frame.frame).labels, labels):
+            if not np.array_equal(own.session.process(frame).labels, labels):
                 wrong.append(frame.index)
 
     in_threads(4, judge)
@@ -195,7 +195,7 @@ print(*peaks)
 def test_data_sets_take_the_same_memory_for_more_frames(tmp_path):
     pytest.importorskip("h5py"), pytest.importorskip("av")
     from test_datasets import describe, recorded, write_h5
-    joints = np.array([frame.frame.joints for frame in penumbra.open_input(SHIPPED)])[:5]
+    joints = np.array([frame.pose.positions for frame in penumbra.open(SHIPPED)])[:5]
     files = [write_h5(tmp_path / f"{n}.h5", {"qpos": np.resize(recorded(joints), (n, 7))}) for n in (50, 2000)]
     first, last = map(int, run_python("-c", MEMORY, describe(tmp_path), *files, tmp_path / "out").stdout.split())
     assert last - first < 50_000, f"{last - first} kB"

@@ -65,7 +65,7 @@ def test_arrays_that_were_pickled_are_taken():
 # A valid array and a call of it for each kind of argument.
 CASES = {
     "joints": (np.zeros(7), lambda x: penumbra.Frame(GOOD, x)),
-    "poses": (np.stack([POSE] * 11), lambda x: penumbra.Frame(GOOD, None, T_root_link=x)),
+    "poses": (np.stack([POSE] * 11), lambda x: penumbra.RobotPose(T_root_link=x)),
     "pose": (POSE, lambda x: penumbra.PipelineConfig(T_parent_camera=x)),
     "point": (POINT, lambda x: penumbra.PointTarget(x)),
     "estimate": (POINT, lambda x: penumbra.TargetEstimate(x)),
@@ -90,9 +90,9 @@ def test_other_arrays_are_taken():
         """A subclass without a mask."""
 
     for joints in (np.zeros(7).view(Own), [np.float32(0)] * 7, (0,) * 7, np.zeros(7, np.int32)):
-        assert np.array_equal(penumbra.Frame(GOOD, joints).joints, np.zeros(7))
+        assert np.array_equal(penumbra.Frame(GOOD, joints).pose.positions, np.zeros(7))
     poses = [POSE, POSE.astype(np.float32).tolist()]
-    assert np.array_equal(penumbra.Frame(GOOD, None, T_root_link=poses).T_root_link, [POSE, POSE])
+    assert np.array_equal(penumbra.RobotPose(T_root_link=poses).T_root_link, [POSE, POSE])
 
 
 def test_enumerations_have_all_values_of_the_headers():
@@ -114,28 +114,29 @@ def test_enumerations_have_all_values_of_the_headers():
 
 def test_rows_may_lie_apart_and_run_upwards(opened):
     frame = opened.frames[4]
-    expected = opened.pipeline.process(frame.frame).labels.copy()
+    expected = opened.session.process(frame).labels.copy()
     apart = np.zeros((480, 700), np.uint16)
     apart[:, 30:670] = frame.depth
     upwards = np.ascontiguousarray(frame.depth[::-1])[::-1]
     for same in (apart[:, 30:670], upwards):
-        assert np.array_equal(opened.pipeline.process(frame.frame.replace(depth=same)).labels, expected)
+        assert np.array_equal(opened.session.process(frame.replace(depth=same)).labels, expected)
 
 
 def test_images_of_another_size_raise(opened):
     for wrong, says in ((GOOD[:10].copy(), ""), (GOOD[:, :10].copy(), ""),
                         (np.zeros((640, 480), np.float32), "transposed")):
         with pytest.raises(ValueError, match=says) as raised:
-            opened.pipeline.process(opened.frames[0].frame.replace(depth=wrong))
+            opened.session.process(opened.frames[0].replace(depth=wrong))
         assert "(480, 640)" in str(raised.value) and str(wrong.shape) in str(raised.value)
-    assert opened.pipeline.process(opened.frames[0].frame).status is penumbra.FrameStatus.ok
+    assert opened.session.process(opened.frames[0]).status is penumbra.FrameStatus.ok
 
 
 BAD_CALLS = [
-    (lambda o: o.pipeline.process(None), TypeError, "penumbra.Frame"),
-    (lambda o: o.pipeline.process(o.frames[0].frame.replace(joints=[0, 0])), ValueError, "expected 7 positions"),
-    (lambda o: o.pipeline.process(o.frames[0].frame.replace(uncertain_links=[11])), penumbra.InputError, "below 11"),
-    (lambda o: penumbra.Pipeline(None, o.camera), TypeError, "penumbra.Robot"),
+    (lambda o: o.session.process(None), TypeError, "penumbra.Frame"),
+    (lambda o: o.session.process(o.frames[0].replace(pose=[0, 0])), ValueError, "expected 7 positions"),
+    (lambda o: o.session.process(penumbra.Frame(None, o.frames[0].pose.replace(uncertain_links=[11]))),
+     penumbra.InputError, "below 11"),
+    (lambda o: penumbra.Session(None, o.camera), TypeError, "penumbra.Robot"),
     (lambda o: penumbra.PipelineConfig(backend="gl"), TypeError, "penumbra.Backend"),
     (lambda o: penumbra.PipelineConfig(bakend=None), TypeError, "backend"),
     (lambda o: penumbra.LabelRule(front_min_width=None), TypeError, "front_min_width: int"),
@@ -152,14 +153,15 @@ BAD_CALLS = [
     (lambda o: o.robot.forward_kinematics([float("nan")] * 7), ValueError, "+-1e9"),
     (lambda o: o.robot.meshes(99), IndexError, "below 11"),
     (lambda o: o.robot.find_variable("tail"), KeyError, "tail"),
-    (lambda o: o.frames[12], IndexError, "-12..11"),
-    (lambda o: penumbra.open_input(SHIPPED)[12], IndexError, "frame 12"),
+    (lambda o: o.frames[12], IndexError, "frame 12"),
     (lambda o: penumbra.Frame(GOOD, 1.0), ValueError, "shape (N,)"),
     (lambda o: penumbra.Frame(GOOD, [1j]), TypeError, "float64"),
+    (lambda o: penumbra.Frame(GOOD, {"elbow": 0}), TypeError, "penumbra.RobotPose"),
+    (lambda o: penumbra.Frame(GOOD, None, color=GOOD), TypeError, "(H, W, 3)"),
     (lambda o: penumbra.Frame(GOOD, None, targets=[None]), TypeError, "penumbra.Target"),
-    (lambda o: penumbra.Frame(GOOD, None, T_parent_camera=np.eye(3)), ValueError, "(4, 4)"),
-    (lambda o: penumbra.Frame(GOOD, None, T_parent_camera=np.ones((4, 4))), ValueError, "0 0 0 1"),
-    (lambda o: penumbra.Frame(GOOD, None, T_root_link=np.eye(4)), ValueError, "(N, 4, 4)"),
+    (lambda o: penumbra.RobotPose(T_parent_camera=np.eye(3)), ValueError, "(4, 4)"),
+    (lambda o: penumbra.RobotPose(T_parent_camera=np.ones((4, 4))), ValueError, "0 0 0 1"),
+    (lambda o: penumbra.RobotPose(T_root_link=np.eye(4)), ValueError, "(N, 4, 4)"),
     (lambda o: penumbra.TriangleMesh(np.zeros((3, 3)), np.zeros((1, 3), np.uint32)), TypeError,
      "float32"),
     (lambda o: penumbra.TriangleMesh(np.zeros((3, 3), np.float32), np.full((1, 3), 3, np.uint32)),
@@ -178,12 +180,11 @@ BAD_CALLS = [
      "penumbra.Verdict"),
     (lambda o: penumbra.PointTracker().update(1, [1, 2], penumbra.Verdict.visible), ValueError,
      "(3,)"),
-    (lambda o: penumbra.Recording.open("nowhere"), penumbra.InputError, "nowhere"),
-    (lambda o: penumbra.open_input("nowhere"), ValueError, "nowhere"),
-    (lambda o: penumbra.open_input(SHIPPED, bag=penumbra.BagOptions()), ValueError, "bags"),
-    (lambda o: penumbra.open_input(SHIPPED, frames=(3, 99)), ValueError, "0 to 11"),
-    (lambda o: pickle.dumps(o.pipeline), TypeError, "pickle"),
-    (lambda o: copy.copy(o.pipeline), TypeError, "pickle"),
+    (lambda o: penumbra.open("nowhere"), penumbra.InputError, "nowhere"),
+    (lambda o: penumbra.open(SHIPPED, bag=penumbra.BagOptions()), ValueError, "bags"),
+    (lambda o: penumbra.open(SHIPPED, frames=(3, 99)), ValueError, "0 to 11"),
+    (lambda o: pickle.dumps(o.session), TypeError, "pickle"),
+    (lambda o: copy.copy(o.session), TypeError, "pickle"),
     (lambda o: setattr(o.config, "backend", None), AttributeError, "no setter"),
     (lambda o: penumbra.RobotOptions(packages={"a": "/tmp"}).packages.update(b="/"), AttributeError, "update"),
 ]
@@ -219,7 +220,7 @@ def test_an_inverted_camera_pose_is_diagnosed(opened):
     pose = opened.config.T_parent_camera
     for cause, T_parent_camera in (("none", pose), ("camera_inverted", np.linalg.inv(pose))):
         config = opened.config.replace(T_parent_camera=T_parent_camera)
-        pipeline = penumbra.Pipeline(opened.robot, opened.camera, config)
+        session = penumbra.Session(opened.robot, opened.camera, config)
         for frame in opened.frames:
-            pipeline.process(frame.frame)
-        assert pipeline.diagnosis.cause == cause, pipeline.diagnosis.message
+            session.process(frame)
+        assert session.diagnosis.cause == cause, session.diagnosis.message

@@ -15,7 +15,7 @@ from conftest import read_png, refuses, run, SHIPPED
 
 @pytest.fixture(scope="module")
 def given():
-    return penumbra.open_input(SHIPPED, color=True)
+    return penumbra.open(SHIPPED, color=True)
 
 
 @pytest.fixture(scope="module")
@@ -31,7 +31,7 @@ def out(tmp_path):
 def record(out, given, frames, **options):
     with penumbra.Recorder(out, given.robot, given.camera, given.config, **options) as recorder:
         for frame in frames:
-            recorder.add(frame.depth, frame.frame.joints, color=frame.color, stamp=frame.stamp)
+            recorder.add(frame.depth, frame.pose, color=frame.color, stamp=frame.stamp)
     return out
 
 
@@ -56,20 +56,19 @@ def test_a_recording_is_judged_as_its_original(out, given, frames, tmp_path):
 def test_depth_may_be_metres(out, given, frames):
     depth = np.where(frames[0].depth == 0, np.nan, frames[0].depth / np.float32(1000)).astype(np.float32)
     with penumbra.Recorder(out, given.robot, given.camera, given.config) as recorder:
-        assert [recorder.add(depth, frames[0].frame.joints), recorder.add(depth, None)] == [0, 1]
-    back = penumbra.open_input(out)[0]
+        assert [recorder.add(depth, frames[0].pose.positions), recorder.add(depth, None)] == [0, 1]
+    back = penumbra.open(out)[0]
     assert back.depth.dtype == np.float32 and np.array_equal(back.depth, depth, equal_nan=True)
     assert back.stamp is None and not list(out.rglob("*.part"))
 
 
 def test_arrays_of_a_whole_sequence(out, given, frames):
     depths = np.stack([frame.depth for frame in frames[:3]])
-    named = [dict(zip(given.robot.variables, frame.frame.joints)) for frame in frames[:3]]
-    recording = penumbra.from_arrays(out, given.robot, given.camera, given.config, depths, named,
-                                     colors=[None, frames[1].color, None], stamps=np.arange(3))
-    read = penumbra.FrameReader(recording, given.robot, color=True)
+    named = [dict(zip(given.robot.variables, frame.pose.positions)) for frame in frames[:3]]
+    read = penumbra.from_arrays(out, given.robot, given.camera, given.config, depths, named,
+                                 colors=[None, frames[1].color, None], stamps=np.arange(3))
     assert [frame.stamp for frame in read] == [0, 1, 2]
-    assert all(np.array_equal(a.frame.joints, b.frame.joints) for a, b in zip(read, frames))
+    assert all(np.array_equal(a.pose.positions, b.pose.positions) for a, b in zip(read, frames))
     assert [frame.color is None for frame in read] == [True, False, True]
     assert np.array_equal(read[1].color, frames[1].color) and np.array_equal(read[1].depth, frames[1].depth)
     with pytest.raises(ValueError, match="'joints': 2"):
@@ -90,17 +89,17 @@ def test_setup_and_settings_are_kept(out, given, frames, tmp_path):
     rule = penumbra.LabelRule(tolerance=penumbra.Tolerance(a=0.02), fringe_reach=11, beyond_factor=1.5,
                               front_min_width=3, edge_margin=4, range=penumbra.DepthRange(near=0.1, far=4))
     config = given.config.replace(rule=rule, camera_parent="")
-    frame = frames[4].frame
+    frame = frames[4]
     with penumbra.Recorder(out, robot, camera, config) as recorder:
-        recorder.add(frame.depth, frame.joints)
-    recording = penumbra.Recording.open(out)
-    kept = recording.camera
-    assert (kept.parent, kept.range.near, kept.range.far) == ("base_link", 0.3, 4)
-    assert kept.camera.frame_id == camera.frame_id and kept.camera.intrinsics == camera.intrinsics
-    assert np.array_equal(kept.camera.distortion.coefficients, lens.coefficients)
-    assert np.array_equal(kept.T_parent_camera, config.T_parent_camera)
-    again = penumbra.Pipeline(recording.load_robot(), kept.camera, recording.pipeline_config())
-    report = penumbra.Pipeline(robot, camera, config).process(frame)
+        recorder.add(frame.depth, frame.pose)
+    read = penumbra.open(out)
+    kept = read.camera
+    assert (read.config.camera_parent, kept.range.near, kept.range.far) == ("base_link", 0.3, 4)
+    assert kept.frame_id == camera.frame_id and kept.intrinsics == camera.intrinsics
+    assert np.array_equal(kept.distortion.coefficients, lens.coefficients)
+    assert np.array_equal(read.config.T_parent_camera, config.T_parent_camera)
+    again = penumbra.Session(read.robot, kept, read.config)
+    report = penumbra.Session(robot, camera, config).process(frame)
     assert np.array_equal(again.process(frame).labels, report.labels) and report.pixels.fringe
     # All settings of the rule but those that the commands have.
     keys = {name for name, value in vars(penumbra.LabelRule).items() if isinstance(value, property)}
@@ -108,7 +107,7 @@ def test_setup_and_settings_are_kept(out, given, frames, tmp_path):
 
 
 def test_faults_of_frames_are_recorded(out, given, frames, tmp_path):
-    depth, joints = frames[0].depth, frames[0].frame.joints
+    depth, joints = frames[0].depth, frames[0].pose.positions
     unknown = penumbra.JointBuffer(given.robot).at(5)
     with penumbra.Recorder(out, given.robot, given.camera, given.config) as recorder:
         for joints_of_frame in (joints, None, [np.nan, *joints[1:]], unknown):
@@ -139,13 +138,13 @@ BAD_FRAMES = [
 
 @pytest.mark.parametrize("bad, error, says", BAD_FRAMES)
 def test_frames_that_are_no_frames_are_refused_and_not_written(out, given, frames, bad, error, says):
-    good = frames[0].depth, frames[0].frame.joints
+    good = frames[0].depth, frames[0].pose.positions
     with penumbra.Recorder(out, given.robot, given.camera, given.config) as recorder:
         recorder.add(*good)
         refuses(says, lambda: recorder.add(*bad(*good)), error)
         assert recorder.add(*good) == 1
     refuses("closed", lambda: recorder.add(*good), ValueError)
-    assert len(list(penumbra.open_input(out))) == 2
+    assert len(list(penumbra.open(out))) == 2
     assert not list(out.rglob("*.part"))
 
 
@@ -162,17 +161,17 @@ def test_setups_that_cannot_be_recorded_are_input_errors(out, given, frames, tmp
     refused("is not empty")
     (tmp_path / "file").touch()
     refused("cannot be written", folder=tmp_path / "file")
-    assert len(list(penumbra.open_input(out))) == 1
+    assert len(list(penumbra.open(out))) == 1
 
 
 LOOP = """
 import sys, penumbra
-given = penumbra.open_input(sys.argv[1], color=True)
+given = penumbra.open(sys.argv[1], color=True)
 frames = list(given)
 recorder = penumbra.Recorder(sys.argv[2], given.robot, given.camera, given.config)
 while True:
     for frame in frames:
-        print(recorder.add(frame.depth, frame.frame.joints, frame.color), flush=True)
+        print(recorder.add(frame.depth, frame.pose.positions, frame.color), flush=True)
 """
 
 
@@ -193,7 +192,8 @@ def test_png_files_hold_the_pixels(tmp_path):
     file = tmp_path / "image.png"
     random = np.random.default_rng(1)
     for image in (random.integers(0, 1 << 16, (7, 5), np.uint16), random.integers(0, 256, (7, 5), np.uint8),
-                  random.integers(0, 256, (7, 5, 3), np.uint8), random.integers(0, 256, (7, 9, 4), np.uint8)[:, ::2, :3]):
+                  random.integers(0, 256, (7, 5, 3), np.uint8), random.integers(0, 256, (7, 9, 4), np.uint8)[:, ::2, :3],
+                  np.ndarray((7, 5, 3), np.uint8, random.bytes(7 * 16), strides=(16, 3, 1))):
         penumbra.write_png(file, image)
         assert np.array_equal(read_png(file), image)
     for wrong in (np.zeros((7, 5)), np.zeros((7, 5, 4), np.uint8), np.zeros((7, 5, 3), np.uint16),

@@ -14,16 +14,17 @@ def test_robots_are_joined_and_fail_alone():
     both = penumbra.Robot.join([("a", opened.robot, np.eye(4)), ("b", opened.robot, aside)])
     assert both.links[0] == "world" and both.links[1] == "a/base_link"
     config = opened.config.replace(camera_parent="a/base_link")
-    pipeline = penumbra.Pipeline(both, opened.camera, config)
-    frame = opened.frames[0].frame
-    joints = list(frame.joints)
+    session = penumbra.Session(both, opened.camera, config)
+    frame = opened.frames[0]
+    joints = list(frame.pose.positions)
     poses = both.forward_kinematics(joints + joints)
     alone = opened.robot.forward_kinematics(joints)
     assert np.allclose(poses[1 + len(alone):], aside @ alone, atol=1e-12)
 
-    report = pipeline.process(frame.replace(joints=joints + joints))
+    report = session.process(frame.replace(pose=joints + joints))
     assert report.status == penumbra.FrameStatus.ok
     of_b = [i for i, link in enumerate(both.links) if link.startswith("b/")]
-    report = pipeline.process(frame.replace(joints=joints + joints, uncertain_links=of_b, uncertain_reason="stale"))
+    report = session.process(frame.replace(pose=penumbra.RobotPose(
+        positions=joints + joints, uncertain_links=of_b, uncertain_reason="stale")))
     assert report.status == penumbra.FrameStatus.missing_link and "b/base_link" in report.message
     refuses("name", lambda: penumbra.Robot.join([("a", opened.robot, np.eye(4)), ("a", opened.robot, aside)]))

@@ -52,7 +52,7 @@ def test_every_kind_of_region_is_judged(opened):
                penumbra.PixelMask(mask), penumbra.PixelMask(mask.astype(np.uint8)),
                penumbra.RunLengthMask(640, 480, runs), penumbra.RenderedRegion(rendered)]
     targets = [penumbra.Target(str(i), penumbra.RegionTarget(region)) for i, region in enumerate(regions)]
-    report = opened.pipeline.process(opened.frames[0].frame.replace(targets=targets))
+    report = opened.session.process(opened.frames[0].replace(targets=targets))
     assert [t.judgement.covered for t in report.targets] == 6 * [1200]
     for region in regions:
         penumbra.check_region(region, 640, 480)
@@ -80,8 +80,8 @@ def test_shapes_in_space_and_their_handling(opened):
                         handling=penumbra.PointTrackerConfig(),
                         estimate=penumbra.TargetEstimate(None)),
     ]
-    frame = opened.frames[0].frame.replace(targets=targets)
-    by_name = {t.name: t for t in opened.pipeline.process(frame).targets}
+    frame = opened.frames[0].replace(targets=targets)
+    by_name = {t.name: t for t in opened.session.process(frame).targets}
     assert by_name["box"].verdict is Verdict.visible
     assert by_name["box"].handled.source is Source.measured
     assert np.allclose(by_name["box"].handled.position, T[:3, 3])
@@ -94,5 +94,5 @@ def test_shapes_in_space_and_their_handling(opened):
     assert by_name["estimated"].handled.source is Source.lost
     for target in targets[:4]:
         target.check()
-    opened.pipeline.forget_target("box")
-    opened.pipeline.forget_targets()
+    opened.session.forget_target("box")
+    opened.session.begin_sequence()

@@ -12,9 +12,9 @@ import pathlib, sys, penumbra
 assert sys.prefix in penumbra.__file__, penumbra.__file__
 package = pathlib.Path(penumbra.__file__).parent
 assert (package / "__init__.pyi").exists() and (package / "py.typed").exists()
-given = penumbra.open_input(sys.argv[1])
-pipeline = penumbra.Pipeline(given.robot, given.camera, given.config)
-print(sum(pipeline.process(frame.frame).pixels.robot for frame in given))
+given = penumbra.open(sys.argv[1])
+session = penumbra.Session(given.robot, given.camera, given.config)
+print(sum(session.process(frame).pixels.robot for frame in given))
 """
 
 

@@ -7,7 +7,7 @@
 namespace penumbra::python {
 namespace {
 
-using State = PipelineState;
+using State = SessionState;
 
 void bind_pipeline_settings(py::module_& m) {
   py::class_<PipelineConfig> config(m, "PipelineConfig", "How frames are judged.");
@@ -26,63 +26,71 @@ void bind_pipeline_settings(py::module_& m) {
             "Seconds that frames are kept for targets of an earlier stamp; 0: not at all."});
 }
 
-std::shared_ptr<State> make_pipeline(const Robot& robot, const Camera& camera,
-                                     const PipelineConfig& config) {
+std::shared_ptr<State> make_session(const Robot& robot, const Camera& camera,
+                                    const PipelineConfig& config) {
   const py::gil_scoped_release others;
   return std::make_shared<State>(robot, camera, config);
 }
 
-Report process(const std::shared_ptr<State>& self, const OwnedFrame& frame) {
-  const OneThread::Use use(self->thread, "Pipeline.process");
-  if (frame.depth)
-    check_size(frame.depth->array, "depth", self->depth_size.width(), self->depth_size.height());
-  const Frame view = frame.view(self->session.pipeline().robot());
+Report process(const std::shared_ptr<State>& self, const Frame& frame) {
+  const OneThread::Use use(self->thread, "Session.process");
+  const Intrinsics& size = self->depth_size;
+  std::visit(
+      [&](const auto& depth) {
+        if (!depth.empty())
+          check_size("depth", depth.width, depth.height, size.width(), size.height());
+      },
+      frame.depth.view);
+  check_positions(frame.pose, self->session.pipeline().robot());
   ++self->calls;
   const FrameReport* report = nullptr;
   {
     const py::gil_scoped_release others;
-    report = &self->session.process(view);
+    report = &self->session.process(frame);
   }
-  return {self, *report, frame.depth ? py::object(frame.depth->array) : py::none()};
+  return {self, *report, frame.depth.owner};
 }
 
 AttachedBody attach_target(State& self, const Target& target, const std::string& link) {
-  const OneThread::Use use(self.thread, "Pipeline.attach_target");
+  const OneThread::Use use(self.thread, "Session.attach_target");
   return self.session.pipeline().attach_target(target, link);
 }
 
 void forget(State& self, const std::string& name) {
-  const OneThread::Use use(self.thread, "Pipeline.forget_target");
+  const OneThread::Use use(self.thread, "Session.forget_target");
   self.session.pipeline().forget_target(name);
 }
 
-void forget_all(State& self) {
-  const OneThread::Use use(self.thread, "Pipeline.forget_targets");
+void begin_sequence(State& self) {
+  const OneThread::Use use(self.thread, "Session.begin_sequence");
   self.session.begin_sequence();
 }
 
-std::vector<std::string> notes(State& self) {
-  const OneThread::Use use(self.thread, "Pipeline.notes");
-  return self.notes();
+Frozen<std::string> notes(State& self) {
+  const OneThread::Use use(self.thread, "Session.notes");
+  const auto of_robot = self.session.pipeline().robot().notes();
+  Frozen<std::string> notes{{of_robot.begin(), of_robot.end()}};
+  for (auto& line : self.session.warnings()) notes.values.push_back(line);
+  return notes;
 }
 
 }  // namespace
 
-void bind_pipeline(py::module_& m) {
+void bind_session(py::module_& m) {
   bind_pipeline_settings(m);
-  py::class_<State, std::shared_ptr<State>> pipeline(
-      m, "Pipeline",
+  py::class_<State, std::shared_ptr<State>> session(
+      m, "Session",
       "The whole method, one call per frame: poses, virtual depth, labels, targets. Serves one "
       "thread at a time; other threads run meanwhile.");
-  pipeline
-      .def(py::init(&make_pipeline), py::arg("robot"), py::arg("camera"),
+  session
+      .def(py::init(&make_session), py::arg("robot"), py::arg("camera"),
            py::arg("config") = PipelineConfig(),
            "Raises InputError for a robot without geometry, a camera parent that is no link, a "
            "pose that is not rigid, and what the parts refuse.")
       .def("process", &process, py::arg("frame"),
            "Judges one frame. Whatever is wrong with it is the report's status. Raises ValueError "
-           "for a depth image of another size than the camera's, KeyError for joint names that are "
-           "not the robot's, DeviceError if a graphics device fails.")
+           "for a depth image of another size than the camera's and for another number of joint "
+           "positions than the robot has, DeviceError if a graphics device fails.")
       .def("attach_target", &attach_target, py::arg("target"), py::arg("link"),
            "Returns a target of the last frame as the AttachedBody that `link` carries from that "
            "frame on: a BoxTarget, MeshTarget or PointTarget (its ball). Call it when the gripper "
@@ -92,23 +100,23 @@ void bind_pipeline(py::module_& m) {
            "is no 3-D shape.")
       .def("forget_target", &forget, py::arg("name"),
            "Forgets a target's verdict, extent and track: the name stands for something new.")
-      .def("forget_targets", &forget_all,
+      .def("begin_sequence", &begin_sequence,
            "Forgets all targets, the kept frames and the notes: a new sequence begins.")
       .def_property_readonly(
-          "notes", [](State& s) { return Frozen<std::string>{notes(s)}; },
+          "notes", &notes,
           "What is doubtful of the robot and of the frames so far, a line each, as `penumbra run` "
           "prints it: for example, degrees for radians or millimetres for metres.");
-  pipeline.def_property_readonly(
+  session.def_property_readonly(
       "diagnosis",
       [](State& s) {
-        const OneThread::Use use(s.thread, "Pipeline.diagnosis");
+        const OneThread::Use use(s.thread, "Session.diagnosis");
         return s.session.diagnosis();
       },
       "What is wrong with the setup, by the frames so far: the camera's pose, its intrinsics, the "
       "depth's unit, the joint positions. Takes a tenth of a second, or about a second if "
       "something "
       "looks wrong.");
-  pipeline.def_property_readonly(
+  session.def_property_readonly(
       "drift", [](const State& s) { return s.session.drift(); },
       "How far the camera has moved from its calibration, by the frames so far.");
   const auto of = [](auto member) {
@@ -116,7 +124,7 @@ void bind_pipeline(py::module_& m) {
   };
   using P = Pipeline;
   show_fields(
-      pipeline, Field{"robot", of(&P::robot), "The robot."},
+      session, Field{"robot", of(&P::robot), "The robot."},
       Field{"renderer", of(&P::renderer), "What draws."},
       Field{"triangle_count", of(&P::triangle_count), "Of all links."},
       Field{"rule", of(&P::rule), "The rule that labels are made by."},
