@@ -103,10 +103,10 @@ class SensorInput {
 
   const RobotInput& robot_;
   std::shared_ptr<SensorSetup> setup_;
-  std::string frame_;                // of the last message, TF
-  std::uint64_t camera_infos_ = 0;   // that changed the camera
-  std::size_t without_info_ = 0;     // consecutive images without camera_info
-  bool with_color_ = false;          // of the last call of next()
+  std::string frame_;               // of the last message, TF
+  std::uint64_t camera_infos_ = 0;  // that changed the camera
+  std::size_t without_info_ = 0;    // consecutive images without camera_info
+  bool with_color_ = false;         // of the last call of next()
   bool awaits_targets_ = false;
   ImageCounts counts_;
 

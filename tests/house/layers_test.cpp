@@ -24,7 +24,7 @@ const std::map<std::string, Names>& allowed_rooms() {
   static const std::string targets = poses + " tracking cloud targets";
   static const std::string frame = targets + " pipeline";
   static const Names setup = words(frame + " tuning calibration diagnosis");
-  static const Names core = words(frame + " tuning calibration diagnosis session scene");
+  static const Names core = words(frame + " tuning calibration diagnosis session planning fusion");
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", words("base")},
       {"penumbra/mesh", words("base mesh")},
@@ -42,7 +42,9 @@ const std::map<std::string, Names>& allowed_rooms() {
       {"penumbra/calibration", setup},
       {"penumbra/diagnosis", setup},
       {"penumbra/session", core},
-      {"penumbra/scene", words(frame + " scene")},
+      {"penumbra/planning",
+       words("base robot time camera render labels poses targets pipeline planning")},
+      {"penumbra/fusion", words("base camera labels pipeline fusion")},
       {"io", core},
       {"sim", core},
       {"apps", core},

@@ -10,11 +10,11 @@
 #include <variant>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/planning/camera_predictor-inl.hpp>
 #include <penumbra/robot/drawn_links-inl.hpp>
-#include <penumbra/scene/camera_predictor-inl.hpp>
 #include <penumbra/targets/extent_tally-inl.hpp>
 
-namespace penumbra::scene {
+namespace penumbra::planning {
 namespace {
 
 constexpr int outline_corners = 32;  // of an ellipse, and along each side of a distorted box
@@ -404,4 +404,4 @@ double CameraPredictor::motion_of(std::size_t body, const Sample& a, const Sampl
          std::max(nearest, DepthRenderer::near_plane);
 }
 
-}  // namespace penumbra::scene
+}  // namespace penumbra::planning

@@ -4,9 +4,9 @@
 #include <cstring>
 #include <span>
 
-#include <penumbra/scene/clearance-inl.hpp>
+#include <penumbra/planning/clearance-inl.hpp>
 
-namespace penumbra::scene {
+namespace penumbra::planning {
 
 PixelRectangle grown(const PixelRectangle& box, int by, int width, int height) {
   return overlap({box.u0 - by, box.v0 - by, box.u1 + by, box.v1 + by}, {0, 0, width, height});
@@ -132,4 +132,4 @@ double Clearance::hidden_depth(const SeenTarget& target, const PixelRectangle& w
   return std::sqrt(deepest);
 }
 
-}  // namespace penumbra::scene
+}  // namespace penumbra::planning

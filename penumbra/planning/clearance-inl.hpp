@@ -14,7 +14,7 @@
 #include <penumbra/render/pixel_rectangle.hpp>
 #include <penumbra/targets/target_visibility-inl.hpp>
 
-namespace penumbra::scene {
+namespace penumbra::planning {
 
 /// Pixels; sums of two of their squares are 16-bit numbers.
 inline constexpr int max_clearance = 127;
@@ -60,4 +60,4 @@ class Clearance {
   std::vector<std::int16_t> squares_, nearest_;  // of a row: squared distances
 };
 
-}  // namespace penumbra::scene
+}  // namespace penumbra::planning
