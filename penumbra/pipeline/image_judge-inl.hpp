@@ -10,7 +10,7 @@
 #include <penumbra/pipeline/recent_depth-inl.hpp>
 #include <penumbra/targets/target_judge.hpp>
 #include <penumbra/targets/target_stage-inl.hpp>
-#include <penumbra/targets/target_views-inl.hpp>
+#include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
 

@@ -11,8 +11,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/planning/camera_predictor-inl.hpp>
-#include <penumbra/robot/drawn_links-inl.hpp>
-#include <penumbra/targets/extent_tally-inl.hpp>
+#include <penumbra/targets/extent_tally.hpp>
 
 namespace penumbra::planning {
 namespace {

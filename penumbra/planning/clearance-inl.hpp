@@ -12,7 +12,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/render/pixel_rectangle.hpp>
-#include <penumbra/targets/target_visibility-inl.hpp>
+#include <penumbra/targets/target_visibility.hpp>
 
 namespace penumbra::planning {
 

@@ -16,7 +16,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/planning/camera_predictor-inl.hpp>
 #include <penumbra/planning/look_ahead.hpp>
-#include <penumbra/robot/drawn_links-inl.hpp>
+#include <penumbra/robot/drawn_links.hpp>
 
 namespace penumbra {
 namespace {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <bit>
 
-#include <penumbra/targets/extent_tally-inl.hpp>
-#include <penumbra/targets/trusted_depth-inl.hpp>
+#include <penumbra/targets/extent_tally.hpp>
+#include <penumbra/targets/trusted_depth.hpp>
 
 namespace penumbra {
 namespace {

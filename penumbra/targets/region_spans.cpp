@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include <penumbra/targets/region_spans-inl.hpp>
+#include <penumbra/targets/region_spans.hpp>
 
 namespace penumbra {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string_view>
 
-#include <penumbra/targets/target_visibility-inl.hpp>
+#include <penumbra/targets/target_visibility.hpp>
 
 namespace penumbra {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <penumbra/targets/trusted_depth-inl.hpp>
+#include <penumbra/targets/trusted_depth.hpp>
 
 namespace penumbra {
 namespace {

@@ -8,12 +8,10 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <type_traits>
-#include <variant>
 #include <vector>
 
-#include <penumbra/labels/label_work-inl.hpp>
-#include <penumbra/targets/region_spans-inl.hpp>
+#include <penumbra/labels/rule.hpp>
+#include <penumbra/targets/region_spans.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {
@@ -39,28 +37,6 @@ struct LimitRule {
   }
 
   float a, b, c, margin;
-};
-
-/// An image's measurements in metres; 0 where there is none.
-template <typename T>
-struct Measured {
-  Measured(ImageView<const T> of, const labelling::Rule& rule) : image(of), range(rule.range) {}
-
-  struct Row {
-    [[nodiscard]] float operator[](int u) const { return metres_of(depth[u], range); }
-    [[nodiscard]] bool is_measured(int u) const { return range.holds(depth[u]); }
-    /// The value in metres, measured or not: loops that compare it vectorise.
-    [[nodiscard]] float raw(int u) const {
-      return std::is_same_v<T, float> ? depth[u] : metres_per_millimetre * depth[u];
-    }
-
-    const T* depth;
-    MeasuredRange range;
-  };
-  [[nodiscard]] Row row(int v) const { return {image.row(v), range}; }
-
-  ImageView<const T> image;
-  MeasuredRange range;
 };
 
 /// A frame to judge targets on.

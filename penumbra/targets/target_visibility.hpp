@@ -8,10 +8,10 @@
 
 #include <Eigen/Core>
 
-#include <penumbra/targets/extent_tally-inl.hpp>
-#include <penumbra/targets/region_spans-inl.hpp>
+#include <penumbra/targets/extent_tally.hpp>
+#include <penumbra/targets/region_spans.hpp>
 #include <penumbra/targets/target_judge.hpp>
-#include <penumbra/targets/trusted_depth-inl.hpp>
+#include <penumbra/targets/trusted_depth.hpp>
 
 namespace penumbra {
 
