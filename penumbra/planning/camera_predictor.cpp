@@ -53,11 +53,6 @@ std::vector<Body> bodies_with(const Robot& robot, std::span<const AttachedBody> 
   return bodies;
 }
 
-PixelRectangle rectangle_of(std::span<const RowSpan> spans) {
-  const SpanBox box = box_of_spans(spans);
-  return {box.u0, box.v0, box.u1 + 1, box.v1 + 1};
-}
-
 /// The outline of a shape in pixels; empty for masks.
 std::vector<Eigen::Vector2d> outline_of(const Region& region) {
   std::vector<Eigen::Vector2d> outline;
@@ -188,13 +183,13 @@ Sample CameraPredictor::at(double time, std::span<const double> positions) {
     return sample;
   }
   place_bodies(poses, sample);
+  const PixelRectangle image{0, 0, camera_.intrinsics.width(), camera_.intrinsics.height()};
   PixelRectangle drawn;  // where the robot matters
   std::vector<bool> is_near(targets_.size());
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     const PixelRectangle& region = sample.targets[i] = show(i, poses, time).region;
     if (region.empty()) continue;
-    const PixelRectangle window =
-        grown(region, clearance_, camera_.intrinsics.width(), camera_.intrinsics.height());
+    const PixelRectangle window = overlap(grown(region, clearance_, clearance_), image);
     is_near[i] = std::ranges::any_of(
         sample.bodies, [&](const SeenBody& body) { return !overlap(body.pixels, window).empty(); });
     if (is_near[i]) drawn = drawn.empty() ? window : drawn.united(window);
@@ -315,7 +310,7 @@ void CameraPredictor::set_limits(const TargetView& view, double depth, SeenTarge
   spans_.keep(seen_pixels_);
   shown.spans.assign(spans_.spans().begin(), spans_.spans().end());
   if (shown.spans.empty()) return;
-  shown.region = rectangle_of(shown.spans);
+  shown.region = box_of_spans(shown.spans);
   shown.whole = {
       .evidence = Evidence::assumed_free, .covered = spans_.covered(), .inside = spans_.inside()};
   shown.whole.pixels[PixelState::clear] = spans_.inside();

@@ -32,9 +32,6 @@ struct SeenTarget {
   Visibility whole = {};                   ///< without the robot
 };
 
-/// A rectangle with a border, cut to an image of that size.
-[[nodiscard]] PixelRectangle grown(const PixelRectangle& box, int by, int width, int height);
-
 /// Measures how far targets are from the robot before them. Serves one thread at a time.
 class Clearance {
  public:

@@ -8,17 +8,13 @@
 
 namespace penumbra::planning {
 
-PixelRectangle grown(const PixelRectangle& box, int by, int width, int height) {
-  return overlap({box.u0 - by, box.v0 - by, box.u1 + by, box.v1 + by}, {0, 0, width, height});
-}
-
 /// Measures it in a narrow window first.
 double Clearance::measure(const SeenTarget& target, const VirtualDepthView& drawn, bool is_hidden,
                           int most) {
   constexpr int narrow = 16;  // pixels
   for (int within = std::min(narrow, most);; within = most) {
-    const PixelRectangle window =
-        grown(target.region, within, drawn.depth.width, drawn.depth.height);
+    const PixelRectangle window = overlap(grown(target.region, within, within),
+                                          {0, 0, drawn.depth.width, drawn.depth.height});
     mark_blocked(target, drawn, window);
     const double found =
         is_hidden ? -hidden_depth(target, window, within) : free_distance(target, window, within);

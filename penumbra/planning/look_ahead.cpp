@@ -128,9 +128,8 @@ class Sampler {
       for (std::size_t body = 0; body < motions.size(); ++body) {
         if (motions[body] <= most) continue;
         const auto by = static_cast<int>(std::min(motions[body], 1e6));
-        PixelRectangle swept = a.bodies[body].pixels.united(b.bodies[body].pixels);
-        swept = {swept.u0 - by, swept.v0 - by, swept.u1 + by, swept.v1 + by};
-        if (!overlap(swept, from.united(to)).empty()) return true;
+        const PixelRectangle swept = a.bodies[body].pixels.united(b.bodies[body].pixels);
+        if (!overlap(grown(swept, by, by), from.united(to)).empty()) return true;
       }
     }
     return false;

@@ -47,11 +47,12 @@ struct TalliedFrame {
 
   [[nodiscard]] bool has_pose() const { return !images.virtual_depth.depth.empty(); }
   [[nodiscard]] bool is_measured() const { return images.evidence == Evidence::measured; }
-  /// Returns whether the robot may lie in the pixels [u0, u1] x [v0, v1], clipped to the image. It
-  /// may lie anywhere outside the lens model.
-  [[nodiscard]] bool robot_may_lie_in(int u0, int u1, int v0, int v1) const;
-  /// The same for pixels [u0, u1] of a row in the image, exactly, and for robot up to `far` metres.
-  [[nodiscard]] bool robot_lies_in(int u0, int u1, int v, float far) const;
+  /// Returns whether the robot may lie in a box, clipped to the image. It may lie anywhere outside
+  /// the lens model.
+  [[nodiscard]] bool robot_may_lie_in(const PixelRectangle& box) const;
+  /// The same for pixels of a row in the image, exactly, and for robot up to `far` metres.
+  [[nodiscard]] bool robot_lies_in(const RowSpan& pixels, float far) const;
+  [[nodiscard]] PixelRectangle image() const { return {0, 0, width, height}; }
 
   LabelledImages images;
   const labelling::Rule* rule;

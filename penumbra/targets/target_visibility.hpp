@@ -110,7 +110,7 @@ class ExtentObserver {
   [[nodiscard]] Visibility observe_modal(const TargetInFrame& at, TargetMemory& memory,
                                          const Visibility& now);
   [[nodiscard]] bool place_whole(const TargetInFrame& at, const TargetMemory& memory,
-                                 const SpanBox& box);
+                                 const PixelRectangle& box);
   [[nodiscard]] Visibility observe_whole(const TargetInFrame& at, std::size_t missing);
   [[nodiscard]] bool reaches_border() const;
 
