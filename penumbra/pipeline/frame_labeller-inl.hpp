@@ -21,7 +21,7 @@
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/targets/labelled_frame-inl.hpp>
+#include <penumbra/targets/labelled_frame.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {

@@ -16,7 +16,7 @@
 #include <penumbra/render/near_plane_check.hpp>
 #include <penumbra/robot/drawn_links.hpp>
 #include <penumbra/targets/attach_target.hpp>
-#include <penumbra/targets/target_stage-inl.hpp>
+#include <penumbra/targets/target_stage.hpp>
 
 namespace penumbra {
 namespace {

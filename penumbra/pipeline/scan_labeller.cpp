@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/recent_values-inl.hpp>
+#include <penumbra/base/recent_values.hpp>
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/pipeline/ray_targets-inl.hpp>
 #include <penumbra/pipeline/scan_labeller-inl.hpp>

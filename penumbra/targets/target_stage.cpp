@@ -6,7 +6,7 @@
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/targets/attach_target.hpp>
-#include <penumbra/targets/target_stage-inl.hpp>
+#include <penumbra/targets/target_stage.hpp>
 #include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {

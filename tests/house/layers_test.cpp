@@ -134,14 +134,11 @@ TEST(Layers, IncludesPointDown) {
 }
 
 TEST(Layers, PrivateHeadersServeTheirFolderAlone) {
-  // The pipeline's, which stand with the targets.
-  const Names shared{"penumbra/targets/labelled_frame-inl.hpp",
-                     "penumbra/targets/target_stage-inl.hpp"};
   for (const auto& file : source_files({"penumbra"}, {".cpp", ".hpp"})) {
     for (const auto& include : includes(file)) {
       if (!include.starts_with("penumbra/") || !include.ends_with("-inl.hpp")) continue;
       const std::string room = room_of(include);
-      EXPECT_TRUE(room == room_of(file.path) || room == "penumbra/base" || shared.contains(include))
+      EXPECT_TRUE(room == room_of(file.path) || room == "penumbra/base")
           << file.path << " includes " << include;
     }
   }
