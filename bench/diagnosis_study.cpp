@@ -12,7 +12,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
-#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 
 #include <io/run/run_input.hpp>
 

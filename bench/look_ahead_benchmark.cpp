@@ -9,7 +9,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <penumbra/scene/look_ahead.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 
 namespace penumbra::bench {
 namespace {

@@ -32,12 +32,13 @@ set(public_headers
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
   calibration/calibration.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
   session/plan_forecast.hpp session/session.hpp session/warnings.hpp tuning/missing_parts.hpp
-  scene/look_ahead.hpp scene/target_fusion.hpp robot/trajectory.hpp scene/view_planning.hpp
+  planning/look_ahead.hpp fusion/target_fusion.hpp robot/trajectory.hpp planning/view_planning.hpp
   cloud/cloud_labels.hpp cloud/scan.hpp tuning/cloud_tuning.hpp)
 set(component_of_calibration setup)
 set(component_of_diagnosis setup)
 set(component_of_tuning setup)
-set(component_of_scene planning)
+set(component_of_planning planning)
+set(component_of_fusion planning)
 set(component_of_session session)
 foreach(header IN LISTS public_headers)
   get_filename_component(room ${header} DIRECTORY)

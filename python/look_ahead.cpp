@@ -11,7 +11,7 @@
 #include <python/frame.hpp>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/scene/look_ahead.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 
 namespace penumbra::python {
 namespace {

@@ -4,7 +4,7 @@
 #include <python/fields.hpp>
 #include <python/report.hpp>
 
-#include <penumbra/scene/target_fusion.hpp>
+#include <penumbra/fusion/target_fusion.hpp>
 
 namespace penumbra::python {
 namespace {

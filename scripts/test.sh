@@ -146,8 +146,8 @@ unity=ON  # many sources at once
 asan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;time;camera;render;labels;poses;tracking;targets;cloud'
 tsan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;camera;render'
 not_in_release=-DPENUMBRA_SKIP_TESTS='base;mesh;robot'
-not_in_asan=-DPENUMBRA_SKIP_TESTS='time;camera;targets;tracking;pipeline;scene;house'
-not_in_tsan=-DPENUMBRA_SKIP_TESTS='base;mesh;robot;time;camera;labels;targets;tracking;pipeline;scene;cloud;house'
+not_in_asan=-DPENUMBRA_SKIP_TESTS='time;camera;targets;tracking;pipeline;planning;fusion;house'
+not_in_tsan=-DPENUMBRA_SKIP_TESTS='base;mesh;robot;time;camera;labels;targets;tracking;pipeline;planning;fusion;cloud;house'
 if $full; then
   export PENUMBRA_FULL=1
   sanitizer_scope=("${everything[@]}")

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/robot/drawn_links-inl.hpp>
+#include <penumbra/robot/drawn_links.hpp>
 #include <penumbra/robot/robot.hpp>
 
 #include <apps/penumbra/help.hpp>

@@ -9,7 +9,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/scene/view_planning.hpp>
+#include <penumbra/planning/view_planning.hpp>
 
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>

@@ -26,7 +26,7 @@ HEADERS = {
                             "cloud/scan.hpp", "tuning/cloud_tuning.hpp"],
     "Tracking": ["tracking/trackers.hpp"],
     "Calibration": ["calibration/calibration.hpp"],
-    "Planning": ["scene/look_ahead.hpp", "robot/trajectory.hpp", "scene/view_planning.hpp"],
+    "Planning": ["planning/look_ahead.hpp", "robot/trajectory.hpp", "planning/view_planning.hpp"],
     "Images, meshes, errors": ["base/image.hpp", "mesh/triangle_mesh.hpp",
                                "mesh/prepared_mesh.hpp", "base/error.hpp"],
 }

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <penumbra/fusion/target_fusion.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/scene/target_fusion.hpp>
 
 #include <io/files/run_output.hpp>
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
+#include <penumbra/planning/view_planning.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/scene/view_planning.hpp>
 
 namespace penumbra::io {
 

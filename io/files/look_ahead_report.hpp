@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/scene/look_ahead.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 
 namespace penumbra::io {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/scene/view_planning.hpp>
+#include <penumbra/planning/view_planning.hpp>
 
 namespace penumbra::io {
 

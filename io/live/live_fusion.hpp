@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include <penumbra/scene/target_fusion.hpp>
+#include <penumbra/fusion/target_fusion.hpp>
 
 #include <io/ros/messages.hpp>
 

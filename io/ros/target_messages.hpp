@@ -4,8 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include <penumbra/fusion/target_fusion.hpp>
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/scene/target_fusion.hpp>
 
 #include <io/ros/messages.hpp>
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/scene/look_ahead.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 
 #include <io/files/look_ahead_report.hpp>
 #include <io/run/run_input.hpp>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/scene/view_planning.hpp>
+#include <penumbra/planning/view_planning.hpp>
 
 #include <io/files/targets_file.hpp>
 #include <io/run/run_input.hpp>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <penumbra/camera/rectification.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/scene/look_ahead.hpp>
 
 #include <io/files/overlay_painter.hpp>
 #include <io/web/report_page.hpp>

@@ -12,8 +12,8 @@
 #include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/calibration/calibration.hpp>
 #include <penumbra/calibration/dense.hpp>
-#include <penumbra/calibration/problem-inl.hpp>
-#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/calibration/problem.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 
 namespace penumbra {
 namespace {

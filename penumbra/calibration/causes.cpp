@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include <penumbra/calibration/dense.hpp>
-#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/calibration/problem.hpp>
 
 namespace penumbra::calibration {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/calibration/problem.hpp>
 #include <penumbra/calibration/watch.hpp>
 
 namespace penumbra {

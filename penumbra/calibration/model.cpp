@@ -5,7 +5,7 @@
 #include <limits>
 
 #include <penumbra/calibration/dense.hpp>
-#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/calibration/problem.hpp>
 
 namespace penumbra::calibration {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include <penumbra/base/statistics-inl.hpp>
-#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/calibration/problem.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
 namespace penumbra::calibration {

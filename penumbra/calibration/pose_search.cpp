@@ -7,7 +7,7 @@
 
 #include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/calibration/dense.hpp>
-#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/calibration/problem.hpp>
 #include <penumbra/mesh/simplified.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 

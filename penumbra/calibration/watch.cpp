@@ -12,7 +12,7 @@
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/calibration/dense.hpp>
-#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/calibration/problem.hpp>
 #include <penumbra/calibration/watch.hpp>
 #include <penumbra/calibration/watch_solution-inl.hpp>
 

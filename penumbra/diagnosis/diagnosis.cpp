@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 
-#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/calibration/problem.hpp>
 #include <penumbra/diagnosis/hypothesis-inl.hpp>
 
 namespace penumbra {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <variant>
 
-#include <penumbra/labels/image_space-inl.hpp>
+#include <penumbra/labels/image_space.hpp>
 
 namespace penumbra {
 namespace {

@@ -10,22 +10,9 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/labels/labels.hpp>
+#include <penumbra/labels/rule.hpp>
 
 namespace penumbra::labelling {
-
-/// A LabelRule for the kernels. All arithmetic is float32, without fused multiply-add.
-struct Rule {
-  explicit Rule(const LabelRule& rule);
-
-  float a, b, c;
-  float beyond_factor;  ///< infinite if beyond is folded
-  MeasuredRange range;
-  int width;  ///< front_min_width
-  int cells;  ///< the edge margin, cells
-  int reach;  ///< how far from a seed a pixel stays front
-
-  [[nodiscard]] bool cleans_up() const { return width > 0; }
-};
 
 /// One bit per pixel: bit u % 64 of row(v)[u / 64]. A border of zeros allows reading neighbours of
 /// any pixel: `margin` rows above and below, and words next to each row.

@@ -13,7 +13,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/mesh/surface_patches-inl.hpp>
+#include <penumbra/mesh/surface_patches.hpp>
 
 namespace penumbra {
 namespace {

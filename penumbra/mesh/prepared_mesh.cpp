@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include <penumbra/mesh/prepared_mesh.hpp>
-#include <penumbra/mesh/surface_patches-inl.hpp>
+#include <penumbra/mesh/surface_patches.hpp>
 #include <penumbra/mesh/weld.hpp>
 
 namespace penumbra {

@@ -18,7 +18,7 @@
 #include <penumbra/mesh/mesh_formats-inl.hpp>
 #include <penumbra/mesh/simplified.hpp>
 #include <penumbra/mesh/surface_offset.hpp>
-#include <penumbra/mesh/surface_patches-inl.hpp>
+#include <penumbra/mesh/surface_patches.hpp>
 #include <penumbra/mesh/weld.hpp>
 
 namespace penumbra {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <penumbra/mesh/surface_patches-inl.hpp>
+#include <penumbra/mesh/surface_patches.hpp>
 #include <penumbra/mesh/triangle_tree.hpp>
 
 namespace penumbra {

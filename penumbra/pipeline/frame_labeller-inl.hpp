@@ -13,15 +13,15 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/labels/image_space-inl.hpp>
-#include <penumbra/labels/label_work-inl.hpp>
+#include <penumbra/labels/image_space.hpp>
 #include <penumbra/labels/labels.hpp>
+#include <penumbra/labels/rule.hpp>
+#include <penumbra/pipeline/attached_bodies-inl.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/poses/attached_bodies-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/targets/labelled_frame-inl.hpp>
+#include <penumbra/targets/labelled_frame.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {

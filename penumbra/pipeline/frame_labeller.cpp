@@ -8,9 +8,9 @@
 #include <utility>
 #include <variant>
 
+#include <penumbra/labels/rule.hpp>
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
-#include <penumbra/poses/pose_stage-inl.hpp>
-#include <penumbra/targets/extent_tally-inl.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 
 namespace penumbra {
 namespace {

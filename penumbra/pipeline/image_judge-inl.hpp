@@ -9,8 +9,8 @@
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
 #include <penumbra/pipeline/recent_depth-inl.hpp>
 #include <penumbra/targets/target_judge.hpp>
-#include <penumbra/targets/target_stage-inl.hpp>
-#include <penumbra/targets/target_views-inl.hpp>
+#include <penumbra/targets/target_stage.hpp>
+#include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
 

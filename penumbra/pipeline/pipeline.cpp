@@ -12,11 +12,11 @@
 #include <penumbra/pipeline/image_judge-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/scan_labeller-inl.hpp>
-#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 #include <penumbra/render/near_plane_check.hpp>
-#include <penumbra/robot/drawn_links-inl.hpp>
-#include <penumbra/targets/attach_target-inl.hpp>
-#include <penumbra/targets/target_stage-inl.hpp>
+#include <penumbra/robot/drawn_links.hpp>
+#include <penumbra/targets/attach_target.hpp>
+#include <penumbra/targets/target_stage.hpp>
 
 namespace penumbra {
 namespace {

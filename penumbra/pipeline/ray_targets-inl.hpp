@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/cloud/scan.hpp>
-#include <penumbra/targets/labelled_frame-inl.hpp>
+#include <penumbra/targets/labelled_frame.hpp>
 #include <penumbra/targets/target.hpp>
 
 namespace penumbra {

@@ -6,7 +6,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/ray_targets-inl.hpp>
-#include <penumbra/targets/target_visibility-inl.hpp>
+#include <penumbra/targets/target_visibility.hpp>
 
 namespace penumbra {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/targets/recent_values-inl.hpp>
+#include <penumbra/base/recent_values.hpp>
 
 namespace penumbra {
 

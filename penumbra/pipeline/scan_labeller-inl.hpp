@@ -12,10 +12,10 @@
 
 #include <penumbra/cloud/scan.hpp>
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/targets/labelled_frame-inl.hpp>
-#include <penumbra/targets/target_stage-inl.hpp>
+#include <penumbra/targets/labelled_frame.hpp>
+#include <penumbra/targets/target_stage.hpp>
 
 namespace penumbra {
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/recent_values.hpp>
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/pipeline/ray_targets-inl.hpp>
 #include <penumbra/pipeline/scan_labeller-inl.hpp>
-#include <penumbra/targets/recent_values-inl.hpp>
-#include <penumbra/targets/target_views-inl.hpp>
+#include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/poses/pose_lookup.hpp>
-#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 
 namespace penumbra {
 namespace {

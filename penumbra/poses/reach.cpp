@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include <penumbra/poses/reach-inl.hpp>
+#include <penumbra/poses/reach.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <penumbra/mesh/surface_patches-inl.hpp>
+#include <penumbra/mesh/surface_patches.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra {

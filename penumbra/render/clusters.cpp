@@ -7,7 +7,7 @@
 
 #include <meshoptimizer.h>
 
-#include <penumbra/mesh/surface_patches-inl.hpp>
+#include <penumbra/mesh/surface_patches.hpp>
 #include <penumbra/render/clusters.hpp>
 #include <penumbra/render/triangle_groups.hpp>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/scene/look_ahead.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 
 namespace penumbra {
 

@@ -6,8 +6,8 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/mesh/primitives.hpp>
-#include <penumbra/targets/attach_target-inl.hpp>
-#include <penumbra/targets/target_views-inl.hpp>
+#include <penumbra/targets/attach_target.hpp>
+#include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
 namespace {

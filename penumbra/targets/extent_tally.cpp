@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <bit>
 
-#include <penumbra/targets/extent_tally-inl.hpp>
-#include <penumbra/targets/trusted_depth-inl.hpp>
+#include <penumbra/targets/extent_tally.hpp>
+#include <penumbra/targets/trusted_depth.hpp>
 
 namespace penumbra {
 namespace {
@@ -269,25 +269,25 @@ TalliedFrame::TalliedFrame(const LabelledImages& judged, const labelling::Rule& 
       height(judged.labels.labels.height),
       is_outside_undrawn(has_outside) {}
 
-bool TalliedFrame::robot_may_lie_in(int u0, int u1, int v0, int v1) const {
-  u0 = std::max(u0, 0), v0 = std::max(v0, 0);
-  u1 = std::min(u1, width - 1), v1 = std::min(v1, height - 1);
-  if (u0 > u1 || v0 > v1) return false;
+bool TalliedFrame::robot_may_lie_in(const PixelRectangle& box) const {
+  const auto [u0, v0, u1, v1] = overlap(box, image());
+  if (u0 >= u1 || v0 >= v1) return false;
   const TileMask* const tiles = images.labels.touched;
   if (tiles == nullptr) return true;
-  const std::uint64_t upto = ~std::uint64_t{0} >> (63 - u1 / tiles->tile_width);
+  const std::uint64_t upto = ~std::uint64_t{0} >> (63 - (u1 - 1) / tiles->tile_width);
   const std::uint64_t columns = upto & (~std::uint64_t{0} << (u0 / tiles->tile_width));
-  for (int j = v0 / TileMask::tile_height; j <= v1 / TileMask::tile_height; ++j)
+  for (int j = v0 / TileMask::tile_height; j <= (v1 - 1) / TileMask::tile_height; ++j)
     if ((tiles->rows[static_cast<std::size_t>(j)] & columns) != 0) return true;
   return false;
 }
 
-bool TalliedFrame::robot_lies_in(int u0, int u1, int v, float far) const {
-  const std::uint8_t* const labels = images.labels.labels.row(v);
-  const float* const z = images.virtual_depth.depth.row(v);
-  for (int u = u0; u <= u1; ++u) {
-    u += first_set(labels + u, u1 + 1 - u);
-    if (u <= u1 && !is_fringe(labels[u]) && z[u] <= far && (z[u] > 0.0f || !is_outside_undrawn))
+bool TalliedFrame::robot_lies_in(const RowSpan& pixels, float far) const {
+  const std::uint8_t* const labels = images.labels.labels.row(pixels.v);
+  const float* const z = images.virtual_depth.depth.row(pixels.v);
+  for (int u = pixels.u0; u < pixels.u1; ++u) {
+    u += first_set(labels + u, pixels.u1 - u);
+    if (u < pixels.u1 && !is_fringe(labels[u]) && z[u] <= far &&
+        (z[u] > 0.0f || !is_outside_undrawn))
       return true;
   }
   return false;
@@ -313,10 +313,8 @@ namespace {
 /// Returns null if the robot is too far from the spans to affect their depths.
 RobotSurroundings* robot_near(const TalliedFrame& frame, std::span<const RowSpan> spans,
                               RobotSurroundings& robot) {
-  const SpanBox box = box_of_spans(spans);
   const int reach = robot.reach();
-  const bool is_near =
-      frame.robot_may_lie_in(box.u0 - reach, box.u1 + reach, box.v0 - reach, box.v1 + reach);
+  const bool is_near = frame.robot_may_lie_in(grown(box_of_spans(spans), reach, reach));
   return is_near ? &robot : nullptr;
 }
 

@@ -7,7 +7,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/render/pixel_rectangle.hpp>
-#include <penumbra/targets/object_renderers-inl.hpp>
+#include <penumbra/targets/object_renderers.hpp>
 
 namespace penumbra {
 namespace {

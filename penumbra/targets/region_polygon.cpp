@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/targets/region_spans-inl.hpp>
+#include <penumbra/targets/region_spans.hpp>
 
 namespace penumbra {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include <penumbra/targets/region_spans-inl.hpp>
+#include <penumbra/targets/region_spans.hpp>
 
 namespace penumbra {
 
@@ -21,11 +21,11 @@ int first_set(const std::uint8_t* p, int count) {
   return i;
 }
 
-SpanBox box_of_spans(std::span<const RowSpan> spans) {
-  SpanBox box{spans[0].u0, spans[0].u1 - 1, spans[0].v, spans[0].v};
+PixelRectangle box_of_spans(std::span<const RowSpan> spans) {
+  PixelRectangle box{spans[0].u0, spans[0].v, spans[0].u1, spans[0].v + 1};
   for (const RowSpan& span : spans) {
-    box.u0 = std::min(box.u0, span.u0), box.u1 = std::max(box.u1, span.u1 - 1);
-    box.v0 = std::min(box.v0, span.v), box.v1 = std::max(box.v1, span.v);
+    box.u0 = std::min(box.u0, span.u0), box.u1 = std::max(box.u1, span.u1);
+    box.v0 = std::min(box.v0, span.v), box.v1 = std::max(box.v1, span.v + 1);
   }
   return box;
 }

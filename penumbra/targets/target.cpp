@@ -6,7 +6,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/targets/region_spans-inl.hpp>
+#include <penumbra/targets/region_spans.hpp>
 #include <penumbra/targets/target.hpp>
 
 namespace penumbra {

@@ -13,8 +13,8 @@
 
 #include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/targets/target_judge.hpp>
-#include <penumbra/targets/target_visibility-inl.hpp>
-#include <penumbra/targets/trusted_depth-inl.hpp>
+#include <penumbra/targets/target_visibility.hpp>
+#include <penumbra/targets/trusted_depth.hpp>
 
 namespace penumbra {
 namespace {

@@ -5,9 +5,9 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/targets/attach_target-inl.hpp>
-#include <penumbra/targets/target_stage-inl.hpp>
-#include <penumbra/targets/target_views-inl.hpp>
+#include <penumbra/targets/attach_target.hpp>
+#include <penumbra/targets/target_stage.hpp>
+#include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
 namespace {

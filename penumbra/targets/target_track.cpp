@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/targets/target_track-inl.hpp>
+#include <penumbra/targets/target_track.hpp>
 
 namespace penumbra {
 namespace {

@@ -6,8 +6,8 @@
 #include <Eigen/SVD>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/targets/extent_tally-inl.hpp>
-#include <penumbra/targets/target_views-inl.hpp>
+#include <penumbra/targets/extent_tally.hpp>
+#include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
 namespace {

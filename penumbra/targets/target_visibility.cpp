@@ -4,7 +4,7 @@
 #include <limits>
 #include <string_view>
 
-#include <penumbra/targets/target_visibility-inl.hpp>
+#include <penumbra/targets/target_visibility.hpp>
 
 namespace penumbra {
 namespace {
@@ -82,25 +82,20 @@ std::string_view reason_for_unknown(const Visibility& visibility,
              : "too much of it is robot without measurement; give expected_depth, or its height";
 }
 
-Eigen::Array2d first_of(const SpanBox& box) { return {box.u0, box.v0}; }
-Eigen::Array2d end_of(const SpanBox& box) { return {box.u1 + 1, box.v1 + 1}; }
-Eigen::Array2d size_of(const SpanBox& box) { return end_of(box) - first_of(box); }
-
-SpanBox grown(const SpanBox& box, int du, int dv) {
-  return {box.u0 - du, box.u1 + du, box.v0 - dv, box.v1 + dv};
-}
+Eigen::Array2d first_of(const PixelRectangle& box) { return {box.u0, box.v0}; }
+Eigen::Array2d end_of(const PixelRectangle& box) { return {box.u1, box.v1}; }
+Eigen::Array2d size_of(const PixelRectangle& box) { return end_of(box) - first_of(box); }
 
 /// Returns whether robot that may hide the target lies in a box, which is clipped to the image.
-bool holds_robot(const TargetInFrame& at, const SpanBox& box) {
+bool holds_robot(const TargetInFrame& at, const PixelRectangle& box) {
   const TalliedFrame& frame = at.frame;
   const auto& depth = at.expected.constant;
   const float far = depth ? LimitRule(*frame.rule, at.expected.margin).at(*depth).far
                           : std::numeric_limits<float>::infinity();
-  const int u0 = std::max(box.u0, 0), u1 = std::min(box.u1, frame.width - 1);
-  const int v0 = std::max(box.v0, 0), v1 = std::min(box.v1, frame.height - 1);
-  if (!frame.robot_may_lie_in(u0, u1, v0, v1)) return false;
-  for (int v = v0; v <= v1; ++v)
-    if (frame.robot_lies_in(u0, u1, v, far)) return true;
+  if (!frame.robot_may_lie_in(box)) return false;
+  const auto [u0, v0, u1, v1] = overlap(box, frame.image());
+  for (int v = v0; v < v1; ++v)
+    if (frame.robot_lies_in({v, u0, u1}, far)) return true;
   return false;
 }
 
@@ -167,13 +162,14 @@ std::optional<double> ExtentObserver::depth_by_height(const TargetInFrame& at,
                                                       const TargetMemory& memory,
                                                       double focal) const {
   if (seen_.spans().empty() || !at.frame.has_pose()) return memory.depth;
-  const SpanBox box = box_of_spans(seen_.spans());
+  const PixelRectangle box = box_of_spans(seen_.spans());
   if (at.target.extent == Extent::modal) {
     // As in observe_modal, which judges what is near the robot by the whole extent alone.
     Eigen::Array2d around(at.reach(), at.reach());
     if (!memory.whole.empty())
       around = 2 * around + (size_of(box_of_spans(memory.whole)) - size_of(box)).max(0);
-    const SpanBox near = grown(box, static_cast<int>(around.x()), static_cast<int>(around.y()));
+    const PixelRectangle near =
+        grown(box, static_cast<int>(around.x()), static_cast<int>(around.y()));
     if (reaches_border() || holds_robot(at, near)) return memory.depth;
   }
   const auto* const exact = std::get_if<PixelBox>(&at.target.region);
@@ -201,7 +197,7 @@ Visibility ExtentObserver::observe_modal(const TargetInFrame& at, TargetMemory& 
                                          const Visibility& now) {
   is_near_robot_ = false;
   if (is_out_of_view(now, at.target.thresholds)) return now;
-  const SpanBox box = box_of_spans(seen_.spans());
+  const PixelRectangle box = box_of_spans(seen_.spans());
   const bool is_there = place_whole(at, memory, box);
   // Masks may keep away from what hides their targets, and shrink before it touches them.
   const int reach = memory.whole.empty() ? at.reach() : 2 * at.reach();
@@ -227,10 +223,10 @@ Visibility ExtentObserver::observe_modal(const TargetInFrame& at, TargetMemory& 
 /// Scales the last whole extent to the target's depth, moves it by the target's track, and then as
 /// little as lets it hold what is seen. Returns whether anything is seen where it is expected.
 bool ExtentObserver::place_whole(const TargetInFrame& at, const TargetMemory& memory,
-                                 const SpanBox& box) {
+                                 const PixelRectangle& box) {
   whole_size_.setZero();
   if (memory.whole.empty()) return false;
-  const SpanBox last = box_of_spans(memory.whole);
+  const PixelRectangle last = box_of_spans(memory.whole);
   const double scale = scale_of(memory, at.target);
   whole_size_ = scale * size_of(last);
   moved_ = memory.moved + at.target.motion.value_or(Eigen::Vector2d::Zero());

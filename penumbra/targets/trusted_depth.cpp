@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <penumbra/targets/trusted_depth-inl.hpp>
+#include <penumbra/targets/trusted_depth.hpp>
 
 namespace penumbra {
 namespace {
@@ -32,7 +32,7 @@ const RobotSurroundings::Cell& RobotSurroundings::cell(int cell_u, int cell_v) {
   const int u0 = cell_u * LabelRule::cell, v0 = cell_v * LabelRule::cell;
   const int u1 = std::min(u0 + LabelRule::cell, frame_->width);
   const int v1 = std::min(v0 + LabelRule::cell, frame_->height);
-  if (!frame_->robot_may_lie_in(u0, u0, v0, v0)) return cell;  // tiles are of whole cells
+  if (!frame_->robot_may_lie_in({u0, v0, u0 + 1, v0 + 1})) return cell;  // tiles are of whole cells
   for (int v = v0; v < v1; ++v) {
     const std::uint8_t* const labels = frame_->images.labels.labels.row(v);
     const float* const z = frame_->images.virtual_depth.depth.row(v);

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <penumbra/camera/registration.hpp>
+#include <penumbra/fusion/target_fusion.hpp>
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/scene/look_ahead.hpp>
-#include <penumbra/scene/target_fusion.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 #include <penumbra/time/pose_history.hpp>
 #include <penumbra/tracking/trackers.hpp>
 

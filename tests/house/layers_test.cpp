@@ -24,7 +24,7 @@ const std::map<std::string, Names>& allowed_rooms() {
   static const std::string targets = poses + " tracking cloud targets";
   static const std::string frame = targets + " pipeline";
   static const Names setup = words(frame + " tuning calibration diagnosis");
-  static const Names core = words(frame + " tuning calibration diagnosis session scene");
+  static const Names core = words(frame + " tuning calibration diagnosis session planning fusion");
   static const std::map<std::string, Names> rooms{
       {"penumbra/base", words("base")},
       {"penumbra/mesh", words("base mesh")},
@@ -42,7 +42,9 @@ const std::map<std::string, Names>& allowed_rooms() {
       {"penumbra/calibration", setup},
       {"penumbra/diagnosis", setup},
       {"penumbra/session", core},
-      {"penumbra/scene", words(frame + " scene")},
+      {"penumbra/planning",
+       words("base robot time camera render labels poses targets pipeline planning")},
+      {"penumbra/fusion", words("base camera labels pipeline fusion")},
       {"io", core},
       {"sim", core},
       {"apps", core},
@@ -127,6 +129,17 @@ TEST(Layers, IncludesPointDown) {
       if (users == users_of_tops.end()) continue;
       const std::string top = file.path.substr(0, file.path.find('/'));
       EXPECT_TRUE(users->second.contains(top)) << file.path << " includes " << include;
+    }
+  }
+}
+
+TEST(Layers, PrivateHeadersServeTheirFolderAlone) {
+  for (const auto& file : source_files({"penumbra"}, {".cpp", ".hpp"})) {
+    for (const auto& include : includes(file)) {
+      if (!include.starts_with("penumbra/") || !include.ends_with("-inl.hpp")) continue;
+      const std::string room = room_of(include);
+      EXPECT_TRUE(room == room_of(file.path) || room == "penumbra/base")
+          << file.path << " includes " << include;
     }
   }
 }

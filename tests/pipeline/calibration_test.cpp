@@ -3,7 +3,7 @@
 // that a small change of each unknown makes, and what is said of wrong inputs.
 #include "../support/test.hpp"
 
-#include <penumbra/calibration/problem-inl.hpp>
+#include <penumbra/calibration/problem.hpp>
 #include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slab_scene.hpp"
 
-#include <penumbra/targets/object_renderers-inl.hpp>
+#include <penumbra/targets/object_renderers.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -2,7 +2,7 @@
 // The balls that bound where links can be, against random positions of random arms.
 #include "../support/test.hpp"
 
-#include <penumbra/poses/reach-inl.hpp>
+#include <penumbra/poses/reach.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -3,7 +3,7 @@
 // ones against what MuJoCo draws in the three images.
 #include "simulated.hpp"
 
-#include <penumbra/scene/target_fusion.hpp>
+#include <penumbra/fusion/target_fusion.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -3,7 +3,7 @@
 // late and with a tracking error, over a parcel on a belt.
 #include "simulated.hpp"
 
-#include <penumbra/scene/look_ahead.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <penumbra_msgs/msg/target.hpp>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/scene/look_ahead.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 
 namespace penumbra_ros {
 namespace {

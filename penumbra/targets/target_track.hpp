@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/targets/recent_values-inl.hpp>
+#include <penumbra/base/recent_values.hpp>
 #include <penumbra/targets/target.hpp>
 
 namespace penumbra {

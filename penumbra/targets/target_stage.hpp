@@ -14,12 +14,12 @@
 #include <Eigen/Core>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/base/recent_values.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/targets/labelled_frame-inl.hpp>
-#include <penumbra/targets/recent_values-inl.hpp>
+#include <penumbra/targets/labelled_frame.hpp>
 #include <penumbra/targets/target.hpp>
 #include <penumbra/targets/target_judge.hpp>
-#include <penumbra/targets/target_track-inl.hpp>
+#include <penumbra/targets/target_track.hpp>
 
 namespace penumbra {
 

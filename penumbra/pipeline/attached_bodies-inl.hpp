@@ -10,9 +10,9 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/poses/mesh_renderers-inl.hpp>
-#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 #include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/render/mesh_renderers.hpp>
 
 namespace penumbra {
 

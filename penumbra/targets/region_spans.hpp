@@ -12,6 +12,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/image.hpp>
+#include <penumbra/render/pixel_rectangle.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {
@@ -27,13 +28,13 @@ template <typename... Parts>
 /// Returns the index of the first of `count` bytes that is not 0, or `count` if all are 0.
 [[nodiscard]] int first_set(const std::uint8_t* p, int count);
 
-/// Pixels u0..u1 of rows v0..v1, inclusive.
-struct SpanBox {
-  int u0, u1, v0, v1;
-};
-
 /// Returns the bounding box of one or more spans.
-[[nodiscard]] SpanBox box_of_spans(std::span<const RowSpan> spans);
+[[nodiscard]] PixelRectangle box_of_spans(std::span<const RowSpan> spans);
+
+/// Returns a box with a border, which may reach out of the image.
+[[nodiscard]] inline PixelRectangle grown(const PixelRectangle& box, int du, int dv) {
+  return {box.u0 - du, box.v0 - dv, box.u1 + du, box.v1 + dv};
+}
 
 /// The pixels of an image that the camera saw.
 class SeenPixels {

@@ -12,9 +12,9 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/render/pixel_rectangle.hpp>
-#include <penumbra/targets/target_visibility-inl.hpp>
+#include <penumbra/targets/target_visibility.hpp>
 
-namespace penumbra::scene {
+namespace penumbra::planning {
 
 /// Pixels; sums of two of their squares are 16-bit numbers.
 inline constexpr int max_clearance = 127;
@@ -31,9 +31,6 @@ struct SeenTarget {
   float before = 0.0F;                     ///< metres: robot nearer than that is before its middle
   Visibility whole = {};                   ///< without the robot
 };
-
-/// A rectangle with a border, cut to an image of that size.
-[[nodiscard]] PixelRectangle grown(const PixelRectangle& box, int by, int width, int height);
 
 /// Measures how far targets are from the robot before them. Serves one thread at a time.
 class Clearance {
@@ -60,4 +57,4 @@ class Clearance {
   std::vector<std::int16_t> squares_, nearest_;  // of a row: squared distances
 };
 
-}  // namespace penumbra::scene
+}  // namespace penumbra::planning

@@ -11,10 +11,10 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/labels/image_space-inl.hpp>
+#include <penumbra/labels/image_space.hpp>
 #include <penumbra/mesh/prepared_mesh.hpp>
-#include <penumbra/poses/mesh_renderers-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/render/mesh_renderers.hpp>
 
 namespace penumbra {
 

@@ -10,11 +10,10 @@
 #include <variant>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/robot/drawn_links-inl.hpp>
-#include <penumbra/scene/camera_predictor-inl.hpp>
-#include <penumbra/targets/extent_tally-inl.hpp>
+#include <penumbra/planning/camera_predictor-inl.hpp>
+#include <penumbra/targets/extent_tally.hpp>
 
-namespace penumbra::scene {
+namespace penumbra::planning {
 namespace {
 
 constexpr int outline_corners = 32;  // of an ellipse, and along each side of a distorted box
@@ -52,11 +51,6 @@ std::vector<Body> bodies_with(const Robot& robot, std::span<const AttachedBody> 
   for (const AttachedBody& body : attached)
     if (is_drawn(body)) bodies.push_back({body.name, {body.mesh.get(), 1}});
   return bodies;
-}
-
-PixelRectangle rectangle_of(std::span<const RowSpan> spans) {
-  const SpanBox box = box_of_spans(spans);
-  return {box.u0, box.v0, box.u1 + 1, box.v1 + 1};
 }
 
 /// The outline of a shape in pixels; empty for masks.
@@ -189,13 +183,13 @@ Sample CameraPredictor::at(double time, std::span<const double> positions) {
     return sample;
   }
   place_bodies(poses, sample);
+  const PixelRectangle image{0, 0, camera_.intrinsics.width(), camera_.intrinsics.height()};
   PixelRectangle drawn;  // where the robot matters
   std::vector<bool> is_near(targets_.size());
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     const PixelRectangle& region = sample.targets[i] = show(i, poses, time).region;
     if (region.empty()) continue;
-    const PixelRectangle window =
-        grown(region, clearance_, camera_.intrinsics.width(), camera_.intrinsics.height());
+    const PixelRectangle window = overlap(grown(region, clearance_, clearance_), image);
     is_near[i] = std::ranges::any_of(
         sample.bodies, [&](const SeenBody& body) { return !overlap(body.pixels, window).empty(); });
     if (is_near[i]) drawn = drawn.empty() ? window : drawn.united(window);
@@ -316,7 +310,7 @@ void CameraPredictor::set_limits(const TargetView& view, double depth, SeenTarge
   spans_.keep(seen_pixels_);
   shown.spans.assign(spans_.spans().begin(), spans_.spans().end());
   if (shown.spans.empty()) return;
-  shown.region = rectangle_of(shown.spans);
+  shown.region = box_of_spans(shown.spans);
   shown.whole = {
       .evidence = Evidence::assumed_free, .covered = spans_.covered(), .inside = spans_.inside()};
   shown.whole.pixels[PixelState::clear] = spans_.inside();
@@ -404,4 +398,4 @@ double CameraPredictor::motion_of(std::size_t body, const Sample& a, const Sampl
          std::max(nearest, DepthRenderer::near_plane);
 }
 
-}  // namespace penumbra::scene
+}  // namespace penumbra::planning

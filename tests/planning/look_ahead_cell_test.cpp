@@ -4,7 +4,7 @@
 #include "../pipeline/slab_scene.hpp"
 
 #include <penumbra/mesh/primitives.hpp>
-#include <penumbra/scene/look_ahead.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 
 namespace penumbra::test {
 namespace {

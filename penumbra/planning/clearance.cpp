@@ -4,21 +4,17 @@
 #include <cstring>
 #include <span>
 
-#include <penumbra/scene/clearance-inl.hpp>
+#include <penumbra/planning/clearance-inl.hpp>
 
-namespace penumbra::scene {
-
-PixelRectangle grown(const PixelRectangle& box, int by, int width, int height) {
-  return overlap({box.u0 - by, box.v0 - by, box.u1 + by, box.v1 + by}, {0, 0, width, height});
-}
+namespace penumbra::planning {
 
 /// Measures it in a narrow window first.
 double Clearance::measure(const SeenTarget& target, const VirtualDepthView& drawn, bool is_hidden,
                           int most) {
   constexpr int narrow = 16;  // pixels
   for (int within = std::min(narrow, most);; within = most) {
-    const PixelRectangle window =
-        grown(target.region, within, drawn.depth.width, drawn.depth.height);
+    const PixelRectangle window = overlap(grown(target.region, within, within),
+                                          {0, 0, drawn.depth.width, drawn.depth.height});
     mark_blocked(target, drawn, window);
     const double found =
         is_hidden ? -hidden_depth(target, window, within) : free_distance(target, window, within);
@@ -132,4 +128,4 @@ double Clearance::hidden_depth(const SeenTarget& target, const PixelRectangle& w
   return std::sqrt(deepest);
 }
 
-}  // namespace penumbra::scene
+}  // namespace penumbra::planning

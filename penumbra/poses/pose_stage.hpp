@@ -15,7 +15,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/mesh/prepared_mesh.hpp>
-#include <penumbra/poses/reach-inl.hpp>
+#include <penumbra/poses/reach.hpp>
 #include <penumbra/poses/robot_pose.hpp>
 #include <penumbra/robot/robot.hpp>
 

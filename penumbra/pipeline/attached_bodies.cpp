@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <penumbra/poses/attached_bodies-inl.hpp>
+#include <penumbra/pipeline/attached_bodies-inl.hpp>
 
 namespace penumbra {
 

@@ -14,7 +14,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/scene/view_planning.hpp>
+#include <penumbra/planning/view_planning.hpp>
 
 namespace penumbra {
 namespace {

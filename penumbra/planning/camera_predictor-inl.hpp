@@ -15,19 +15,19 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/labels/image_space-inl.hpp>
-#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/labels/image_space.hpp>
+#include <penumbra/planning/clearance-inl.hpp>
+#include <penumbra/planning/look_ahead.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/render/near_plane_check.hpp>
 #include <penumbra/render/pixel_rectangle.hpp>
-#include <penumbra/scene/clearance-inl.hpp>
-#include <penumbra/scene/look_ahead.hpp>
-#include <penumbra/targets/object_renderers-inl.hpp>
-#include <penumbra/targets/region_spans-inl.hpp>
-#include <penumbra/targets/target_views-inl.hpp>
-#include <penumbra/targets/target_visibility-inl.hpp>
+#include <penumbra/targets/object_renderers.hpp>
+#include <penumbra/targets/region_spans.hpp>
+#include <penumbra/targets/target_views.hpp>
+#include <penumbra/targets/target_visibility.hpp>
 
-namespace penumbra::scene {
+namespace penumbra::planning {
 
 /// A target in space at the start of a motion.
 struct AnchoredTarget {
@@ -114,4 +114,4 @@ class CameraPredictor {
   Clearance clearance_of_;
 };
 
-}  // namespace penumbra::scene
+}  // namespace penumbra::planning

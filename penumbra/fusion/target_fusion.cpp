@@ -12,7 +12,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/stamps.hpp>
-#include <penumbra/scene/target_fusion.hpp>
+#include <penumbra/fusion/target_fusion.hpp>
 
 namespace penumbra {
 namespace {

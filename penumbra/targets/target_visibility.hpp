@@ -8,10 +8,10 @@
 
 #include <Eigen/Core>
 
-#include <penumbra/targets/extent_tally-inl.hpp>
-#include <penumbra/targets/region_spans-inl.hpp>
+#include <penumbra/targets/extent_tally.hpp>
+#include <penumbra/targets/region_spans.hpp>
 #include <penumbra/targets/target_judge.hpp>
-#include <penumbra/targets/trusted_depth-inl.hpp>
+#include <penumbra/targets/trusted_depth.hpp>
 
 namespace penumbra {
 
@@ -110,7 +110,7 @@ class ExtentObserver {
   [[nodiscard]] Visibility observe_modal(const TargetInFrame& at, TargetMemory& memory,
                                          const Visibility& now);
   [[nodiscard]] bool place_whole(const TargetInFrame& at, const TargetMemory& memory,
-                                 const SpanBox& box);
+                                 const PixelRectangle& box);
   [[nodiscard]] Visibility observe_whole(const TargetInFrame& at, std::size_t missing);
   [[nodiscard]] bool reaches_border() const;
 

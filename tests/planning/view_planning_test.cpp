@@ -4,7 +4,7 @@
 #include "../pipeline/slab_scene.hpp"
 
 #include <penumbra/mesh/primitives.hpp>
-#include <penumbra/scene/view_planning.hpp>
+#include <penumbra/planning/view_planning.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <penumbra/poses/mesh_renderers-inl.hpp>
+#include <penumbra/render/mesh_renderers.hpp>
 
 namespace penumbra {
 

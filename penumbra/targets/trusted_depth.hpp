@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <penumbra/targets/extent_tally-inl.hpp>
+#include <penumbra/targets/extent_tally.hpp>
 
 namespace penumbra {
 

@@ -14,16 +14,16 @@
 #include <variant>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/robot/drawn_links-inl.hpp>
-#include <penumbra/scene/camera_predictor-inl.hpp>
-#include <penumbra/scene/look_ahead.hpp>
+#include <penumbra/planning/camera_predictor-inl.hpp>
+#include <penumbra/planning/look_ahead.hpp>
+#include <penumbra/robot/drawn_links.hpp>
 
 namespace penumbra {
 namespace {
 
-using scene::AnchoredTarget;
-using scene::CameraPredictor;
-using scene::Sample;
+using planning::AnchoredTarget;
+using planning::CameraPredictor;
+using planning::Sample;
 
 constexpr double least_step = 0.001;  // seconds
 // Bound the samples of a long motion, which are kept.
@@ -38,9 +38,9 @@ void check(const LookAheadConfig& config) {
        {std::pair("step", config.step), {"motion", config.motion}, {"border", config.border}})
     if (!(std::isfinite(value) && value >= least_step))
       fault(std::string(name) + " is " + std::to_string(value) + "; expected 0.001 or more");
-  if (config.clearance < 0 || config.clearance > scene::max_clearance)
+  if (config.clearance < 0 || config.clearance > planning::max_clearance)
     fault("clearance is " + std::to_string(config.clearance) + " pixels; expected 0 to " +
-          std::to_string(scene::max_clearance));
+          std::to_string(planning::max_clearance));
 }
 
 /// Calls work(thread, index) for each index below `count`, on some threads.
@@ -128,9 +128,8 @@ class Sampler {
       for (std::size_t body = 0; body < motions.size(); ++body) {
         if (motions[body] <= most) continue;
         const auto by = static_cast<int>(std::min(motions[body], 1e6));
-        PixelRectangle swept = a.bodies[body].pixels.united(b.bodies[body].pixels);
-        swept = {swept.u0 - by, swept.v0 - by, swept.u1 + by, swept.v1 + by};
-        if (!overlap(swept, from.united(to)).empty()) return true;
+        const PixelRectangle swept = a.bodies[body].pixels.united(b.bodies[body].pixels);
+        if (!overlap(grown(swept, by, by), from.united(to)).empty()) return true;
       }
     }
     return false;
@@ -279,7 +278,7 @@ struct LookAhead::State {
                                             start.T_parent_camera.value_or(first.T_parent_camera);
     targets.clear();
     for (const ForecastTarget& target : given)
-      targets.push_back(scene::anchored(target, first.camera, T_root_camera));
+      targets.push_back(planning::anchored(target, first.camera, T_root_camera));
     for (std::size_t i = 0; i < judges.size(); ++i)
       if (judges[i] &&
           !judges[i]->set(targets, start_of(i / static_cast<std::size_t>(config.threads))))
@@ -294,7 +293,7 @@ struct LookAhead::State {
       return region != nullptr && region->extent == Extent::modal;
     };
     if (std::ranges::none_of(targets, is_modal)) return;
-    const int margin = std::min(cameras.front().rule.edge_margin, scene::max_clearance - 1);
+    const int margin = std::min(cameras.front().rule.edge_margin, planning::max_clearance - 1);
     if (!modal_judge || !modal_judge->set(targets, start))
       modal_judge =
           std::make_unique<CameraPredictor>(robot, cameras.front(), targets, start, margin + 1);

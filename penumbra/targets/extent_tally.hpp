@@ -8,12 +8,10 @@
 #include <limits>
 #include <optional>
 #include <span>
-#include <type_traits>
-#include <variant>
 #include <vector>
 
-#include <penumbra/labels/label_work-inl.hpp>
-#include <penumbra/targets/region_spans-inl.hpp>
+#include <penumbra/labels/rule.hpp>
+#include <penumbra/targets/region_spans.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {
@@ -41,28 +39,6 @@ struct LimitRule {
   float a, b, c, margin;
 };
 
-/// An image's measurements in metres; 0 where there is none.
-template <typename T>
-struct Measured {
-  Measured(ImageView<const T> of, const labelling::Rule& rule) : image(of), range(rule.range) {}
-
-  struct Row {
-    [[nodiscard]] float operator[](int u) const { return metres_of(depth[u], range); }
-    [[nodiscard]] bool is_measured(int u) const { return range.holds(depth[u]); }
-    /// The value in metres, measured or not: loops that compare it vectorise.
-    [[nodiscard]] float raw(int u) const {
-      return std::is_same_v<T, float> ? depth[u] : metres_per_millimetre * depth[u];
-    }
-
-    const T* depth;
-    MeasuredRange range;
-  };
-  [[nodiscard]] Row row(int v) const { return {image.row(v), range}; }
-
-  ImageView<const T> image;
-  MeasuredRange range;
-};
-
 /// A frame to judge targets on.
 struct TalliedFrame {
   /// `has_outside`: pixels that cannot be rendered are outside the camera's view (rectified
@@ -71,11 +47,12 @@ struct TalliedFrame {
 
   [[nodiscard]] bool has_pose() const { return !images.virtual_depth.depth.empty(); }
   [[nodiscard]] bool is_measured() const { return images.evidence == Evidence::measured; }
-  /// Returns whether the robot may lie in the pixels [u0, u1] x [v0, v1], clipped to the image. It
-  /// may lie anywhere outside the lens model.
-  [[nodiscard]] bool robot_may_lie_in(int u0, int u1, int v0, int v1) const;
-  /// The same for pixels [u0, u1] of a row in the image, exactly, and for robot up to `far` metres.
-  [[nodiscard]] bool robot_lies_in(int u0, int u1, int v, float far) const;
+  /// Returns whether the robot may lie in a box, clipped to the image. It may lie anywhere outside
+  /// the lens model.
+  [[nodiscard]] bool robot_may_lie_in(const PixelRectangle& box) const;
+  /// The same for pixels of a row in the image, exactly, and for robot up to `far` metres.
+  [[nodiscard]] bool robot_lies_in(const RowSpan& pixels, float far) const;
+  [[nodiscard]] PixelRectangle image() const { return {0, 0, width, height}; }
 
   LabelledImages images;
   const labelling::Rule* rule;

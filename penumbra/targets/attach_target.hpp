@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/targets/target.hpp>
 #include <penumbra/time/attachments.hpp>

@@ -2,7 +2,7 @@
 // Verdicts and points over cameras against closed forms.
 #include "../support/test.hpp"
 
-#include <penumbra/scene/target_fusion.hpp>
+#include <penumbra/fusion/target_fusion.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -13,11 +13,11 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
-#include <penumbra/labels/label_work-inl.hpp>
-#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/labels/rule.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/targets/object_renderers-inl.hpp>
+#include <penumbra/targets/object_renderers.hpp>
 #include <penumbra/targets/target.hpp>
 #include <penumbra/targets/target_judge.hpp>
 

@@ -2,7 +2,7 @@
 // What a motion will hide, against rays that Embree casts every millisecond.
 #include "box_rays.hpp"
 
-#include <penumbra/scene/look_ahead.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/cloud/scan.hpp>
-#include <penumbra/poses/pose_stage-inl.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {
