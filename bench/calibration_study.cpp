@@ -25,7 +25,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/calibration/calibration.hpp>
 
-#include <io/run/calibration_input.hpp>
+#include <io/inputs/calibration_input.hpp>
 #include <sim/random.hpp>
 
 namespace penumbra::study {

@@ -14,7 +14,7 @@
 #include <penumbra/diagnosis/diagnosis.hpp>
 #include <penumbra/poses/pose_stage.hpp>
 
-#include <io/run/run_input.hpp>
+#include <io/inputs/run_input.hpp>
 
 namespace penumbra::study {
 namespace {

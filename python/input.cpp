@@ -6,7 +6,7 @@
 
 #include <io/files/frame_reader.hpp>
 #include <io/files/image_size.hpp>
-#include <io/run/run_input.hpp>
+#include <io/inputs/run_input.hpp>
 
 namespace penumbra::python {
 namespace {

@@ -19,7 +19,7 @@
 #include <io/files/names.hpp>
 #include <io/files/pose_file.hpp>
 #include <io/files/result_folder.hpp>
-#include <io/run/calibration_input.hpp>
+#include <io/inputs/calibration_input.hpp>
 #include <io/web/calibration_pictures.hpp>
 
 namespace penumbra::app {

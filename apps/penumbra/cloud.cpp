@@ -19,9 +19,10 @@
 #include <apps/penumbra/run_summary.hpp>
 #include <apps/penumbra/server_options.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/run/cloud_run.hpp>
-#include <io/run/input_session.hpp>
-#include <io/run/output_folder.hpp>
+#include <io/inputs/clouds.hpp>
+#include <io/inputs/input_session.hpp>
+#include <io/outputs/cloud_output.hpp>
+#include <io/outputs/output_folder.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/stored_view.hpp>
 #include <io/web/web_server.hpp>

@@ -4,8 +4,8 @@
 #include <penumbra/base/error.hpp>
 
 #include <apps/penumbra/commands.hpp>
-#include <io/run/output_bag.hpp>
-#include <io/run/run_input.hpp>
+#include <io/inputs/run_input.hpp>
+#include <io/outputs/output_bag.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -5,7 +5,7 @@
 #include <apps/penumbra/options.hpp>
 #include <io/files/names.hpp>
 #include <io/files/printable.hpp>
-#include <io/run/init_recording.hpp>
+#include <io/inputs/init_recording.hpp>
 
 namespace penumbra::app {
 namespace {

@@ -13,7 +13,7 @@
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/result_folder.hpp>
-#include <io/run/look_ahead_input.hpp>
+#include <io/inputs/look_ahead_input.hpp>
 #include <io/web/moment_painter.hpp>
 
 namespace penumbra::app {

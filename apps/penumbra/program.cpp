@@ -19,7 +19,7 @@
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/names.hpp>
-#include <io/run/input_session.hpp>
+#include <io/inputs/input_session.hpp>
 
 namespace penumbra::app {
 namespace {

@@ -24,7 +24,7 @@
 #include <io/files/png.hpp>
 #include <io/files/pose_file.hpp>
 #include <io/files/report_json.hpp>
-#include <io/run/input_session.hpp>
+#include <io/inputs/input_session.hpp>
 
 namespace penumbra::app {
 namespace {

@@ -16,8 +16,8 @@
 #include <apps/penumbra/run_summary.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/pending_file.hpp>
-#include <io/run/output_bag.hpp>
-#include <io/run/output_folder.hpp>
+#include <io/outputs/output_bag.hpp>
+#include <io/outputs/output_folder.hpp>
 
 namespace penumbra::app {
 namespace {

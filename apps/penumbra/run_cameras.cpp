@@ -14,7 +14,7 @@
 #include <apps/penumbra/run_cameras.hpp>
 #include <apps/penumbra/run_summary.hpp>
 #include <io/files/camera_views.hpp>
-#include <io/run/output_folder.hpp>
+#include <io/outputs/output_folder.hpp>
 #include <io/web/report_page.hpp>
 
 namespace penumbra::app {

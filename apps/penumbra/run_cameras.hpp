@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <io/files/result_folder.hpp>
-#include <io/run/input_session.hpp>
-#include <io/run/output_folder.hpp>
+#include <io/inputs/input_session.hpp>
+#include <io/outputs/output_folder.hpp>
 
 namespace penumbra::app {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <io/run/input_session.hpp>
+#include <io/inputs/input_session.hpp>
 
 namespace penumbra::app {
 

@@ -8,7 +8,7 @@
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/progress.hpp>
-#include <io/run/output_folder.hpp>
+#include <io/outputs/output_folder.hpp>
 #include <sim/recording_bag.hpp>
 #include <sim/recording_folder.hpp>
 #include <sim/simulation.hpp>

@@ -21,7 +21,7 @@
 #include <io/files/result_folder.hpp>
 #include <io/files/stl_file.hpp>
 #include <io/files/tuning_report.hpp>
-#include <io/run/input_session.hpp>
+#include <io/inputs/input_session.hpp>
 
 namespace penumbra::app {
 namespace {

@@ -24,7 +24,7 @@
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/camera_views.hpp>
-#include <io/run/input_session.hpp>
+#include <io/inputs/input_session.hpp>
 #include <io/web/cameras_view.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/run_folder.hpp>

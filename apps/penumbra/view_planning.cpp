@@ -17,7 +17,7 @@
 #include <apps/penumbra/text.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/files/view_planning_report.hpp>
-#include <io/run/planning_input.hpp>
+#include <io/inputs/planning_input.hpp>
 #include <io/web/report_page.hpp>
 
 namespace penumbra::app {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <io/run/background_jobs.hpp>
+#include <io/files/background_jobs.hpp>
 
 namespace penumbra::io {
 namespace {

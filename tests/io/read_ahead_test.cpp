@@ -6,7 +6,7 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/run/read_ahead.hpp>
+#include <io/inputs/read_ahead.hpp>
 
 namespace penumbra::io::test {
 namespace {

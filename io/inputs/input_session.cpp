@@ -2,7 +2,7 @@
 #include <iterator>
 #include <utility>
 
-#include <io/run/input_session.hpp>
+#include <io/inputs/input_session.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
-#include <io/run/background_jobs.hpp>
+#include <io/files/background_jobs.hpp>
 
 namespace penumbra::io {
 

@@ -14,8 +14,8 @@
 #include <io/files/frame_reader.hpp>
 #include <io/files/joint_file.hpp>
 #include <io/files/names.hpp>
-#include <io/run/read_ahead.hpp>
-#include <io/run/run_input.hpp>
+#include <io/inputs/read_ahead.hpp>
+#include <io/inputs/run_input.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <penumbra/calibration/calibration.hpp>
 
-#include <io/run/run_input.hpp>
+#include <io/inputs/run_input.hpp>
 
 namespace penumbra::io {
 

@@ -11,7 +11,7 @@
 #include <io/files/frame_pattern.hpp>
 #include <io/files/image_size.hpp>
 #include <io/files/png.hpp>
-#include <io/run/calibration_input.hpp>
+#include <io/inputs/calibration_input.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -21,7 +21,7 @@
 #include <io/files/pose_file.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/video_file.hpp>
-#include <io/run/init_recording.hpp>
+#include <io/inputs/init_recording.hpp>
 
 namespace penumbra::io {
 namespace {

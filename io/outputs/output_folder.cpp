@@ -14,8 +14,8 @@
 #include <io/files/npy.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/files/png.hpp>
-#include <io/run/output_bag.hpp>
-#include <io/run/output_folder.hpp>
+#include <io/outputs/output_bag.hpp>
+#include <io/outputs/output_folder.hpp>
 #include <io/web/report_page.hpp>
 
 namespace penumbra::io {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <io/files/background_jobs.hpp>
 #include <io/files/frame_source.hpp>
-#include <io/run/background_jobs.hpp>
 
 namespace penumbra::io {
 

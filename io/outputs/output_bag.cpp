@@ -16,8 +16,8 @@
 #include <io/files/pending_file.hpp>
 #include <io/mcap/reader.hpp>
 #include <io/mcap/writer.hpp>
+#include <io/outputs/output_bag.hpp>
 #include <io/ros/message_definition.hpp>
-#include <io/run/output_bag.hpp>
 
 namespace penumbra::io {
 namespace {

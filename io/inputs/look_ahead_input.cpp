@@ -6,8 +6,8 @@
 #include <penumbra/pipeline/pipeline.hpp>
 
 #include <io/files/trajectory_file.hpp>
-#include <io/run/look_ahead_input.hpp>
-#include <io/run/planning_input.hpp>
+#include <io/inputs/look_ahead_input.hpp>
+#include <io/inputs/planning_input.hpp>
 
 namespace penumbra::io {
 namespace {

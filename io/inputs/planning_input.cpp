@@ -5,7 +5,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/files/candidates_file.hpp>
-#include <io/run/planning_input.hpp>
+#include <io/inputs/planning_input.hpp>
 
 namespace penumbra::io {
 

@@ -16,7 +16,7 @@
 #include <io/files/run_output.hpp>
 #include <io/files/settings.hpp>
 #include <io/files/targets_file.hpp>
-#include <io/run/run_input.hpp>
+#include <io/inputs/run_input.hpp>
 
 namespace penumbra::io {
 

@@ -11,7 +11,7 @@
 #include <penumbra/planning/look_ahead.hpp>
 
 #include <io/files/look_ahead_report.hpp>
-#include <io/run/run_input.hpp>
+#include <io/inputs/run_input.hpp>
 
 namespace penumbra::io {
 

@@ -14,7 +14,7 @@
 #include <io/assembly/camera_mount.hpp>
 #include <io/assembly/judged_cameras.hpp>
 #include <io/files/printable.hpp>
-#include <io/run/run_input.hpp>
+#include <io/inputs/run_input.hpp>
 
 namespace penumbra::io {
 namespace {

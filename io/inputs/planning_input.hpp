@@ -11,7 +11,7 @@
 #include <penumbra/planning/view_planning.hpp>
 
 #include <io/files/targets_file.hpp>
-#include <io/run/run_input.hpp>
+#include <io/inputs/run_input.hpp>
 
 namespace penumbra::io {
 

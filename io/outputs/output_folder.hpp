@@ -10,10 +10,10 @@
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 
+#include <io/files/background_jobs.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/files/run_output.hpp>
-#include <io/run/background_jobs.hpp>
 #include <io/web/key_frames.hpp>
 
 namespace penumbra::io {
