@@ -50,11 +50,12 @@ py::object keeper_of(std::shared_ptr<const void> owner) {
   return py::capsule(kept, [](void* of) { delete static_cast<std::shared_ptr<const void>*>(of); });
 }
 
-std::shared_ptr<const void> owner_of(py::array array) {
-  return std::shared_ptr<const py::array>(new py::array(std::move(array)), [](const py::array* of) {
-    const py::gil_scoped_acquire gil;
-    delete of;
-  });
+std::shared_ptr<const void> owner_of(py::object object) {
+  return std::shared_ptr<const py::object>(new py::object(std::move(object)),
+                                           [](const py::object* of) {
+                                             const py::gil_scoped_acquire gil;
+                                             delete of;
+                                           });
 }
 
 std::size_t check_image(py::handle source, const char* argument, std::span<const PixelType> types) {

@@ -36,8 +36,8 @@ namespace py = pybind11;
 /// without base is a copy.
 [[nodiscard]] py::object keeper_of(std::shared_ptr<const void> owner);
 
-/// Returns what keeps an array; it may be dropped on any thread.
-[[nodiscard]] std::shared_ptr<const void> owner_of(py::array array);
+/// Returns what keeps an object, a py::object; it may be dropped on any thread.
+[[nodiscard]] std::shared_ptr<const void> owner_of(py::object object);
 
 /// A pixel's type in NumPy.
 struct PixelType {

@@ -8,7 +8,7 @@
 #include <python/fields.hpp>
 #include <python/robot.hpp>
 
-#include <penumbra/cloud/cloud_labels.hpp>
+#include <penumbra/cloud/scan.hpp>
 
 namespace penumbra::python {
 namespace {
@@ -16,6 +16,7 @@ namespace {
 using PointArray = Shown<"Annotated[NDArray[float32], '(N, 3)']">;
 using LabelArray = Shown<"Annotated[NDArray[uint8], '(N,)']">;
 using LinkArray = Shown<"Annotated[NDArray[uint16], '(N,)']">;
+using TimeArray = Shown<"Annotated[NDArray[int32], '(N,)']">;
 
 struct PointLabeller {
   PointLabeller(const std::vector<OwnedBody>& bodies, const CloudRule& rule, int threads)
@@ -49,13 +50,39 @@ PointsView points_of(const py::object& source) {
           array.strides(0)};
 }
 
-std::span<const std::uint16_t> parts_of(const py::object& source) {
-  if (!py::isinstance<py::array_t<std::uint16_t>>(source) || is_masked(source) ||
+template <typename T>
+std::span<const T> row_of(const py::object& source, const std::string& argument) {
+  if (!py::isinstance<py::array_t<T>>(source) || is_masked(source) ||
       !(py::array(source).flags() & py::array::c_style))
-    throw py::type_error("parts: expected numpy.ndarray of uint16 with shape (N,); got " +
-                         description_of(source));
+    throw py::type_error(argument + ": expected numpy.ndarray of " +
+                         py::cast<std::string>(py::str(py::dtype::of<T>())) +
+                         " with shape (N,); got " + description_of(source));
   const py::array array(source);
-  return {static_cast<const std::uint16_t*>(array.data()), static_cast<std::size_t>(array.size())};
+  return {static_cast<const T*>(array.data()), static_cast<std::size_t>(array.size())};
+}
+
+Scan make_scan(const PointArray& points, const std::optional<TimeArray>& times,
+               const std::optional<Eigen::Vector3d>& origin) {
+  Scan scan{.points = points_of(points),
+            .origin = origin,
+            .owner = owner_of(py::make_tuple(points, times))};
+  if (times) scan.times = row_of<std::int32_t>(*times, "times");
+  return scan;
+}
+
+PointArray points_in(const Scan& scan) {
+  const PointsView& points = scan.points;
+  return PointArray(
+      read_only(py::array(py::dtype::of<float>(), {py::ssize_t(points.count), py::ssize_t{3}},
+                          {py::ssize_t{points.stride}, py::ssize_t{sizeof(float)}}, points.data,
+                          keeper_of(scan.owner))));
+}
+
+std::optional<TimeArray> times_in(const Scan& scan) {
+  if (scan.times.empty()) return std::nullopt;
+  return TimeArray(
+      read_only(py::array(py::dtype::of<std::int32_t>(), {py::ssize_t(scan.times.size())}, {},
+                          scan.times.data(), keeper_of(scan.owner))));
 }
 
 template <typename Array, typename T>
@@ -71,7 +98,7 @@ PointLabels label(PointLabeller& self, const PointArray& points, const Poses& T_
   if (origin && !origin->allFinite()) throw py::value_error("origin: expected finite numbers");
   if (!origin && parts) throw py::value_error("parts: points without an origin are of one instant");
   std::span<const std::uint16_t> part_of;
-  if (parts) part_of = parts_of(*parts);
+  if (parts) part_of = row_of<std::uint16_t>(*parts, "parts");
   const CloudLabels* found = nullptr;
   {
     const py::gil_scoped_release others;
@@ -86,6 +113,31 @@ std::shared_ptr<PointLabeller> make_labeller(const std::vector<OwnedBody>& bodie
                                              const CloudRule& rule, int threads) {
   const py::gil_scoped_release others;
   return std::make_shared<PointLabeller>(bodies, rule, threads);
+}
+
+void bind_scan(py::module_& m) {
+  py::class_<Scan> scan(m, "Scan",
+                        "The points of a scan, or of a cloud that is measured at once, in the "
+                        "sensor's frame. They are read where they are: do not change them while "
+                        "they are judged.");
+  scan.def(py::init(&make_scan), py::arg("points"), py::kw_only(), py::arg("times") = py::none(),
+           py::arg("origin") = Scan().origin, "points: float32 (N, 3) or more columns, metres.");
+  show_properties(scan, Field{"points", &points_in, "The coordinates, metres."},
+                  Field{"times", &times_in,
+                        "When each point was measured, nanoseconds after the frame's stamp; None: "
+                        "all at the stamp."},
+                  Field{"origin", &Scan::origin,
+                        "Where the rays start; None: points without rays, as of merged clouds."});
+  py::class_<CloudConfig> config(m, "CloudConfig", "A sensor that measures points.");
+  using C = CloudConfig;
+  bind_fields(
+      config, Field{"rule", &C::rule, "That points are labelled by."},
+      Field{"threads", &C::threads, "Results do not depend on them."},
+      Field{"sensor_parent", &C::sensor_parent, "Link that carries the sensor; empty: the root."},
+      Field{"T_parent_sensor", &C::T_parent_sensor,
+            "Pose of the points' frame in that link's frame, metres."},
+      Field{"target_history", &C::target_history,
+            "Seconds that scans are kept for targets of an earlier stamp; 0: not at all."});
 }
 
 }  // namespace
@@ -125,6 +177,7 @@ void bind_cloud(py::module_& m) {
            "that are not finite, and points less than 2 cm from the origin, are no measurement. "
            "parts: for a robot that moves during the scan, the part of the scan that each point is "
            "of; T_points_body then has the poses of all bodies in part 0, in part 1 and so on.");
+  bind_scan(m);
 }
 
 }  // namespace penumbra::python

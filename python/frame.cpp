@@ -17,6 +17,11 @@ void check_positions(const RobotPose& pose, const Robot& robot) {
                         std::to_string(pose.positions.size()));
 }
 
+void PoseFunction::operator()(std::int64_t stamp, RobotPose& pose) const {
+  const py::gil_scoped_acquire gil;
+  pose = py::cast<PoseArgument>(function()(stamp)).pose;
+}
+
 namespace {
 
 using NamedPositions = std::map<std::string, double>;
@@ -96,8 +101,9 @@ void bind_robot_pose(py::module_& m) {
 void bind_frame(py::module_& m) {
   using F = Frame;
   py::class_<F> frame(m, "Frame",
-                      "An image, and all that is needed to judge it: what Session.process takes. "
-                      "Images are read where they are: do not change them while they are judged.");
+                      "An image or a scan, and all that is needed to judge it: what "
+                      "Session.process takes. They are read where they are: do not change them "
+                      "while they are judged.");
   bind_members<2>(
       frame,
       Field{"depth", &F::depth,
@@ -106,7 +112,12 @@ void bind_frame(py::module_& m) {
       Field{"pose", &F::pose,
             "The robot's, at the stamp. As an argument also positions in the order of "
             "Robot.variables, rad and m; None: not known. See pose_of()."},
-      Field{"stamp", &F::stamp, "Of the depth image, nanoseconds."},
+      Field{"scan", &F::scan, "Of a sensor of points, in place of depth, or None."},
+      Field{"pose_at", &F::pose_at,
+            "The pose at any stamp during the scan, as pose: a function, for example lambda "
+            "stamp: pose_of(robot, joint_buffer.at(stamp)). Session.process calls it on its own "
+            "thread, for scans alone. None: pose is that of the whole scan."},
+      Field{"stamp", &F::stamp, "Of the depth image or the scan, nanoseconds."},
       Field{"targets", &F::targets, "To be judged."},
       Field{"plan", &F::plan,
             "The motion that the robot follows, or waits to follow; None: none is known. Its "

@@ -21,6 +21,15 @@ struct GivenAs<RobotPose> {
   using type = PoseArgument;
 };
 
+/// Calls a Python function, also where others hold the GIL.
+struct PoseFunction {
+  std::shared_ptr<const void> owner;  ///< of owner_of()
+  [[nodiscard]] const py::object& function() const {
+    return *static_cast<const py::object*>(owner.get());
+  }
+  void operator()(std::int64_t stamp, RobotPose& pose) const;
+};
+
 /// Raises ValueError for positions that are not one for each of the robot's variables.
 void check_positions(const RobotPose& pose, const Robot& robot);
 
@@ -41,6 +50,23 @@ struct type_caster<penumbra::python::PoseArgument>
     else
       value.pose.positions = penumbra::python::vector_of(source);
     return true;
+  }
+};
+template <>
+struct type_caster<penumbra::PoseAt> : penumbra::python::ValueCaster<penumbra::PoseAt> {
+  using Function = penumbra::python::PoseFunction;
+  static constexpr auto name = const_name("Optional[Callable[[int], ") +
+                               make_caster<penumbra::python::PoseArgument>::name + const_name("]]");
+  bool load(handle source, bool /*convert*/) {
+    if (source.is_none()) return true;
+    if (PyCallable_Check(source.ptr()) == 0) return false;
+    value = Function{penumbra::python::owner_of(reinterpret_borrow<object>(source))};
+    return true;
+  }
+  static handle cast(const penumbra::PoseAt& of, return_value_policy /*policy*/,
+                     handle /*parent*/) {
+    const auto* const known = of.target<Function>();
+    return known != nullptr ? known->function().inc_ref() : none().inc_ref();
   }
 };
 template <>

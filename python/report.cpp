@@ -40,7 +40,9 @@ void Report::check_is_last() const {
         std::to_string(numbers.index) + " before the next call");
 }
 
-ImageResult<std::uint8_t> Report::labels() const { return *read(labels_, numbers.labels); }
+ImageResult<std::uint8_t> Report::labels() const {
+  return labels_.read([&] { return check_is_last(), numbers.labels; });
+}
 std::optional<ImageResult<float>> Report::virtual_depth() const {
   return read(virtual_depth_, numbers.virtual_depth.depth);
 }
@@ -56,6 +58,9 @@ BoolImage Report::robot_mask() const {
 
 DepthImage Report::filtered_depth() const {
   check_is_last();
+  if (!state_->cloud_maker)
+    throw py::value_error(
+        "FrameReport: a scan has no image: take its points whose labels[0] is clear or front");
   DepthImage image;
   without_robot(with_names(), image);
   return image;
@@ -65,7 +70,7 @@ PointCloud Report::points(const std::optional<std::string>& frame) const {
   const auto T = frame ? camera_in_link(with_names(), *frame) : Eigen::Isometry3d::Identity();
   PointCloud cloud;
   const DepthImage depth = filtered_depth();
-  if (T) state_->cloud_maker.make(depth, cloud, *T);
+  if (T) state_->cloud_maker->make(depth, cloud, *T);
   return cloud;
 }
 
@@ -75,9 +80,10 @@ void bind_report_parts(py::module_& m) {
   py::class_<PixelCounts> pixels(
       m, "PixelCounts",
       "How many pixels of the label image have each label: robot = front + "
-      "occluded + unknown + beyond.");
+      "occluded + unknown + beyond. Of a scan: points; robot = front + occluded + beyond.");
   using P = PixelCounts;
   show_fields(pixels, Field{"robot", &P::robot, "Of the robot; None: its pose is not known."},
+              Field{"clear", &P::clear, "Not of the robot."},
               Field{"front", &P::front, "Something real in front of the robot."},
               Field{"occluded", &P::occluded, "The sensor sees the robot."},
               Field{"unknown", &P::unknown, "Not measured."},
@@ -162,7 +168,9 @@ void bind_report_properties(py::class_<Report>& report) {
       Field{"message", of(&F::message), "One line for every status but ok."},
       Field{"nothing_measured", of(&F::nothing_measured),
             "No pixel of the depth image is within the sensor's range."},
-      Field{"pixels", of(&F::pixels), "Pixels by label."},
+      Field{"parts", of(&F::parts),
+            "In how many parts a scan was labelled, each by poses of its own; 0: no scan."},
+      Field{"pixels", of(&F::pixels), "Pixels, or a scan's points, by label."},
       Field{"timing", of(&F::timing), "Milliseconds by stage."},
       Field{"T_root_camera", of(&F::T_root_camera),
             "The optical frame in the root link's frame, metres; None: not known."},
@@ -181,14 +189,16 @@ void bind_report_properties(py::class_<Report>& report) {
       Field{"missing_links", &R::missing_links,
             "Links drawn without all of their geometry, and attached bodies that are not drawn."},
       Field{"labels", &R::labels,
-            "Label values, (H, W); all unknown if the robot's pose is not known. A read-only copy, "
-            "made when it is first read. Raises ValueError if it was not read before the "
+            "Label values, (H, W), of a scan (1, N); all unknown if the robot's pose is not "
+            "known. A read-only copy, made when it is first read. Raises ValueError if it was not "
+            "read before the "
             "session's next call."},
       Field{"virtual_depth", &R::virtual_depth,
             "Metres along the optical axis, 0 where no robot is; None: the robot's pose is not "
-            "known. As labels."},
+            "known, or it is a scan. As labels."},
       Field{"link_image", &R::link_image,
-            "Index into links + 1 of the nearest surface, 0: none. As virtual_depth."},
+            "Index into links + 1 of the nearest surface, of a scan of the link that decided, 0: "
+            "none; None: the robot's pose is not known. As labels."},
       Field{"robot_mask", &R::robot_mask,
             "Where the robot is in the label image, whether it is measured or not: virtual_depth > "
             "0; None: the robot's pose is not known. False does not say that the depth is to be "

@@ -23,10 +23,11 @@ struct SessionState {
       : session(robot, camera, config),
         depth_size(camera.intrinsics),
         cloud_maker(session.pipeline().report_camera()) {}
+  SessionState(const Robot& robot, const CloudConfig& config) : session(robot, config) {}
 
   Session session;
-  Intrinsics depth_size;  ///< of depth images as they come
-  CloudMaker cloud_maker;
+  std::optional<Intrinsics> depth_size;   ///< of depth images as they come; null: of scans
+  std::optional<CloudMaker> cloud_maker;  ///< likewise
   std::uint64_t calls = 0;
   OneThread thread;
 };

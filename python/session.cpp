@@ -26,19 +26,18 @@ void bind_pipeline_settings(py::module_& m) {
             "Seconds that frames are kept for targets of an earlier stamp; 0: not at all."});
 }
 
-std::shared_ptr<State> make_session(const Robot& robot, const Camera& camera,
-                                    const PipelineConfig& config) {
+template <typename... Of>
+std::shared_ptr<State> make_session(const Robot& robot, const Of&... of) {
   const py::gil_scoped_release others;
-  return std::make_shared<State>(robot, camera, config);
+  return std::make_shared<State>(robot, of...);
 }
 
 Report process(const std::shared_ptr<State>& self, const Frame& frame) {
   const OneThread::Use use(self->thread, "Session.process");
-  const Intrinsics& size = self->depth_size;
   std::visit(
       [&](const auto& depth) {
-        if (!depth.empty())
-          check_size("depth", depth.width, depth.height, size.width(), size.height());
+        if (const auto& size = self->depth_size; size && !depth.empty())
+          check_size("depth", depth.width, depth.height, size->width(), size->height());
       },
       frame.depth.view);
   check_positions(frame.pose, self->session.pipeline().robot());
@@ -83,14 +82,17 @@ void bind_session(py::module_& m) {
       "The whole method, one call per frame: poses, virtual depth, labels, targets. Serves one "
       "thread at a time; other threads run meanwhile.");
   session
-      .def(py::init(&make_session), py::arg("robot"), py::arg("camera"),
+      .def(py::init(&make_session<Camera, PipelineConfig>), py::arg("robot"), py::arg("camera"),
            py::arg("config") = PipelineConfig(),
            "Raises InputError for a robot without geometry, a camera parent that is no link, a "
            "pose that is not rigid, and what the parts refuse.")
+      .def(py::init(&make_session<CloudConfig>), py::arg("robot"), py::arg("config"),
+           "With a CloudConfig it is of a sensor of points, and its frames have scans.")
       .def("process", &process, py::arg("frame"),
            "Judges one frame. Whatever is wrong with it is the report's status. Raises ValueError "
            "for a depth image of another size than the camera's and for another number of joint "
-           "positions than the robot has, DeviceError if a graphics device fails.")
+           "positions than the robot has, what Frame.pose_at raises, DeviceError if a graphics "
+           "device fails.")
       .def("attach_target", &attach_target, py::arg("target"), py::arg("link"),
            "Returns a target of the last frame as the AttachedBody that `link` carries from that "
            "frame on: a BoxTarget, MeshTarget or PointTarget (its ball). Call it when the gripper "
@@ -125,11 +127,13 @@ void bind_session(py::module_& m) {
   using P = Pipeline;
   show_fields(
       session, Field{"robot", of(&P::robot), "The robot."},
-      Field{"renderer", of(&P::renderer), "What draws."},
-      Field{"triangle_count", of(&P::triangle_count), "Of all links."},
-      Field{"rule", of(&P::rule), "The rule that labels are made by."},
-      Field{"intrinsics", of(&P::intrinsics), "Size and projection of report images."},
       Field{"missing_links", of(&P::missing_links), "Links whose geometry could not be read."});
+  show_properties(session,
+                  Field{"renderer", of(&P::renderer),
+                        "What draws. Of a camera, as the next three: RuntimeError for scans."},
+                  Field{"triangle_count", of(&P::triangle_count), "Of all links."},
+                  Field{"rule", of(&P::rule), "The rule that labels are made by."},
+                  Field{"intrinsics", of(&P::intrinsics), "Size and projection of report images."});
 }
 
 }  // namespace penumbra::python

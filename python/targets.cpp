@@ -7,8 +7,9 @@ namespace penumbra::python {
 namespace {
 
 constexpr const char* frame_doc =
-    "Frame of the pose or position: None is the camera's optical frame, '' the robot's root link, "
-    "else the link of that name.";
+    "Frame of the pose or position: None is the camera's optical frame or the scan's, '' the "
+    "robot's "
+    "root link, else the link of that name.";
 
 void bind_thresholds(py::module_& m) {
   py::class_<TargetThresholds> thresholds(m, "TargetThresholds",

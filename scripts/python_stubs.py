@@ -20,6 +20,7 @@ import os
 import pathlib
 from typing import (
     Annotated,
+    Callable,
     Dict,
     Iterator,
     List,

@@ -24,6 +24,7 @@ struct Scan {
   std::span<const std::int32_t> times = {};
   /// Where the rays start, in the points' frame. Null: points without rays, as of merged clouds.
   std::optional<Eigen::Vector3d> origin = Eigen::Vector3d::Zero();
+  std::shared_ptr<const void> owner = {};  ///< keeps points and times; may be null
 };
 
 /// Sets `pose` to the robot's pose at a stamp, or its fault, as PoseLookup::at.

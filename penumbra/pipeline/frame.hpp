@@ -19,8 +19,8 @@
 
 namespace penumbra {
 
-/// An image or a scan, and all that is needed to judge it. A source's images without an owner, and
-/// its points, are valid until its next frame.
+/// An image or a scan, and all that is needed to judge it. A source's images and scans without an
+/// owner are valid until its next frame.
 struct Frame {
   std::optional<std::size_t> index = {};   ///< in its source; null: the number of the call
   std::optional<std::int64_t> stamp = {};  ///< of the depth image or the scan, nanoseconds

@@ -239,13 +239,13 @@ void ScanLabeller::begin(const LabelledFrame& frame) {
   });
   if (kept_.size() == remembered_stamps) kept_.pop_front();
   Kept& kept = kept_.emplace_back(Kept{.stamp = stamp, .scan = now_, .points = {}});
-  PointsView& points = kept.scan.scan.points;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const Eigen::Vector3f point = points[i];
+  Scan& scan = kept.scan.scan;
+  for (std::size_t i = 0; i < scan.points.count; ++i) {
+    const Eigen::Vector3f point = scan.points[i];
     kept.points.insert(kept.points.end(), point.begin(), point.end());
   }
-  points = {reinterpret_cast<const std::byte*>(kept.points.data()), points.count};
-  kept.scan.scan.times = {};
+  scan = {.points = {reinterpret_cast<const std::byte*>(kept.points.data()), scan.points.count},
+          .origin = scan.origin};
 }
 
 const LabelledFrame& ScanLabeller::earlier(std::int64_t stamp, const PoseResult* poses) {
