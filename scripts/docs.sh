@@ -18,7 +18,9 @@ fi
 
 mkdir -p build/docs
 rm -rf build/docs/doxygen
-doxygen docs/site/Doxyfile
+headers=$(PYTHONPATH=docs/site python3 -c "import reference
+print(*(f'penumbra/{one}' for of in reference.HEADERS.values() for one in of))")
+(cat docs/site/Doxyfile && echo "INPUT = $headers") | doxygen -
 PYTHONPATH=$build/python "${PYTHON:-/usr/bin/python3}" -m sphinx -W --keep-going -E -a -q -b html \
   -c docs/site -d build/docs/doctrees . "$out"
 if grep -rnE '(src=|<link[^>]*href=|url\()["'\'']?https?:' "$out" --include='*.html' --include='*.css'; then

@@ -13,6 +13,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 import pages  # noqa: E402  beside this file
 import reference  # noqa: E402
+from docutils import nodes  # noqa: E402
 
 project = "Penumbra"
 version = release = re.search(r"project\(Penumbra VERSION ([0-9.]+)",
@@ -46,12 +47,16 @@ def add_what_is_made(app, docname, source):
         source[0] += reference.cpp_pages()
 
 
-def keep_folders_as_text(app, env, node, contnode):
-    """A link to a folder of the sources, which is no page."""
-    page = ROOT / node.get("refdoc", root_doc)
-    target = node.get("reftarget", "")
-    if (page.parent / target).is_dir():
+def find_target(app, env, node, contnode):
+    """A link to a folder of the sources, which is no page, or to an <a id="..."> of a page."""
+    page = (ROOT / node.get("refdoc", root_doc)).with_suffix(".md")
+    name, _, anchor = node.get("reftarget", "").partition("#")
+    target = page.parent / name if name else page
+    if target.is_dir():
         return contnode
+    if anchor and target.is_file() and f'<a id="{anchor}">' in target.read_text():
+        link = (name.removesuffix("md") + "html" if name else "") + "#" + anchor
+        return nodes.reference("", "", contnode, refuri=link)
     return None
 
 
@@ -68,5 +73,5 @@ def finish(app, exception):
 def setup(app):
     app.add_lexer("csv", TextLexer)
     app.connect("source-read", add_what_is_made)
-    app.connect("missing-reference", keep_folders_as_text, priority=1)
+    app.connect("missing-reference", find_target, priority=1)
     app.connect("build-finished", finish)
