@@ -259,9 +259,9 @@ const LabelledFrame& ScanLabeller::earlier(std::int64_t stamp, const PoseResult*
 LabelledFrame ScanLabeller::frame_of(const Labels& scan, const PoseResult& poses) {
   LabelledFrame frame{
       .poses = &poses, .status = scan.status, .message = scan.message, .scan = &scan.scan};
-  const auto row = [&](const auto& values) {
+  const auto row = []<typename T>(const std::vector<T>& values) {
     const int width = static_cast<int>(values.size());
-    return ImageView{values.data(), width, 1, width};
+    return ImageView<const T>{values.data(), width, 1, width};
   };
   frame.labels.labels = row(scan.labels);
   for (const std::uint8_t label : scan.labels) ++frame.labels.pixels[label];

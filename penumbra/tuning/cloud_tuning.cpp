@@ -8,7 +8,7 @@
 namespace penumbra {
 namespace {
 
-constexpr double sigmas = 3.5;              // of tolerance: 0.05 % of normal noise is beyond
+constexpr double tolerated = 3.5;  // deviations of tolerance: 0.05 % of normal noise is beyond
 constexpr std::size_t least_points = 1000;  // on the robot
 constexpr std::size_t least_in_ring = 200;  // around its outline
 constexpr double largest_bias = 0.02;       // metres; more is a wrong pose
@@ -116,7 +116,7 @@ void CloudTuner::measure_ranges(CloudTuning& out) const {
                            "pose, the joint positions or their stamps first");
     return;
   }
-  const double wanted = std::abs(out.bias) + sigmas * out.deviation;
+  const double wanted = std::abs(out.bias) + tolerated * out.deviation;
   out.rule.tolerance = {.a = millimetre * std::ceil(wanted / millimetre), .b = 0.0, .c = 0.0};
   out.has_tolerance = true;
 }
