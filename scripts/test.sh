@@ -143,7 +143,7 @@ tidy_scope=penumbra
 unity=ON  # many sources at once
 # AddressSanitizer watches the code that reads files or writes images, ThreadSanitizer the renderer's
 # threads. Their trees hold only those rooms. Most rooms are tested in one tree.
-asan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;time;camera;render;labels;poses;tracking;targets;cloud'
+asan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;time;camera;render;labels;poses;tracking;cloud;targets;pipeline'
 tsan_rooms=-DPENUMBRA_ROOMS='base;mesh;robot;camera;render'
 not_in_release=-DPENUMBRA_SKIP_TESTS='base;mesh;robot'
 not_in_asan=-DPENUMBRA_SKIP_TESTS='time;camera;targets;tracking;pipeline;planning;fusion;house'
