@@ -8,7 +8,7 @@
 #include <penumbra/poses/pose_lookup.hpp>
 #include <penumbra/time/pose_history.hpp>
 
-#include <io/assembly/assembled_frame.hpp>
+#include <io/assembly/cloud_input.hpp>
 #include <io/cloud/cloud_file.hpp>
 #include <io/files/frame_reader.hpp>
 #include <io/inputs/clouds.hpp>

@@ -15,12 +15,13 @@
 #include <penumbra/robot/robot.hpp>
 
 #include <io/assembly/bag_options.hpp>
-#include <io/assembly/cloud_input.hpp>
 #include <io/files/frame_source.hpp>
 #include <io/files/recording.hpp>
 #include <io/files/report_json.hpp>
 
 namespace penumbra::io {
+
+struct CloudInputOptions;
 
 /// Frames first <= index < end; bounds are optional.
 struct FrameRange {
