@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Penumbra)
 
-foreach(name penumbra setup planning session io live)
+foreach(name penumbra cloud setup planning session io live)
   set(library penumbra_${name})
   if(name STREQUAL penumbra)
     set(library penumbra)

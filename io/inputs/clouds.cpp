@@ -12,6 +12,7 @@
 #include <io/cloud/cloud_file.hpp>
 #include <io/files/frame_reader.hpp>
 #include <io/inputs/clouds.hpp>
+#include <io/inputs/input_session.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -177,5 +178,7 @@ CloudTuning tune_clouds(const RunInput& input, const std::function<bool()>& go_o
     if (i % step == 0 && tuner.add(pipeline, frame)) ++measured;
   return tuner.result();
 }
+
+Session make_session(Robot robot, const CloudConfig& config) { return {std::move(robot), config}; }
 
 }  // namespace penumbra::io

@@ -37,7 +37,7 @@ std::optional<TargetsFile> open_targets(const SessionOptions& options, const Run
 Session session_of(const SessionOptions& options, RunInput& input, double target_history) {
   if (input.cloud) {
     input.cloud->target_history = target_history;
-    return {std::move(input.robot), *input.cloud};
+    return make_session(std::move(input.robot), *input.cloud);
   }
   PipelineConfig config = input.config;
   config.backend = options.backend;

@@ -84,6 +84,9 @@ class InputSession {
                                    const DriftLimits& limits,
                                    const std::filesystem::path& camera_info);
 
+/// The same of a sensor of points. Defined in clouds.cpp: a program without clouds replaces it.
+[[nodiscard]] Session make_session(Robot robot, const CloudConfig& config);
+
 /// Returns the message of a graphics device's fault, with what the user can do about it.
 [[nodiscard]] std::string without_device(const DeviceError& error);
 

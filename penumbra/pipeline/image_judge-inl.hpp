@@ -6,21 +6,36 @@
 
 #include <Eigen/Core>
 
+#include <penumbra/camera/rectification.hpp>
+#include <penumbra/pipeline/frame_judge-inl.hpp>
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
 #include <penumbra/pipeline/recent_depth-inl.hpp>
+#include <penumbra/render/near_plane_check.hpp>
 #include <penumbra/targets/target_judge.hpp>
-#include <penumbra/targets/target_stage.hpp>
 #include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
 
-/// Judges targets on labelled images, and keeps their depth for late targets.
-class ImageJudge final : public SampleJudge {
+/// Labels a camera's images, judges targets on them, and keeps their depth for late targets.
+class ImageJudge final : public FrameJudge {
  public:
-  /// `labeller`: made with the same arguments. Robot and rectification (null without lens
-  /// distortion) must outlive this. Throws InputError for a target_history out of range.
-  ImageJudge(const Robot& robot, const Camera& camera, const Rectification* rectification,
-             const FrameLabeller& labeller, const PipelineConfig& config);
+  /// Throws InputError for a target_history out of range, and as Camera, LabelRule and
+  /// make_depth_renderer do.
+  ImageJudge(const Robot& robot, const Camera& camera, const PipelineConfig& config);
+
+  LabelledFrame label(const Frame& frame, PoseStage& poses) override;
+  [[nodiscard]] const FrameLabeller& labeller() const { return labeller_; }
+  /// Returns the camera of the labelled images: without distortion if they are rectified.
+  [[nodiscard]] const Camera& camera() const { return camera_; }
+  /// Maps the camera's images to the labelled ones; null if they are the same.
+  [[nodiscard]] const Rectification* rectification() const {
+    return labeller_.rectifies() ? lens() : nullptr;
+  }
+  /// Returns the links that reach into the near plane.
+  [[nodiscard]] std::span<const std::size_t> near_links(
+      std::span<const Eigen::Isometry3d> T_camera_link) {
+    return near_plane_.find(T_camera_link);
+  }
 
   Judgement judge(const LabelledFrame& frame, const Target& target, TargetMemory* memory,
                   const std::optional<Eigen::Vector2d>& motion) override;
@@ -32,7 +47,15 @@ class ImageJudge final : public SampleJudge {
   void forget() override { recent_depth_.clear(); }
 
  private:
-  Camera camera_;  // of the judged images
+  [[nodiscard]] const Rectification* lens() const {
+    return rectification_ ? &*rectification_ : nullptr;
+  }
+
+  Robot robot_;
+  std::optional<Rectification> rectification_;  // null without lens distortion
+  FrameLabeller labeller_;
+  NearPlaneCheck near_plane_;
+  Camera camera_;
   TargetJudge judge_;
   ObjectRenderers renderers_;
   TargetViews views_;

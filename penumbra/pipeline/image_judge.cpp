@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include <penumbra/base/error.hpp>
@@ -22,6 +23,11 @@ ImageView<const std::uint8_t> unseen_pixels(const FrameLabeller& labeller) {
   return uncovered && labeller.rectifies() ? uncovered->mask() : ImageView<const std::uint8_t>{};
 }
 
+std::optional<Rectification> rectification_of(const Camera& camera) {
+  if (camera.distortion.is_none()) return std::nullopt;
+  return std::optional<Rectification>(std::in_place, camera);
+}
+
 Camera without_distortion(Camera camera, const Intrinsics& intrinsics) {
   camera.intrinsics = intrinsics;
   camera.distortion = {};
@@ -39,17 +45,25 @@ bool is_expected(const Target& target) {
 
 }  // namespace
 
-ImageJudge::ImageJudge(const Robot& robot, const Camera& camera, const Rectification* rectification,
-                       const FrameLabeller& labeller, const PipelineConfig& config)
-    : camera_(labeller.rectifies() ? without_distortion(camera, labeller.intrinsics()) : camera),
-      judge_(camera_, labeller.rule(), robot.links().size() + max_attached,
-             unseen_pixels(labeller)),
-      renderers_(labeller.render_intrinsics(), config.backend, config.renderer,
-                 labeller.rectifies() ? nullptr : rectification, camera),
-      views_(robot, camera_, renderers_, labeller.rule(),
-             labeller.rectifies() ? nullptr : rectification),
+ImageJudge::ImageJudge(const Robot& robot, const Camera& camera, const PipelineConfig& config)
+    : robot_(robot),
+      rectification_(rectification_of(camera.check())),
+      labeller_(robot_, camera, lens(), config),
+      near_plane_(labeller_.render_intrinsics(), bodies_of(robot_)),
+      camera_(labeller_.rectifies() ? without_distortion(camera, labeller_.intrinsics()) : camera),
+      judge_(camera_, labeller_.rule(), robot_.links().size() + max_attached,
+             unseen_pixels(labeller_)),
+      renderers_(labeller_.render_intrinsics(), config.backend, config.renderer,
+                 labeller_.rectifies() ? nullptr : lens(), camera),
+      views_(robot_, camera_, renderers_, labeller_.rule(),
+             labeller_.rectifies() ? nullptr : lens()),
       recent_depth_(history_span(config.target_history)) {
-  if (recent_depth_.is_enabled()) late_labeller_.emplace(robot, camera, rectification, config);
+  if (recent_depth_.is_enabled()) late_labeller_.emplace(robot_, camera, lens(), config);
+}
+
+LabelledFrame ImageJudge::label(const Frame& frame, PoseStage& poses) {
+  return labeller_.label(frame.depth.view, poses.place(frame.pose, frame.stamp, frame.source_status,
+                                                       frame.source_message));
 }
 
 Judgement ImageJudge::judge(const LabelledFrame& frame, const Target& target, TargetMemory* memory,

@@ -7,33 +7,15 @@
 #include <vector>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/camera/rectification.hpp>
-#include <penumbra/pipeline/frame_labeller-inl.hpp>
 #include <penumbra/pipeline/image_judge-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/scan_labeller-inl.hpp>
 #include <penumbra/poses/pose_stage.hpp>
-#include <penumbra/render/near_plane_check.hpp>
 #include <penumbra/robot/drawn_links.hpp>
 #include <penumbra/targets/attach_target.hpp>
 #include <penumbra/targets/target_stage.hpp>
 
 namespace penumbra {
 namespace {
-
-Robot checked(Robot robot) {
-  check_is_drawn(robot);
-  return robot;
-}
-
-std::optional<Rectification> rectification_of(const Camera& camera) {
-  if (camera.distortion.is_none()) return std::nullopt;
-  return std::optional<Rectification>(std::in_place, camera);
-}
-
-const Rectification* pointer_to(const std::optional<Rectification>& rectification) {
-  return rectification ? &*rectification : nullptr;
-}
 
 PixelCounts counts_of(const LabelledFrame& frame) {
   const auto count = [&](Label label) {
@@ -61,47 +43,26 @@ PixelCounts counts_of(const LabelledFrame& frame) {
 }  // namespace
 
 struct Pipeline::State {
-  /// A camera, and what labels and judges its images.
-  struct Images {
-    Images(const Robot& robot, const Camera& of, const PipelineConfig& config)
-        : camera(of.check()),
-          rectification(rectification_of(camera)),
-          labeller(robot, camera, pointer_to(rectification), config),
-          near_plane(labeller.render_intrinsics(), bodies_of(robot)),
-          judge(robot, camera, pointer_to(rectification), labeller, config) {}
-
-    Camera camera;
-    std::optional<Rectification> rectification;  // null without lens distortion
-    FrameLabeller labeller;
-    NearPlaneCheck near_plane;
-    ImageJudge judge;
-  };
-
-  State(Robot of, const Camera& camera, const PipelineConfig& config)
-      : robot(checked(std::move(of))),
+  State(Robot of, const std::string& parent, const Eigen::Isometry3d& T_parent_sensor,
+        std::unique_ptr<FrameJudge> how, std::optional<std::string> image_frame)
+      : robot(std::move(of)),
         missing_links(missing_links_of(robot)),
-        poses(robot, config.camera_parent, config.T_parent_camera, missing_links),
-        own_images(std::in_place, robot, camera, config),
-        targets(robot, own_images->judge, camera.frame_id) {}
-  State(Robot of, const CloudConfig& config)
-      : robot(checked(std::move(of))),
-        missing_links(missing_links_of(robot)),
-        poses(robot, config.sensor_parent, config.T_parent_sensor, missing_links, false),
-        scans(std::in_place, robot, config),
-        targets(robot, *scans, std::nullopt) {}
+        poses(robot, parent, T_parent_sensor, missing_links, image_frame.has_value()),
+        judge(std::move(how)),
+        targets(robot, *judge, std::move(image_frame)) {}
 
-  [[nodiscard]] Images& images() {
-    if (!own_images) throw std::logic_error("this pipeline has no camera: its sensor scans");
-    return *own_images;
+  [[nodiscard]] const ImageJudge& images() const {
+    if (image_judge == nullptr)
+      throw std::logic_error("this pipeline has no camera: its sensor scans");
+    return *image_judge;
   }
-  LabelledFrame label(const Frame& frame);
   const FrameReport& report_of(const Frame& frame, const LabelledFrame& labelled);
 
   Robot robot;
   std::vector<std::string> missing_links;
   PoseStage poses;
-  std::optional<Images> own_images;   // of a camera
-  std::optional<ScanLabeller> scans;  // of a sensor of points
+  std::unique_ptr<FrameJudge> judge;
+  ImageJudge* image_judge = nullptr;  // the same, of a camera
   TargetStage targets;
   const PoseResult* last_poses = nullptr;  // of the last frame, if it was judged
   std::size_t calls = 0;
@@ -109,56 +70,44 @@ struct Pipeline::State {
   FrameReport report;
 };
 
-Pipeline::Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config)
-    : state_(std::make_unique<State>(std::move(robot), camera, config)) {}
-Pipeline::Pipeline(Robot robot, const CloudConfig& config)
-    : state_(std::make_unique<State>(std::move(robot), config)) {}
+Pipeline::Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config) {
+  check_is_drawn(robot);
+  auto judge = std::make_unique<ImageJudge>(robot, camera, config);
+  ImageJudge* images = judge.get();
+  state_ = std::make_unique<State>(std::move(robot), config.camera_parent, config.T_parent_camera,
+                                   std::move(judge), camera.frame_id);
+  state_->image_judge = images;
+}
+Pipeline::Pipeline(Robot robot, const std::string& sensor_parent,
+                   const Eigen::Isometry3d& T_parent_sensor, std::unique_ptr<FrameJudge> scans)
+    : state_(std::make_unique<State>(std::move(robot), sensor_parent, T_parent_sensor,
+                                     std::move(scans), std::nullopt)) {}
 Pipeline::~Pipeline() = default;
 Pipeline::Pipeline(Pipeline&&) noexcept = default;
 Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 
 const Robot& Pipeline::robot() const { return state_->robot; }
-void Pipeline::set_rule(const CloudRule& rule) {
-  if (!state_->scans) throw std::logic_error("this pipeline's sensor is a camera");
-  state_->scans->set_rule(rule);
-}
+void Pipeline::set_rule(const CloudRule& rule) { state_->judge->set_rule(rule); }
 const RendererInfo& Pipeline::renderer() const {
-  return state_->images().labeller.renderer().info();
+  return state_->images().labeller().renderer().info();
 }
 std::size_t Pipeline::triangle_count() const {
-  return state_->images().labeller.renderer().triangle_count();
+  return state_->images().labeller().renderer().triangle_count();
 }
-const LabelRule& Pipeline::rule() const { return state_->images().labeller.rule(); }
-const Intrinsics& Pipeline::intrinsics() const { return state_->images().labeller.intrinsics(); }
-Camera Pipeline::report_camera() const {
-  const State::Images& images = state_->images();
-  if (!images.labeller.rectifies()) return images.camera;
-  return {.intrinsics = intrinsics(),
-          .distortion = {},
-          .range = images.camera.range,
-          .frame_id = images.camera.frame_id};
-}
-const Rectification* Pipeline::rectification() const {
-  const State::Images& images = state_->images();
-  return images.labeller.rectifies() ? &*images.rectification : nullptr;
-}
+const LabelRule& Pipeline::rule() const { return state_->images().labeller().rule(); }
+const Intrinsics& Pipeline::intrinsics() const { return state_->images().labeller().intrinsics(); }
+Camera Pipeline::report_camera() const { return state_->images().camera(); }
+const Rectification* Pipeline::rectification() const { return state_->images().rectification(); }
 std::span<const std::string> Pipeline::missing_links() const { return state_->missing_links; }
 
 const FrameReport& Pipeline::process(const Frame& frame) {
   State& s = *state_;
   s.last_poses = nullptr;
-  const LabelledFrame labelled = s.label(frame);
+  const LabelledFrame labelled = s.judge->label(frame, s.poses);
   s.targets.judge(frame.targets, labelled);
   s.targets.track(frame.targets, labelled);
   s.last_poses = labelled.poses;
   return s.report_of(frame, labelled);
-}
-
-LabelledFrame Pipeline::State::label(const Frame& frame) {
-  if (scans) return scans->label(frame, poses);
-  return own_images->labeller.label(
-      frame.depth.view,
-      poses.place(frame.pose, frame.stamp, frame.source_status, frame.source_message));
 }
 
 AttachedBody Pipeline::attach_target(const Target& target, std::string_view link) const {
@@ -183,7 +132,7 @@ const FrameReport& Pipeline::State::report_of(const Frame& frame, const Labelled
   report.message = labelled.message;
   report.note = at.note;
   report.nothing_measured = labelled.nothing_measured;
-  report.parts = scans ? scans->parts() : 0;
+  report.parts = judge->parts();
   report.pixels = counts_of(labelled);
   report.timing.kinematics = at.kinematics_ms;
   report.timing.render = labelled.render_ms;
@@ -201,7 +150,7 @@ const FrameReport& Pipeline::State::report_of(const Frame& frame, const Labelled
   if (at.known()) {
     report.T_root_camera = at.T_root_camera;
     report.T_root_link = at.T_root_link;
-    if (own_images) report.near_links = own_images->near_plane.find(at.T_camera_link);
+    if (image_judge != nullptr) report.near_links = image_judge->near_links(at.T_camera_link);
   }
   report.virtual_depth = labelled.images.virtual_depth;
   report.depth = labelled.images.measured;

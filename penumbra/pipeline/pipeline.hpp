@@ -44,6 +44,8 @@ struct PipelineConfig {
   static constexpr double max_target_history = 60.0;
 };
 
+class FrameJudge;
+
 /// The whole method, one call per frame: poses, virtual depth, labels, targets. After the first of
 /// its kind, a frame allocates only the names and reasons of its targets' reports. One instance
 /// serves one thread at a time.
@@ -108,6 +110,9 @@ class Pipeline {
 
  private:
   struct State;
+  Pipeline(Robot robot, const std::string& sensor_parent, const Eigen::Isometry3d& T_parent_sensor,
+           std::unique_ptr<FrameJudge> scans);
+
   std::unique_ptr<State> state_;
 };
 

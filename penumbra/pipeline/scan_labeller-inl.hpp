@@ -11,26 +11,23 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/cloud/scan.hpp>
-#include <penumbra/pipeline/frame.hpp>
-#include <penumbra/poses/pose_stage.hpp>
+#include <penumbra/pipeline/frame_judge-inl.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/targets/labelled_frame.hpp>
-#include <penumbra/targets/target_stage.hpp>
 
 namespace penumbra {
 
 /// Labels scans by the robot's poses while they were measured, and judges targets on their rays.
 /// Its images are of one row, a pixel for each point.
-class ScanLabeller final : public SampleJudge {
+class ScanLabeller final : public FrameJudge {
  public:
-  /// The robot must outlive this. Throws InputError as CloudLabeller, and for a target_history out
-  /// of range.
+  /// Throws InputError for a robot without geometry, a target_history out of range, and as
+  /// CloudLabeller.
   ScanLabeller(const Robot& robot, const CloudConfig& config);
 
   /// Labels a scan. The result refers to the frame and is valid until the next call. What is
   /// attached at the scan's begin is labelled, too; the first scan with others takes as long as the
   /// construction.
-  LabelledFrame label(const Frame& frame, PoseStage& poses);
+  LabelledFrame label(const Frame& frame, PoseStage& poses) override;
 
   Judgement judge(const LabelledFrame& frame, const Target& target, TargetMemory* memory,
                   const std::optional<Eigen::Vector2d>& motion) override;
@@ -38,9 +35,8 @@ class ScanLabeller final : public SampleJudge {
   const LabelledFrame& earlier(std::int64_t stamp, const PoseResult* poses) override;
   void forget() override { kept_.clear(); }
 
-  void set_rule(const CloudRule& rule);
-  /// In how many parts the last scan was labelled, each with its own poses.
-  [[nodiscard]] std::size_t parts() const { return parts_; }
+  void set_rule(const CloudRule& rule) override;
+  [[nodiscard]] std::size_t parts() const override { return parts_; }
 
  private:
   /// The labels of a scan, or why it has none.
@@ -70,7 +66,7 @@ class ScanLabeller final : public SampleJudge {
                                 const std::optional<Eigen::Vector3d>& origin) const;
   void take(const CloudLabels& found);
 
-  const Robot& robot_;
+  Robot robot_;
   CloudConfig config_;
   std::optional<CloudLabeller> labeller_;
   std::vector<AttachedBody> carried_;  // the labeller's, after the links

@@ -11,8 +11,10 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/recent_values.hpp>
 #include <penumbra/base/stamps.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/ray_targets-inl.hpp>
 #include <penumbra/pipeline/scan_labeller-inl.hpp>
+#include <penumbra/robot/drawn_links.hpp>
 #include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
@@ -38,6 +40,7 @@ ScanLabeller::ScanLabeller(const Robot& robot, const CloudConfig& config)
     : robot_(robot),
       config_(config),
       history_(span_nanoseconds(config.target_history, "target_history")) {
+  check_is_drawn(robot_);
   make_labeller();
 }
 
@@ -301,5 +304,10 @@ LabelledFrame ScanLabeller::label(const Frame& frame, PoseStage& poses) {
   out.classify_ms = classify_ms;
   return out;
 }
+
+// Here, so that a program that reads no scans need not be linked with their labels.
+Pipeline::Pipeline(Robot robot, const CloudConfig& config)
+    : Pipeline(robot, config.sensor_parent, config.T_parent_sensor,
+               std::make_unique<ScanLabeller>(robot, config)) {}
 
 }  // namespace penumbra

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <utility>
-
 #include <penumbra/session/session.hpp>
 
 namespace penumbra {
@@ -14,8 +12,7 @@ Session::Session(Robot robot, const Camera& camera, const PipelineConfig& config
       watch_(std::in_place, pipeline_.report_camera(), limits_),
       forecast_(std::in_place, pipeline_.robot(), pipeline_.report_camera(), config) {}
 
-Session::Session(Robot robot, const CloudConfig& config)
-    : pipeline_(std::move(robot), config), warnings_(new_warnings()) {}
+Session::Session(Pipeline of_scans) : pipeline_(std::move(of_scans)), warnings_(new_warnings()) {}
 
 Warnings Session::new_warnings() const {
   return config_ ? Warnings(pipeline_, *config_) : Warnings(pipeline_.robot());

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <penumbra/calibration/watch.hpp>
@@ -21,7 +22,7 @@ class Session {
   Session(Robot robot, const Camera& camera, const PipelineConfig& config,
           const DriftLimits& limits = {});
   /// Of a sensor of points, whose setup is watched without diagnosis and drift.
-  Session(Robot robot, const CloudConfig& config);
+  Session(Robot robot, const CloudConfig& config) : Session(Pipeline(std::move(robot), config)) {}
 
   /// Judges a frame. Views in the report are valid until the next call.
   const FrameReport& process(const Frame& frame);
@@ -48,6 +49,7 @@ class Session {
   void begin_sequence();
 
  private:
+  explicit Session(Pipeline of_scans);
   [[nodiscard]] Warnings new_warnings() const;
 
   Pipeline pipeline_;
