@@ -31,7 +31,7 @@ set(public_headers
   targets/region.hpp targets/target.hpp targets/target_judge.hpp
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
   calibration/calibration.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
-  session/plan_forecast.hpp session/session.hpp session/warnings.hpp tuning/missing_parts.hpp
+  planning/plan_forecast.hpp session/session.hpp session/warnings.hpp tuning/missing_parts.hpp
   planning/look_ahead.hpp fusion/target_fusion.hpp robot/trajectory.hpp planning/view_planning.hpp
   cloud/cloud_labels.hpp cloud/scan.hpp tuning/cloud_tuning.hpp)
 set(component_of_calibration setup)

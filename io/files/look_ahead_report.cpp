@@ -8,18 +8,6 @@
 
 namespace penumbra::io {
 
-Json intervals_json(std::span<const VerdictInterval> intervals) {
-  Json all = Json::array();
-  for (const VerdictInterval& each : intervals)
-    all.push_back({{"begin_s", each.begin},
-                   {"end_s", each.end},
-                   {"verdict", to_string(each.verdict)},
-                   {"hidden", each.hidden},
-                   {"by", or_null(each.by)},
-                   {"reason", or_null(each.reason)}});
-  return all;
-}
-
 namespace {
 
 Json forecast_json(const CameraForecast& forecast) {

@@ -8,7 +8,7 @@
 
 #include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/session/plan_forecast.hpp>
+#include <penumbra/planning/plan_forecast.hpp>
 #include <penumbra/session/warnings.hpp>
 
 namespace penumbra {

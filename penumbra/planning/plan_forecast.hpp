@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/planning/look_ahead.hpp>
 
 namespace penumbra {
 
@@ -27,26 +22,17 @@ class PlanForecast {
 
   /// `camera`: of the report's images.
   PlanForecast(const Robot& robot, const Camera& camera, const PipelineConfig& config);
+  ~PlanForecast();
+  PlanForecast(PlanForecast&&) noexcept;
+  PlanForecast& operator=(PlanForecast&&) noexcept;
 
   /// Sets TargetReport::forecast of a frame's targets. Does nothing without a plan, and once the
   /// robot is at its end.
   void add(const Frame& frame, std::span<TargetReport> reports);
 
  private:
-  [[nodiscard]] std::string follow(const Frame& frame);
-  [[nodiscard]] std::string look(const Frame& frame);
-
-  Robot robot_;
-  ForecastCamera camera_;
-  std::shared_ptr<const Trajectory> given_;  // the plan
-  std::optional<Trajectory> plan_;           // with the other joints where they are now
-  double now_ = 0.0;                         // on the plan, seconds
-  bool has_ended_ = false;
-  std::optional<LookAhead> ahead_;  // made with the first plan
-  std::optional<double> looked_at_;
-  std::optional<std::int64_t> looked_stamp_;
-  std::vector<TargetForecast> forecasts_;  // from then on, in seconds of the plan
-  std::vector<double> positions_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace penumbra
