@@ -2,11 +2,25 @@
 #include <array>
 #include <cstdio>
 #include <numbers>
+#include <regex>
 
 #include <penumbra/calibration/problem.hpp>
 #include <penumbra/calibration/watch.hpp>
 
 namespace penumbra {
+
+std::string calibration::of_scans(std::string message) {
+  static const std::pair<std::regex, const char*> words[]{
+      {std::regex(" \\(penumbra [^)]*\\)|: run 'penumbra [^']*'( on this input)?"), ""},
+      {std::regex("the overlay of frame"), "scan"},
+      {std::regex(", camera_info and the camera's pose \\(of the optical"),
+       " and the sensor's pose (of the points'"},
+      {std::regex("(depth )?image"), "scan"},
+      {std::regex("camera"), "sensor"}};
+  for (const auto& [of_images, of_scans] : words)
+    message = std::regex_replace(message, of_images, of_scans);
+  return message;
+}
 
 double Drift::rotation() const {
   return std::abs(Eigen::AngleAxisd(T_calibrated_camera.linear()).angle());
@@ -28,7 +42,7 @@ std::string Drift::message() const {
         "the sensor sees past %.0f %% of the robot: the camera is elsewhere than calibrated, "
         "or the joints are another robot's: run 'penumbra calibrate'",
         100.0 * seen_through);
-    return text.data();
+    return is_camera ? text.data() : calibration::of_scans(text.data());
   }
   std::snprintf(text.data(), text.size(), "images and joint states are about %.0f +- %.0f ms apart",
                 1e3 * std::abs(time_offset.value), std::max(1.0, 2e3 * time_offset.sigma));
@@ -57,7 +71,7 @@ std::string Drift::message() const {
     else
       line += ": run 'penumbra calibrate'";
   }
-  return line;
+  return is_camera ? line : calibration::of_scans(std::move(line));
 }
 
 }  // namespace penumbra
