@@ -102,7 +102,8 @@ void LiveWorker::write_image(const AssembledFrame& job, const FrameReport& repor
 void LiveWorker::find_warnings(std::int64_t now, LiveOutcome& outcome) {
   if (!next_warnings_) next_warnings_ = now + first_warnings_after;
   if (now < *next_warnings_) return;
-  if (has_warned_ && tools_->encoder && tools_->session.poses() < CalibrationFrames::least) return;
+  const std::size_t poses = tools_->session.poses();  // 0 of clouds without rays
+  if (has_warned_ && (tools_->encoder || poses > 0) && poses < CalibrationFrames::least) return;
   has_warned_ = true;
   next_warnings_ = now + warnings_period;
   const auto taken = std::make_shared<const Warnings>(tools_->session.take_warnings());

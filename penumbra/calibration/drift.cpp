@@ -2,11 +2,34 @@
 #include <array>
 #include <cstdio>
 #include <numbers>
+#include <string>
+#include <string_view>
 
 #include <penumbra/calibration/problem.hpp>
 #include <penumbra/calibration/watch.hpp>
 
 namespace penumbra {
+
+std::string calibration::of_scans(std::string message) {
+  // What no option of clouds mends, and words of images. Up to `until`; empty: `from` alone.
+  static constexpr std::array<std::array<std::string_view, 3>, 8> words{
+      {{" (penumbra ", ")", ""},
+       {": run 'penumbra ", "'", ""},
+       {" on this input", "", ""},
+       {"the overlay of frame", "", "scan"},
+       {", camera_info and the camera's pose (of the optical", "",
+        " and the sensor's pose (of the points'"},
+       {"depth image", "", "scan"},
+       {"image", "", "scan"},
+       {"camera", "", "sensor"}}};
+  for (const auto& [from, until, to] : words)
+    for (std::size_t at = message.find(from); at < message.size(); at = message.find(from, at)) {
+      const std::size_t end = message.find(until, at + from.size()) + until.size();
+      message.replace(at, end - at, to);
+      at += to.size();
+    }
+  return message;
+}
 
 double Drift::rotation() const {
   return std::abs(Eigen::AngleAxisd(T_calibrated_camera.linear()).angle());
@@ -28,7 +51,7 @@ std::string Drift::message() const {
         "the sensor sees past %.0f %% of the robot: the camera is elsewhere than calibrated, "
         "or the joints are another robot's: run 'penumbra calibrate'",
         100.0 * seen_through);
-    return text.data();
+    return is_camera ? text.data() : calibration::of_scans(text.data());
   }
   std::snprintf(text.data(), text.size(), "images and joint states are about %.0f +- %.0f ms apart",
                 1e3 * std::abs(time_offset.value), std::max(1.0, 2e3 * time_offset.sigma));
@@ -57,7 +80,7 @@ std::string Drift::message() const {
     else
       line += ": run 'penumbra calibrate'";
   }
-  return line;
+  return is_camera ? line : calibration::of_scans(std::move(line));
 }
 
 }  // namespace penumbra

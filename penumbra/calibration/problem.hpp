@@ -236,6 +236,8 @@ struct Explained {
 /// Returns a clause that names what was found, with its amount.
 [[nodiscard]] std::string text_of(const FoundCause& found, const Explained& explained,
                                   const Robot& robot, const Intrinsics& camera);
+/// Returns a message about images in words of scans, which `penumbra calibrate` does not read.
+[[nodiscard]] std::string of_scans(std::string message);
 /// Names a depth offset or scale beyond what sensors have; empty: it is not.
 [[nodiscard]] std::string text_of_depth(const Refined& fit);
 /// Returns how the camera moves if the depth is within what sensors have.

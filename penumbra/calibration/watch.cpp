@@ -427,8 +427,9 @@ void DriftLimits::check() const {
                    " degrees; expected positive numbers");
 }
 
-CalibrationWatch::CalibrationWatch(const Camera& camera, const DriftLimits& limits)
+CalibrationWatch::CalibrationWatch(const Camera& camera, const DriftLimits& limits, bool is_camera)
     : state_(std::make_unique<State>(camera)) {
+  state_->drift.is_camera = is_camera;
   limits.check();
   state_->limits = limits;
   state_->margin = std::max(2, camera.intrinsics.width() / 200);

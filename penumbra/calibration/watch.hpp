@@ -27,6 +27,7 @@ struct DriftLimits {
 
 /// How far a camera is from its calibration.
 struct Drift {
+  bool is_camera = true;  ///< false: a sensor of points
   bool is_known = false;  ///< the robot has been seen in enough poses
   /// The camera's pose in its calibrated frame.
   Eigen::Isometry3d T_calibrated_camera = Eigen::Isometry3d::Identity();
@@ -61,8 +62,10 @@ struct Drift {
 /// sees. It never changes the calibration. Costs about 20 us per frame.
 class CalibrationWatch {
  public:
-  /// `camera`: of the reports' images. Throws InputError as DriftLimits::check().
-  explicit CalibrationWatch(const Camera& camera, const DriftLimits& limits = {});
+  /// `camera`: of the reports' images; `is_camera`: else they are drawn from a sensor's scans.
+  /// Throws InputError as DriftLimits::check().
+  explicit CalibrationWatch(const Camera& camera, const DriftLimits& limits = {},
+                            bool is_camera = true);
   ~CalibrationWatch();
   CalibrationWatch(CalibrationWatch&&) noexcept;
   CalibrationWatch& operator=(CalibrationWatch&&) noexcept;

@@ -17,6 +17,7 @@ constexpr double occluded = 0.3;            // cost of a pixel with something be
 constexpr double missed = 0.5;  // cost of a pixel with something that moved and is not the robot
 constexpr double least_robot = 0.01;      // of the image; a speck, or nothing, explains nothing
 constexpr double least_agreeing = 0.002;  // of the image, likewise
+constexpr double least_of_scan = 0.0005;  // the same where most of the image is not measured
 
 /// Each block's measurement nearest to its centre, of the first few.
 Image<float> made_small(const Image<float>& depth, int block) {
@@ -155,7 +156,7 @@ Rating Agreement::rate(const Hypothesis& hypothesis, double tolerance) {
   if (!is_given) rating.more = (sum.agreeing - of_given.agreeing) / used;
   if (!is_given)
     rating.score += score(all_given, static_cast<double>(frames_.size())) - score(of_given, used);
-  if (sum.agreeing > least_agreeing * pixels)
+  if (sum.agreeing > (setup_.is_scanner ? least_of_scan : least_agreeing) * pixels)
     rating.fit = sum.agreeing / (sum.agreeing + sum.beyond + occluded * sum.front);
   return rating;
 }

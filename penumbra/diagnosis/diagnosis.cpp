@@ -152,6 +152,11 @@ class Comparison {
     constexpr double far = 0.1, turned = 10.0;  // metres and degrees that calibrate starts from
     constexpr double degrees = 180.0 / std::numbers::pi;
     const Off found = off();
+    constexpr double vague = 3.0;  // times the amount: the error bars tell nothing
+    if (found.position_error > vague * found.position &&
+        found.rotation_error > vague * found.rotation)
+      return "the camera's pose is off, and these frames do not tell how far: run 'penumbra "
+             "calibrate --search' on this input";
     std::array<char, 256> text{};
     std::snprintf(text.data(), text.size(),
                   "the camera's pose is about %.0f +- %.0f mm and %.1f +- %.1f degrees off: run "
@@ -173,8 +178,11 @@ class Comparison {
       return;
     result.cause = Cause::camera_pose;
     result.message = pose_text();
-    const calibration::Explained explained =
-        calibration::explain(observer_, {}, frames_, *refined_);
+    calibration::Explained explained = calibration::explain(observer_, {}, frames_, *refined_);
+    if (setup_.is_scanner)  // its images have the focal length that they were drawn with
+      std::erase_if(explained.causes, [](const calibration::FoundCause& one) {
+        return one.cause.kind == calibration::Cause::Kind::focal;
+      });
     if (explained.causes.empty()) return;
     using Kind = calibration::Cause::Kind;
     const Kind kind = explained.causes.front().cause.kind;
@@ -258,10 +266,12 @@ std::string_view to_string(Diagnosis::Cause cause) {
 
 Diagnosis diagnose(std::span<const DiagnosisFrame> frames, const Intrinsics& camera,
                    const Robot& robot, std::size_t camera_parent,
-                   const Eigen::Isometry3d& T_parent_camera, bool is_suspicious) {
+                   const Eigen::Isometry3d& T_parent_camera, bool is_suspicious, bool is_scanner) {
   if (frames.empty()) return {};
-  const diagnosis::Setup setup{frames, camera, robot, camera_parent, T_parent_camera};
-  return diagnosis::Comparison(setup).run(is_suspicious);
+  const diagnosis::Setup setup{frames, camera, robot, camera_parent, T_parent_camera, is_scanner};
+  Diagnosis found = diagnosis::Comparison(setup).run(is_suspicious);
+  if (is_scanner) found.message = calibration::of_scans(std::move(found.message));
+  return found;
 }
 
 }  // namespace penumbra

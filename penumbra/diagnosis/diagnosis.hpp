@@ -68,7 +68,9 @@ class SetupCheck {
   static constexpr int reach = 7;          ///< frames before and after a kept one
 
   /// `camera`: of the reports' images; `camera_parent`: index of the link that carries it.
-  SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent);
+  /// `is_scanner`: they are drawn from a sensor's scans, and the camera is the sensor.
+  SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent,
+             bool is_scanner = false);
 
   /// Adds a frame in which the robot's pose and depth are known; ignores others. `joints`: its
   /// positions in the order of Robot::variables(); empty if the poses are from TF. Copies the depth
@@ -95,6 +97,7 @@ class SetupCheck {
 
   Robot robot_;
   std::size_t parent_;
+  bool is_scanner_;
   std::optional<Rectification> lens_;
   int block_;
   Intrinsics camera_;  // of the kept images
@@ -108,10 +111,10 @@ class SetupCheck {
 };
 
 /// Diagnoses a setup from frames of a pinhole camera. If nothing about them is suspicious, only
-/// small errors of the camera's pose are looked for.
+/// small errors of the camera's pose are looked for. `is_scanner`: as of SetupCheck.
 [[nodiscard]] Diagnosis diagnose(std::span<const DiagnosisFrame> frames, const Intrinsics& camera,
                                  const Robot& robot, std::size_t camera_parent,
                                  const Eigen::Isometry3d& T_parent_camera,
-                                 bool is_suspicious = true);
+                                 bool is_suspicious = true, bool is_scanner = false);
 
 }  // namespace penumbra

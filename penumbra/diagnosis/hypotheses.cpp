@@ -28,9 +28,11 @@ class Mistakes {
   explicit Mistakes(const Setup& setup) : setup_(setup) {}
 
   std::vector<Hypothesis> all() {
-    depth_units();
-    camera_poses();
-    other_cameras();
+    if (!setup_.is_scanner) {  // how a camera's files may be written
+      depth_units();
+      camera_poses();
+      other_cameras();
+    }
     other_joints();
     other_frames();
     other_times();

@@ -41,6 +41,7 @@ struct Setup {
   const Robot& robot;
   std::size_t parent;
   Eigen::Isometry3d T_parent_camera;
+  bool is_scanner = false;  ///< as of SetupCheck
 };
 
 /// Metres: depth that is nowhere above it may be normalised to 0 to 1.

@@ -21,8 +21,13 @@ Intrinsics thinned(const Intrinsics& camera, int block) {
 
 }  // namespace
 
-SetupCheck::SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent)
-    : robot_(robot), parent_(camera_parent), block_(1), camera_(camera.intrinsics) {
+SetupCheck::SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent,
+                       bool is_scanner)
+    : robot_(robot),
+      parent_(camera_parent),
+      is_scanner_(is_scanner),
+      block_(1),
+      camera_(camera.intrinsics) {
   if (!camera.distortion.is_none()) lens_.emplace(camera);
   if (lens_) camera_ = lens_->pinhole();
   block_ = std::clamp(camera_.width() / enough_columns, 1, camera_.height());
@@ -118,7 +123,8 @@ Diagnosis SetupCheck::diagnose() const {
   const auto measured = static_cast<double>(measured_);
   const bool is_suspicious = static_cast<double>(elsewhere_) > most_elsewhere * measured ||
                              measured < least_measured * static_cast<double>(pixels_);
-  return penumbra::diagnose(frames_, camera_, robot_, parent_, *T_parent_camera_, is_suspicious);
+  return penumbra::diagnose(frames_, camera_, robot_, parent_, *T_parent_camera_, is_suspicious,
+                            is_scanner_);
 }
 
 }  // namespace penumbra

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include <penumbra/session/scan_image-inl.hpp>
 #include <penumbra/session/session.hpp>
 
 namespace penumbra {
@@ -12,7 +15,11 @@ Session::Session(Robot robot, const Camera& camera, const PipelineConfig& config
       watch_(std::in_place, pipeline_.report_camera(), limits_),
       forecast_(std::in_place, pipeline_.robot(), pipeline_.report_camera(), config) {}
 
-Session::Session(Pipeline of_scans) : pipeline_(std::move(of_scans)), warnings_(new_warnings()) {}
+Session::Session(Pipeline of_scans, std::shared_ptr<ScanImage> scan, const DriftLimits& limits)
+    : pipeline_(std::move(of_scans)),
+      scan_(std::move(scan)),
+      limits_(limits),
+      warnings_(new_warnings()) {}
 
 Warnings Session::new_warnings() const {
   return config_ ? Warnings(pipeline_, *config_) : Warnings(pipeline_.robot());
@@ -21,7 +28,12 @@ Warnings Session::new_warnings() const {
 const FrameReport& Session::process(const Frame& frame) {
   const FrameReport& report = pipeline_.process(frame);
   warnings_.add(report, frame);
-  if (watch_) watch_->add(report);
+  if (scan_ && scan_->draw(report, frame)) {
+    warnings_.add(*scan_);
+    if (!watch_) watch_.emplace(scan_->camera(), limits_, false);
+    watch_->add(scan_->report());
+  }
+  if (watch_ && !scan_) watch_->add(report);
   if (!frame.plan || !forecast_) return report;
   targets_.assign(report.targets.begin(), report.targets.end());
   forecast_->add(frame, targets_);
@@ -47,7 +59,8 @@ Warnings Session::take_warnings() { return std::exchange(warnings_, new_warnings
 void Session::begin_sequence() {
   pipeline_.forget_targets();
   warnings_ = new_warnings();
-  if (watch_) watch_.emplace(pipeline_.report_camera(), limits_);
+  watch_.reset();
+  if (!scan_) watch_.emplace(pipeline_.report_camera(), limits_);
 }
 
 }  // namespace penumbra

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +14,11 @@
 
 namespace penumbra {
 
+class ScanImage;
+/// Draws a sensor's scans. Defined in the component `cloud`.
+[[nodiscard]] std::shared_ptr<ScanImage> make_scan_image(const Robot& robot,
+                                                         const CloudConfig& config);
+
 /// A pipeline that watches the frames that it judges: for mistakes in the setup, for a camera that
 /// moves, and for what a planned motion will hide. The command line, live topics, the ROS 2 node
 /// and Python all judge by this class. Serves one thread at a time.
@@ -21,8 +27,10 @@ class Session {
   /// Throws InputError as Pipeline does.
   Session(Robot robot, const Camera& camera, const PipelineConfig& config,
           const DriftLimits& limits = {});
-  /// Of a sensor of points, whose setup is watched without diagnosis and drift.
-  Session(Robot robot, const CloudConfig& config) : Session(Pipeline(std::move(robot), config)) {}
+  /// Of a sensor of points. `limits`: ranges of lidars are known to about a centimetre.
+  Session(Robot robot, const CloudConfig& config,
+          const DriftLimits& limits = {.position = 0.02, .rotation = 0.02})
+      : Session(Pipeline(robot, config), make_scan_image(robot, config), limits) {}
 
   /// Judges a frame. Views in the report are valid until the next call.
   const FrameReport& process(const Frame& frame);
@@ -49,16 +57,17 @@ class Session {
   void begin_sequence();
 
  private:
-  explicit Session(Pipeline of_scans);
+  Session(Pipeline of_scans, std::shared_ptr<ScanImage> scan, const DriftLimits& limits);
   [[nodiscard]] Warnings new_warnings() const;
 
   Pipeline pipeline_;
-  std::optional<PipelineConfig> config_;  // of a camera, as what is next
+  std::optional<PipelineConfig> config_;  // of a camera; null: scans
+  std::shared_ptr<ScanImage> scan_;       // null of a camera
   DriftLimits limits_;
   Warnings warnings_;
   std::optional<CalibrationWatch> watch_;
-  std::optional<PlanForecast> forecast_;
-  FrameReport report_;  // with forecasts
+  std::optional<PlanForecast> forecast_;  // of a camera
+  FrameReport report_;                    // with forecasts
   std::vector<TargetReport> targets_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/render/depth_renderer.hpp>
+#include <penumbra/session/scan_image-inl.hpp>
 #include <penumbra/session/warnings.hpp>
 
 namespace penumbra {
@@ -75,14 +76,23 @@ void Warnings::add(const FrameReport& report, const Frame& frame) {
   plan_ = frame.plan;
   add_targets(report);
   add_stamp(report);
-  if (sensor_) {
-    sensor_->missing.add(report);
+  if (sensor_ && !is_scanner_) {
+    sensor_->missing->add(report);
     sensor_->setup.add(report, positions);
     diagnosis_.reset();
   }
   if (positions.size() != robot_.variables().size()) return;
   for (std::size_t i = 0; i < frames_beyond_.size(); ++i)
     if (is_beyond(robot_.joints()[i], positions)) ++frames_beyond_[i];
+}
+
+void Warnings::add(const ScanImage& image) {
+  if (!sensor_)
+    sensor_.emplace(Sensor{.missing = {},
+                           .setup = SetupCheck(robot_, image.camera(), image.parent(), true),
+                           .image = ImageSpace::raw});
+  sensor_->setup.add(image.report(), image.positions());
+  diagnosis_.reset();
 }
 
 void Warnings::add_stamp(const FrameReport& report) {
@@ -125,7 +135,7 @@ std::vector<std::string> Warnings::lines() const {
   if (has_cause && (body_note_.empty() || found.cause != Diagnosis::Cause::unexplained))
     lines.push_back(found.message);
   const bool is_named = has_cause || !body_note_.empty();
-  if (labelled_scans_ > 0) add_scan_lines(lines);
+  if (!is_named && labelled_scans_ > 0) add_scan_lines(lines);
   if (!is_named && !is_scanner_ && posed_frames_ > 0 && !robot_seen_)
     lines.push_back(
         std::string("the robot is ") + (posed_frames_ == 1 ? "not in the image" : "in no frame") +
@@ -167,8 +177,9 @@ std::vector<std::string> Warnings::lines() const {
                 "' beyond its limits in " + counted(frames_beyond_[i], "frame");
   if (!is_named && !joints.empty())
     lines.push_back(joints + ": are the positions in radians and metres?");
-  if (!sensor_ || found.cause != Diagnosis::Cause::none || !body_note_.empty()) return lines;
-  for (std::string& line : sensor_->missing.lines()) lines.push_back(std::move(line));
+  if (!sensor_ || !sensor_->missing || found.cause != Diagnosis::Cause::none || !body_note_.empty())
+    return lines;
+  for (std::string& line : sensor_->missing->lines()) lines.push_back(std::move(line));
   return lines;
 }
 
@@ -177,7 +188,7 @@ void Warnings::add_scan_lines(std::vector<std::string>& lines) const {
   if (on_robot == 0)
     lines.emplace_back(
         "no point is on the robot: it is out of the sensor's view, or the sensor's pose is wrong");
-  else if (exceeds(beyond_, likely_wrong, on_robot))
+  else if (poses() < CalibrationFrames::least && exceeds(beyond_, likely_wrong, on_robot))
     lines.push_back(
         std::to_string(
             std::lround(100.0 * static_cast<double>(beyond_) / static_cast<double>(on_robot))) +

@@ -18,6 +18,8 @@
 
 namespace penumbra {
 
+class ScanImage;
+
 /// Finds likely mistakes in the setup of a sequence of frames, each of which may be ok.
 class Warnings {
  public:
@@ -44,6 +46,8 @@ class Warnings {
 
   /// `frame`: the report's.
   void add(const FrameReport& report, const Frame& frame);
+  /// Adds what was drawn of that frame, which is a scan.
+  void add(const ScanImage& image);
 
   /// Returns a line for each likely mistake. What a wrong setup looks like is left out where the
   /// diagnosis names the cause.
@@ -69,7 +73,7 @@ class Warnings {
 
   /// What compares frames that a sensor measured.
   struct Sensor {
-    MissingParts missing;
+    std::optional<MissingParts> missing;  // null: scans, whose fringe has other causes
     SetupCheck setup;
     ImageSpace image;
   };
