@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `penumbra run` takes: recording folders and bags, opened by its own code.
+// What `penumbra run` and `penumbra cloud` take, opened by their own code.
+#include <mutex>
+
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 #include <python/frame.hpp>
 
-#include <io/files/frame_reader.hpp>
 #include <io/files/image_size.hpp>
+#include <io/inputs/clouds.hpp>
 #include <io/inputs/run_input.hpp>
 
 namespace penumbra::python {
 namespace {
 
-/// What `run` judges, as its options say.
+/// What `run` or `cloud` judges, as their options say.
 struct Input : io::RunInput {
   io::InputOptions options;
   std::vector<std::string> messages;
-  std::optional<io::FrameReader> reader = {};  ///< of a recording; null: not used yet
 };
 
 /// The frames of an input, one after the other.
@@ -24,6 +25,7 @@ struct Frames {
       : input(std::move(of)), source(input->frames(input->robot)) {}
   std::shared_ptr<Input> input;
   std::unique_ptr<io::FrameSource> source;
+  std::mutex reading;  ///< frames' pose_at read what the source reads
   OneThread thread;
 };
 
@@ -34,13 +36,32 @@ void keep(Shared<View>& image, ImageView<const T> view) {
     image = Shared<View>(std::make_shared<const Image<T>>(io::copy_of(view)));
 }
 
-Frame next(Frames& self) {
-  const OneThread::Use use(self.thread, "the iterator of an Input");
-  const py::gil_scoped_release others;
+/// Reads the next frame, or that with a number. Returns false at the end.
+bool read(const std::shared_ptr<Frames>& self, Frame& frame, std::optional<std::size_t> i = {}) {
+  {
+    const py::gil_scoped_release others;
+    const std::lock_guard lock(self->reading);
+    if (!(i ? self->source->read(*i, frame) : self->source->next(frame))) return false;
+    std::visit([&](const auto& view) { keep(frame.depth, view); }, frame.depth.view);
+    keep(frame.color, frame.color.view);
+    if (frame.scan) frame.scan = copy_of(*frame.scan);
+  }
+  if (frame.pose_at)
+    frame.pose_at = PoseFunction{
+        owner_of(py::cpp_function([self, at = std::move(frame.pose_at)](std::int64_t stamp) {
+          const py::gil_scoped_release others;
+          const std::lock_guard lock(self->reading);
+          RobotPose pose;
+          at(stamp, pose);
+          return pose;
+        }))};
+  return true;
+}
+
+Frame next(const std::shared_ptr<Frames>& self) {
+  const OneThread::Use use(self->thread, "the iterator of an Input");
   Frame frame;
-  if (!self.source->next(frame)) throw py::stop_iteration();
-  std::visit([&](const auto& view) { keep(frame.depth, view); }, frame.depth.view);
-  keep(frame.color, frame.color.view);
+  if (!read(self, frame)) throw py::stop_iteration();
   return frame;
 }
 
@@ -51,32 +72,41 @@ std::size_t size_of(const std::shared_ptr<Input>& self) {
   return *size;
 }
 
-Frame frame_of_bag(const std::shared_ptr<Input>& self, std::size_t i) {
-  Frames frames(self);
-  for (std::size_t before = 0; before < i; ++before) next(frames);
-  return next(frames);
-}
-
-Frame frame_of_recording(Input& self, std::size_t i) {
-  if (!self.reader)
-    self.reader.emplace(io::Recording::open(self.options.path, self.options.camera), self.robot);
-  const io::FrameRange& range = self.options.frames;
-  for (std::size_t at = 0; at < self.reader->size(); ++at) {
-    const std::int64_t index = self.reader->index(at);
-    if (index < range.first.value_or(index) || index >= range.end.value_or(index + 1)) continue;
-    if (i-- > 0) continue;
-    const py::gil_scoped_release others;
-    return self.reader->read(at, self.options.with_color);
-  }
-  throw py::stop_iteration();
-}
-
 Frame frame_at(const std::shared_ptr<Input>& self, std::size_t i) {
-  try {
-    return io::is_bag(self->options.path) ? frame_of_bag(self, i) : frame_of_recording(*self, i);
-  } catch (const py::stop_iteration&) {
-    throw py::index_error("frame " + std::to_string(i) + ": the input has fewer");
-  }
+  const auto frames = std::make_shared<Frames>(self);
+  Frame frame;
+  bool is_there = true;
+  if (io::is_bag(self->options.path))  // only forwards
+    for (std::size_t number = 0; number <= i && is_there; ++number) is_there = read(frames, frame);
+  else
+    is_there = read(frames, frame, i);
+  if (is_there) return frame;
+  throw py::index_error("frame " + std::to_string(i) + ": the input has fewer");
+}
+
+/// Opens a camera's images or, where the recording has clouds or `bag` asks for them, a sensor's.
+io::RunInput open_one(const io::InputOptions& options, const io::LineSink& print) {
+  const bool is_bag = io::is_bag(options.path);
+  if (!is_bag) io::check_is_recording(options.path);
+  if (!(is_bag ? options.bag.clouds : io::CloudRecording::open(options.path).has_value()))
+    return io::open_input(options, print);
+  std::vector<io::RunInput> sensors =
+      io::open_clouds({.input = options, .rule_changes = {}, .sensor_frame = {}}, print);
+  if (sensors.size() == 1) return std::move(sensors.front());
+  std::string topics;
+  for (const io::RunInput& sensor : sensors) topics += (topics.empty() ? "" : ", ") + sensor.sensor;
+  throw InputError(options.path.string() + ": several topics of clouds (" + topics +
+                   "); choose one with BagOptions.cloud_topics");
+}
+
+template <typename T>
+auto of_camera(T io::RunInput::*member) {
+  return [member](const Input& self) {
+    if (self.cloud)
+      throw py::value_error(
+          "the input is of a sensor of points and has no camera: Session(robot, cloud)");
+    return self.*member;
+  };
 }
 
 std::shared_ptr<Input> open(const std::filesystem::path& path, bool color,
@@ -101,8 +131,8 @@ std::shared_ptr<Input> open(const std::filesystem::path& path, bool color,
   if (frames) options.frames = {frames->first, frames->second};
   const py::gil_scoped_release others;
   std::vector<std::string> messages;
-  const auto add = [&](const std::string& line) { messages.push_back(line); };
-  io::RunInput input = io::open_input(options, add);
+  const io::LineSink add = [&](const std::string& line) { messages.push_back(line); };
+  io::RunInput input = open_one(options, add);
   return std::make_shared<Input>(Input{std::move(input), options, std::move(messages)});
 }
 
@@ -114,6 +144,8 @@ void bind_bag_options(py::module_& m) {
       options, Field{"depth_topic", &B::depth_topic, "Depth images."},
       Field{"camera_info_topic", &B::camera_info_topic, "Their camera_info."},
       Field{"color_topic", &B::color_topic, "If given, depth is judged in its image."},
+      Field{"clouds", &B::clouds, "Read clouds in place of images."},
+      Field{"cloud_topics", &B::cloud_topics, "Which clouds: one topic; none: the only one."},
       Field{"joint_topics", &B::joint_topics, "Joint states."},
       Field{"joint_names", &B::joint_names,
             "Their names of the joints, if they differ: MESSAGE=JOINT with one * on each side, as "
@@ -157,9 +189,11 @@ void bind_input_classes(py::module_& m) {
           "known at the end.");
   py::class_<Input, std::shared_ptr<Input>> input(
       m, "Input",
-      "What `penumbra run` takes: a recording folder or a ROS 2 bag (*.mcap, *.db3 or a folder). "
-      "Iterating reads its frames; each keeps its images. A bag's depth image is copied once, from "
-      "its message.");
+      "What `penumbra run` or `penumbra cloud` takes: a recording folder or a ROS 2 bag (*.mcap, "
+      "*.db3 or a folder). Iterating reads its frames; each keeps its images, or its scan. A bag's "
+      "depth image, and every scan, is copied once. The poses during a bag's scan are known as "
+      "long "
+      "as it is read in step: judge each frame before you read many more.");
   input
       .def("__iter__",
            [](const std::shared_ptr<Input>& self) { return std::make_shared<Frames>(self); })
@@ -170,8 +204,10 @@ void bind_input_classes(py::module_& m) {
   using I = Input;
   show_properties(
       input, Field{"robot", &I::robot, "The robot."},
-      Field{"camera", &I::camera, "Of the judged images."},
-      Field{"config", &I::config, "Defaults of a session with the input's own settings."},
+      Field{"camera", of_camera(&I::camera), "Of the judged images."},
+      Field{"config", of_camera(&I::config),
+            "Defaults of a session with the input's own settings."},
+      Field{"cloud", &I::cloud, "Of a sensor of points, in place of camera and config; else None."},
       Field{"targets", &I::targets, "The input's own targets.yaml, or None."},
       Field{"target_history", &I::target_history,
             "PipelineConfig.target_history for targets that come with the frames, s."},
@@ -192,7 +228,8 @@ void bind_input(py::module_& m) {
         py::arg("frames") = std::optional<std::pair<std::int64_t, std::int64_t>>(),
         py::arg("bag") = std::optional<io::BagOptions>(), py::arg("camera") = defaults.camera,
         py::arg("joints") = std::map<std::string, double>(),
-        "Opens what `penumbra run` takes, as its options of these names say. color: read colour "
+        "Opens what `penumbra run` or `penumbra cloud` takes, as their options of these names say. "
+        "color: read colour "
         "images, too; frames: (first, end) of those wanted; bag: of bags alone; camera: which one, "
         "of a recording with several; joints: positions at which joints are held, rad or m. "
         "Raises InputError that names the file.");

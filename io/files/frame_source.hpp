@@ -21,7 +21,7 @@ class FrameSource {
   virtual ~FrameSource() = default;
 
   /// Reads the next frame. Returns false at the end.
-  bool next(Frame& frame) { return read(next_++, frame); }
+  virtual bool next(Frame& frame) { return read(next_++, frame); }
 
   /// Reads the frame with a number, from 0. Returns false after the last. At most at_once() frames
   /// may be read at the same time, and have owners of their images; if that is 1, in order. Then

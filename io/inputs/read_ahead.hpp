@@ -27,9 +27,11 @@ class ReadAhead final : public FrameSource {
     return source_->notes();
   }
 
- private:
+  /// Reads without the others.
+  bool read(std::size_t number, Frame& frame) override { return source_->read(number, frame); }
+
   /// Throws what the source throws, in the place of the frame that it could not read.
-  bool read(std::size_t /*number*/, Frame& frame) override {
+  bool next(Frame& frame) override {
     if (ahead_.empty()) begin();
     std::future<std::optional<Frame>> first = std::move(ahead_.front());
     ahead_.pop_front();
@@ -40,6 +42,7 @@ class ReadAhead final : public FrameSource {
     return true;
   }
 
+ private:
   void begin() {
     const auto task =
         std::make_shared<std::packaged_task<std::optional<Frame>()>>([this, number = begun_++] {

@@ -58,9 +58,9 @@ void check_links(const Recording& recording, const Robot& robot,
 /// Some frames of a recording folder.
 class RecordingSource final : public FrameSource {
  public:
-  RecordingSource(const FrameReader& reader, const std::vector<std::size_t>& selected,
-                  const InputOptions& options)
-      : reader_(reader),
+  RecordingSource(std::shared_ptr<const FrameReader> reader,
+                  const std::vector<std::size_t>& selected, const InputOptions& options)
+      : reader_(std::move(reader)),
         selected_(selected),
         with_color_(options.with_color),
         fps_(options.fps),
@@ -69,7 +69,7 @@ class RecordingSource final : public FrameSource {
   /// Throws InputError if the recording has stamps of its own and --fps is given.
   bool read(std::size_t number, Frame& frame) override {
     if (number >= selected_.size()) return false;
-    frame = reader_.read(selected_[number], with_color_);
+    frame = reader_->read(selected_[number], with_color_);
     if (fps_ && frame.stamp)
       throw InputError("frame " + std::to_string(*frame.index) +
                        " has a stamp of its own: leave --fps out");
@@ -90,7 +90,7 @@ class RecordingSource final : public FrameSource {
  private:
   static constexpr int most_at_once = 8;  // each has images in memory
 
-  FrameReader reader_;
+  std::shared_ptr<const FrameReader> reader_;
   std::vector<std::size_t> selected_;
   bool with_color_;
   std::optional<double> fps_;
@@ -111,13 +111,13 @@ RunInput open_recording_input(const InputOptions& options) {
   check_robots_of(options.joints, names);
   for (RecordedRobot& robot : recording.robots) options.apply_to(robot.options, robot.name);
   Robot robot = recording.load_robot();
-  FrameReader reader(recording, robot);
-  std::vector<std::size_t> selected = select_frames(options.frames, reader);
+  const auto reader = std::make_shared<const FrameReader>(recording, robot);
+  std::vector<std::size_t> selected = select_frames(options.frames, *reader);
   check_links(recording, robot, options.extra);
   const auto by_time = [](const auto& pattern) { return pattern && pattern->is_by_time(); };
   const bool is_by_time = by_time(recording.frames.depth) || by_time(recording.frames.color);
   std::vector<std::int64_t> numbers;
-  for (std::size_t i = 0; i < reader.size(); ++i) numbers.push_back(reader.index(i));
+  for (std::size_t i = 0; i < reader->size(); ++i) numbers.push_back(reader->index(i));
   std::ranges::sort(numbers);
   return {.robot_options = recording.robot_options(),
           .robot = std::move(robot),
@@ -131,7 +131,7 @@ RunInput open_recording_input(const InputOptions& options) {
               is_by_time ? std::optional(read_frame_stamps(recording.frames.joints)) : std::nullopt,
           .bag = {},
           .made_files = {recording.camera.pose},
-          .frames = [reader = std::move(reader), selected = std::move(selected),
+          .frames = [reader, selected = std::move(selected),
                      options](const Robot&) -> std::unique_ptr<FrameSource> {
             return std::make_unique<RecordingSource>(reader, selected, options);
           }};

@@ -8,6 +8,8 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -26,6 +28,20 @@ struct Scan {
   std::optional<Eigen::Vector3d> origin = Eigen::Vector3d::Zero();
   std::shared_ptr<const void> owner = {};  ///< keeps points and times; may be null
 };
+
+/// Returns a scan with points and times of its own.
+[[nodiscard]] inline Scan copy_of(const Scan& scan) {
+  const auto own = std::make_shared<std::pair<std::vector<float>, std::vector<std::int32_t>>>();
+  for (std::size_t i = 0; i < scan.points.count; ++i) {
+    const Eigen::Vector3f point = scan.points[i];
+    own->first.insert(own->first.end(), point.begin(), point.end());
+  }
+  own->second.assign(scan.times.begin(), scan.times.end());
+  return {.points = {reinterpret_cast<const std::byte*>(own->first.data()), scan.points.count},
+          .times = own->second,
+          .origin = scan.origin,
+          .owner = own};
+}
 
 /// Sets `pose` to the robot's pose at a stamp, or its fault, as PoseLookup::at.
 using PoseAt = std::function<void(std::int64_t stamp, RobotPose& pose)>;

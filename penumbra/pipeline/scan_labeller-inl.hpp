@@ -48,11 +48,9 @@ class ScanLabeller final : public FrameJudge {
     std::vector<std::uint8_t> labels = {};
     std::vector<std::uint16_t> links = {};
   };
-  /// A labelled scan with points of its own.
   struct Kept {
     std::int64_t stamp;
-    Labels scan;
-    std::vector<float> points;
+    Labels scan;  // with points of its own
   };
 
   static LabelledFrame frame_of(const Labels& scan, const PoseResult& poses);

@@ -241,14 +241,8 @@ void ScanLabeller::begin(const LabelledFrame& frame) {
            stamp_distance(kept.stamp, stamp) > static_cast<std::uint64_t>(history_);
   });
   if (kept_.size() == remembered_stamps) kept_.pop_front();
-  Kept& kept = kept_.emplace_back(Kept{.stamp = stamp, .scan = now_, .points = {}});
-  Scan& scan = kept.scan.scan;
-  for (std::size_t i = 0; i < scan.points.count; ++i) {
-    const Eigen::Vector3f point = scan.points[i];
-    kept.points.insert(kept.points.end(), point.begin(), point.end());
-  }
-  scan = {.points = {reinterpret_cast<const std::byte*>(kept.points.data()), scan.points.count},
-          .origin = scan.origin};
+  Kept& kept = kept_.emplace_back(Kept{.stamp = stamp, .scan = now_});
+  kept.scan.scan = copy_of(now_.scan);
 }
 
 const LabelledFrame& ScanLabeller::earlier(std::int64_t stamp, const PoseResult* poses) {
