@@ -5,6 +5,7 @@
 // usage: calibration_study [PART OF A SETUP'S NAME [RUNS [PART OF A ROBOT'S NAME]]]
 //        calibration_study faults [RUNS [PART OF A FAULT'S NAME [FIRST SEED]]]
 //        calibration_study masks [RUNS [PART OF A SETUP'S NAME [PART OF A ROBOT'S NAME]]]
+//        calibration_study few [RUNS [POSES]]
 //        calibration_study real
 #include "simulated_cell.hpp"
 #include "study_page.hpp"
@@ -414,6 +415,81 @@ int study_masks(std::uint64_t seeds, const std::string& wanted, const std::strin
   return 0;
 }
 
+/// What happened to runs with few poses.
+struct Few {
+  int runs = 0, refused = 0, wrong = 0, held = 0;
+  std::vector<double> position, region, seconds;  // millimetres, of all
+};
+
+const std::vector<std::string> few_heads{"poses",      "joint zeros",     "runs",       "not good",
+                                         "wrong",      "region holds, %", "median, mm", "95 %, mm",
+                                         "region, mm", "seconds"};
+
+/// Zeros of joints that are off by normal errors of this width, rad.
+void run_few(const RobotChoice& robot, std::size_t poses, double width, std::uint64_t seed,
+             Few& few) {
+  sim::Random random(seed, 4242);
+  Setup setup{.name = "", .frames = poses};
+  for (std::size_t j = 0; j < robot.centre.size(); ++j)
+    setup.joint_errors.push_back(width * random.normal());
+  Cell cell(robot, setup, seed);
+  const Eigen::Isometry3d truth =  // as in run_faulty()
+      Eigen::AngleAxisd(setup.joint_errors[0], Eigen::Vector3d::UnitZ()) * cell.truth();
+  const std::vector<CalibrationFrame> frames = cell.frames();
+  const CalibrationOptions options{.camera_parent = "", .initial = cell.off(), .seed = seed};
+  const auto start = std::chrono::steady_clock::now();
+  const Calibration found = calibrate(frames, Cell::intrinsics(), cell.robot(), options);
+  few.seconds.push_back(
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const Eigen::Isometry3d error = found.T_parent_camera.inverse() * truth;
+  const Eigen::AngleAxisd turn(error.linear());
+  Eigen::Matrix<double, 6, 1> twist;
+  twist << turn.angle() * turn.axis(), error.translation();
+  const double outside = twist.dot(found.covariance.ldlt().solve(twist)) / six_freedoms;
+  constexpr double right_position = 0.02, right_rotation = 1.0 * degree;  // gross errors
+  const bool is_right =
+      error.translation().norm() < right_position && std::abs(turn.angle()) < right_rotation;
+  ++few.runs;
+  few.refused += !found.is_good();
+  few.wrong += found.is_good() && !is_right;
+  few.held += outside < 1.0;
+  few.position.push_back(1e3 * error.translation().norm());
+  few.region.push_back(1e3 * found.position_error());
+  if (outside >= 1.0 || !found.is_good()) {
+    std::cout << robot.name << ", " << poses << " poses, width " << width << ", seed " << seed
+              << ": off by " << few.position.back() << " mm and " << turn.angle() / degree
+              << " degrees, region " << few.region.back() << " mm, outside " << outside;
+    for (const auto* lines : {&found.notes, &found.faults})
+      for (const std::string& line : *lines) std::cout << "\n  " << line;
+    std::cout << std::endl;
+  }
+}
+
+/// The table of few poses, of the three robots together, with zeros of joints from the prior and
+/// from twice its width.
+int study_few(std::uint64_t runs, std::size_t only) {
+  std::vector<std::vector<std::string>> rows{few_heads};
+  for (const std::size_t poses : {3, 4, 5, 6, 8, 10})
+    for (const auto& [name, width] :
+         {std::pair{"exact", 0.0}, {"0.005 rad", 0.005}, {"0.010 rad", 0.010}}) {
+      if (only != 0 && poses != only) continue;
+      Few few;
+      for (const RobotChoice& robot : robots())
+        for (std::uint64_t seed = 1; seed <= runs; ++seed) run_few(robot, poses, width, seed, few);
+      rows.push_back({std::to_string(poses), name, std::to_string(few.runs),
+                      std::to_string(few.refused), std::to_string(few.wrong),
+                      number(100.0 * few.held / few.runs, 0), number(median(few.position), 1),
+                      number(quantile(few.position, 0.95), 1), number(median(few.region), 1),
+                      number(median(few.seconds), 1)});
+      for (const std::string& cell : rows.back()) std::cout << "| " << cell << ' ';
+      std::cout << '|' << std::endl;
+    }
+  if (only == 0)
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md",
+                "calibration_few", table(rows));
+  return 0;
+}
+
 int study_all(int argc, char** argv) {
   const std::filesystem::path data = data_folder();
   const std::vector<Setup> setups = {{.name = "in the cell, 10 frames"},
@@ -433,6 +509,8 @@ int study_all(int argc, char** argv) {
   if (wanted == "masks")
     return study_masks(argc > 2 ? std::stoull(argv[2]) : 20, argc > 3 ? argv[3] : "",
                        argc > 4 ? argv[4] : "");
+  if (wanted == "few")
+    return study_few(argc > 2 ? std::stoull(argv[2]) : 10, argc > 3 ? std::stoull(argv[3]) : 0);
   if (wanted == "faults")
     return study_faults(argc > 2 ? std::stoull(argv[2]) : 20, argc > 3 ? argv[3] : "",
                         argc > 4 ? std::stoull(argv[4]) : 1);

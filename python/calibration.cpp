@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <variant>
+
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 #include <python/frame.hpp>
@@ -6,6 +8,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/calibration/calibration.hpp>
 #include <penumbra/calibration/watch.hpp>
+#include <penumbra/camera/rectification.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
 
 #include <io/files/image_size.hpp>
@@ -31,13 +34,6 @@ CalibrationFrame posed_frame(const Frame& frame, const std::string& name, const 
   return result;
 }
 
-CalibrationFrame calibration_frame(const Frame& frame, std::size_t number, const Robot& robot) {
-  CalibrationFrame result = posed_frame(frame, "frames[" + std::to_string(number) + "]", robot);
-  result.index = frame.index.value_or(number);
-  if (!is_empty(frame.depth.view)) result.depth = metres_of(frame.depth.view);
-  return result;
-}
-
 /// `name`: as errors call the frame.
 std::int64_t stamp_of(const Frame& frame, const std::string& name) {
   if (!frame.stamp) throw py::value_error(name + ": needs a stamp for the time offset");
@@ -54,31 +50,67 @@ StampedPoses trajectory_of(const std::vector<Frame>& motion, const Robot& robot)
   return trajectory;
 }
 
-Calibration calibrate_frames(const std::vector<Frame>& frames, const Intrinsics& camera,
-                             const Robot& robot, const std::optional<Eigen::Isometry3d>& initial,
-                             const std::string& camera_parent,
+/// Where the camera is, or the configuration of an input, whose frames may say it themselves.
+using Start = std::variant<PipelineConfig, Eigen::Isometry3d>;
+
+Camera camera_of(const Camera& camera) { return camera; }
+Camera camera_of(const Intrinsics& pinhole) { return {pinhole, {}, {}, {}}; }
+
+/// Given: Camera, or Intrinsics of images without distortion.
+template <typename Given>
+Calibration calibrate_frames(const py::iterable& frames, const Given& given, const Robot& robot,
+                             const std::optional<Start>& initial, std::string camera_parent,
                              const std::vector<MaskArgument>& masks, bool focal, bool joint_offsets,
-                             const std::vector<Frame>& motion, std::uint64_t seed) {
-  if (!masks.empty() && masks.size() != frames.size())
-    throw py::value_error("masks: expected one for each of " + std::to_string(frames.size()) +
-                          " frames; got " + std::to_string(masks.size()));
+                             const std::vector<Frame>& motion, double joint_accuracy,
+                             const std::optional<double>& accept, std::uint64_t seed) {
   const StampedPoses trajectory = trajectory_of(motion, robot);
-  std::vector<CalibrationFrame> all;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    all.push_back(calibration_frame(frames[i], i, robot));
+  const Camera camera = camera_of(given);
+  std::optional<Rectification> lens;
+  if (!camera.distortion.is_none()) lens.emplace(camera);
+  const auto copy = [&](const auto& image) {
+    auto room = std::decay_t<decltype(image)>();
+    return io::copy_of(io::rectified(lens ? &*lens : nullptr, image.view(), room));
+  };
+  CalibrationFrames chosen(robot, masks.empty());
+  for (const py::handle each : frames) {
+    const auto frame = each.cast<Frame>();
+    const std::size_t number = chosen.seen();
+    std::optional<CalibrationFrame> kept = chosen.pass(frame);
+    if (!kept) continue;
+    if (!is_empty(frame.depth.view)) kept->depth = copy(metres_of(frame.depth.view));
+    if (number < masks.size()) kept->mask = copy(io::copy_of(std::get<0>(masks[number].view)));
     if (!motion.empty())
-      all.back().nearby =
-          nearby_poses(trajectory, stamp_of(frames[i], "frames[" + std::to_string(i) + "]"));
-    if (!masks.empty()) all.back().mask = io::copy_of(std::get<0>(masks[i].view));
+      kept->nearby =
+          nearby_poses(trajectory, stamp_of(frame, "frames[" + std::to_string(number) + "]"));
+    chosen.add(*std::move(kept));
   }
+  if (!masks.empty() && masks.size() != chosen.seen())
+    throw py::value_error("masks: expected one for each of " + std::to_string(chosen.seen()) +
+                          " frames; got " + std::to_string(masks.size()));
+  std::optional<Eigen::Isometry3d> start;
+  if (initial && std::holds_alternative<PipelineConfig>(*initial)) {
+    const auto& config = std::get<PipelineConfig>(*initial);
+    start = chosen.T_parent_camera().value_or(config.T_parent_camera);
+    if (camera_parent.empty()) camera_parent = config.camera_parent;
+  } else if (initial) {
+    start = std::get<Eigen::Isometry3d>(*initial);
+  }
+  const std::vector<CalibrationFrame> all = chosen.chosen();
+  const std::vector<std::string> notes = chosen.notes();
+  if (all.size() < CalibrationFrames::least && !notes.empty())
+    throw InputError("calibration needs 3 frames or more: " + notes.back());
   const py::gil_scoped_release others;
-  return calibrate(all, camera, robot,
-                   {.camera_parent = camera_parent,
-                    .initial = initial,
-                    .focal = focal,
-                    .joint_offsets = joint_offsets,
-                    .time_offset = !motion.empty(),
-                    .seed = seed});
+  Calibration found = calibrate(all, lens ? lens->pinhole() : camera.intrinsics, robot,
+                                {.camera_parent = camera_parent,
+                                 .initial = start,
+                                 .focal = focal,
+                                 .joint_offsets = joint_offsets,
+                                 .time_offset = !motion.empty(),
+                                 .joint_accuracy = joint_accuracy,
+                                 .accept = accept,
+                                 .seed = seed});
+  found.notes.insert(found.notes.begin(), notes.begin(), notes.end());
+  return found;
 }
 
 }  // namespace
@@ -134,6 +166,7 @@ void bind_calibration(py::module_& m) {
             "Frames that were left out, and inputs that the images contradict."},
       Field{"advice", &C::advice, "What is known least, and which joints' motion would add most."},
       Field{"is_good", &C::is_good, "Whether there are no faults."},
+      Field{"is_wide", &C::is_wide, "Whether the only fault is a region wider than accepted."},
       Field{"position_error", &C::position_error,
             "Half of the longest axis of the 95 % ellipsoid of the position, metres."},
       Field{"rotation_error", &C::rotation_error, "The same of the rotation, rad."});
@@ -180,23 +213,33 @@ void bind_calibration(py::module_& m) {
       Field{"score", &S::score, "Agreement of measured and virtual depth, at most 1."},
       Field{"best", &S::best, "The same after the mend."});
   bind_repr(diagnosis, {"cause", "message"});
-  m.def(
-      "calibrate", &calibrate_frames, py::arg("frames"), py::arg("camera"), py::arg("robot"),
-      py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
-      py::arg("masks") = std::vector<MaskArgument>(), py::arg("focal") = false,
-      py::arg("joint_offsets") = false, py::arg("motion") = std::vector<Frame>(),
-      py::arg("seed") = 1,
-      "Estimates a camera's pose from the robot that it sees. frames: three or more, with joints "
-      "(or T_root_link) and with depth or masks, between which the robot moves. camera: of images "
-      "without distortion. initial: a guess of the camera's pose in its parent link, at most "
-      "100 mm and 10 degrees off; None: it is searched for. masks: images that are not 0 where "
-      "the colour image shows the robot; needed without depth. focal: estimate the focal lengths, "
-      "too. joint_offsets: "
-      "estimate the offsets of joints that the images contradict. motion: frames with stamps and "
-      "poses "
-      "that reach 0.1 s before and after each of `frames`, in which the robot moves: the time "
-      "offset is estimated, too. Raises InputError for too few frames; any other failure is "
-      "Calibration.faults.");
+  const auto define = [&](auto function) {
+    m.def(
+        "calibrate", function, py::arg("frames"), py::arg("camera"), py::arg("robot"),
+        py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
+        py::arg("masks") = std::vector<MaskArgument>(), py::arg("focal") = false,
+        py::arg("joint_offsets") = false, py::arg("motion") = std::vector<Frame>(),
+        py::arg("joint_accuracy") = CalibrationOptions().joint_accuracy,
+        py::arg("accept") = py::none(), py::arg("seed") = 1,
+        "Estimates a camera's pose from the robot that it sees. frames: an opened input, or three "
+        "frames or more with joints (or T_root_link) and with depth or masks; those are used "
+        "between "
+        "which the robot moves, at rest if it is. camera: of the images. initial: a guess of the "
+        "camera's pose in its parent link, at most 100 mm and 10 degrees off; a PipelineConfig: as "
+        "it or the frames have it; None: it is searched for. masks: images that are not 0 where "
+        "the colour image shows the robot; needed without depth. focal: estimate the focal "
+        "lengths, "
+        "too. joint_offsets: "
+        "estimate the offsets of joints that the images contradict. motion: frames with stamps and "
+        "poses "
+        "that reach 0.1 s before and after each of `frames`, in which the robot moves: the time "
+        "offset is estimated, too. joint_accuracy: standard deviation of the zeros of joints, rad. "
+        "accept: the widest 95 % region of a good pose, metres. Raises InputError for too few "
+        "frames; any other failure is "
+        "Calibration.faults.");
+  };
+  define(&calibrate_frames<Camera>);
+  define(&calibrate_frames<Intrinsics>);
 }
 
 }  // namespace penumbra::python

@@ -14,9 +14,7 @@ import penumbra
 
 def main(source: pathlib.Path, out: pathlib.Path) -> int:
     given = penumbra.open(source)
-    found = penumbra.calibrate(list(given), given.camera.intrinsics, given.robot,
-                               given.config.T_parent_camera,
-                               camera_parent=given.config.camera_parent)
+    found = penumbra.calibrate(given, given.camera, given.robot, given.config)
     for line in [*found.notes, *found.faults]:
         print(line, file=sys.stderr)
     if not found.is_good:

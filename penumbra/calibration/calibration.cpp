@@ -28,8 +28,6 @@ using calibration::Refined;
 using calibration::State;
 using calibration::Unknowns;
 
-constexpr double nearby = 0.15;           // seconds before and after an image
-constexpr double least_nearby = 0.1;      // seconds
 constexpr std::size_t searched = 10;      // frames on which poses are tried
 constexpr double least_agreeing = 0.6;    // of the robot's measured pixels
 constexpr double elsewhere = 0.7;         // of the frames' median share that agrees
@@ -60,6 +58,8 @@ void check_input(std::span<const CalibrationFrame> frames, const Intrinsics& cam
                      " frames or more with different poses of the robot, and has " +
                      std::to_string(frames.size()) +
                      ": record the arm in some ten poses, with links near and far, left and right");
+  if (!(options.joint_accuracy > 0.0) || (options.accept && !(*options.accept > 0.0)))
+    throw InputError("joint_accuracy and accept must be above 0");
   const bool has_depth = !frames.front().depth.empty();
   if (!has_depth && (options.joint_offsets || options.time_offset))
     throw InputError(
@@ -85,6 +85,36 @@ void check_input(std::span<const CalibrationFrame> frames, const Intrinsics& cam
   }
 }
 
+/// The variable that moves most of the robot against the link that carries the camera, and no part
+/// of the rest: its zero cannot be distinguished from another pose, and the pose is relative to it.
+std::optional<std::size_t> turning_joint(const Robot& robot, std::size_t parent) {
+  const std::span<const Joint> joints = robot.joints();
+  const std::size_t links = robot.links().size();
+  // The links that move with the carrier, and how many hang below each link.
+  std::vector<std::size_t> below(links, 1);
+  for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint)
+    below[joint->parent] += below[joint->child];
+  std::vector<bool> is_carrier(links, false);
+  is_carrier[parent] = true;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (const Joint& joint : joints)
+      if (!joint.variable && is_carrier[joint.parent] != is_carrier[joint.child])
+        is_carrier[joint.parent] = is_carrier[joint.child] = grows = true;
+  }
+  std::optional<std::size_t> found;
+  std::size_t most = 0;
+  for (const Joint& joint : joints) {
+    if (is_carrier[joint.parent] == is_carrier[joint.child] || joint.mimics) continue;
+    const std::size_t moved =
+        is_carrier[joint.parent] ? below[joint.child] : links - below[joint.child];
+    if (moved <= most) continue;
+    most = moved;
+    found = joint.variable;
+  }
+  return found;
+}
+
 /// One refinement on the frames that fit.
 class Calibrator {
  public:
@@ -95,6 +125,7 @@ class Calibrator {
         robot_(robot),
         options_(options),
         parent_(find_camera_parent(robot, options.camera_parent)),
+        turning_(turning_joint(robot, parent_)),
         model_(robot, parent_) {
     unknowns_.holds_depth = !has_depth();
     unknowns_.has_shift = has_depth() && std::ranges::none_of(frames, [](const auto& frame) {
@@ -108,22 +139,27 @@ class Calibrator {
     Observer observer(model_, camera_, unknowns_);
     const Refined fit = freed(observer, best_fit(observer));
     const Explained explained = calibration::explain(observer, unknowns_, used_, fit);
-    Calibration result = result_of(fit, explained);
+    const Unknowns all = with_joints();
+    const Refined known = calibration::refine(observer, all, used_, with_zeros(fit.state));
+    Calibration result = result_of(known, all, explained);
     for (const CalibrationFrame& frame : frames_) {
-      result.frames.push_back(observer.fit(frame, fit.state));
+      result.frames.push_back(observer.fit(frame, known.state));
       result.frames.back().used = std::find(used_.begin(), used_.end(), &frame) != used_.end();
     }
     if (unknowns_.has_shift || !has_depth()) {
       std::size_t both = 0, either = 0;
       for (const CalibrationFrame& frame : frames_)
-        observer.overlap(frame, fit.state, both, either);
+        observer.overlap(frame, known.state, both, either);
       result.mask_overlap =
           static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
     }
-    judge(result, fit);
+    judge(result, known);
     if (!result.is_good()) return result;
-    const std::string causes = name_causes(result, observer, fit, explained);
-    result.advice = advice(result, observer, fit.state) + untold_joints(explained);
+    const std::string causes = name_causes(result, observer, fit, known, explained);
+    observer.set_unknowns(unknowns_);
+    result.advice = advice(result, observer, known.state) +
+                    carrying_frames(equations_at(observer, all, used_, known.state)) +
+                    untold_joints(explained, known);
     check_errors(result, causes);
     return result;
   }
@@ -145,10 +181,28 @@ class Calibrator {
     return calibration::refine(observer, unknowns_, used_, explained.fit.state);
   }
 
+  /// The unknowns with the zeros of all joints, which are known to
+  /// CalibrationOptions::joint_accuracy.
+  [[nodiscard]] Unknowns with_joints() const {
+    Unknowns all = unknowns_;
+    all.accuracy = options_.joint_accuracy;
+    for (const Cause& cause : calibration::possible_causes(robot_, used_))
+      if (cause.kind == Cause::Kind::joint && cause.variable != turning_ &&
+          std::ranges::count(unknowns_.variables, cause.variable) == 0) {
+        all.variables.push_back(cause.variable);
+        ++all.accurate;
+      }
+    return all;
+  }
+  [[nodiscard]] State with_zeros(State state) const {
+    state.joint_offsets.resize(robot_.variables().size());
+    return state;
+  }
+
   /// Adds a note for each input that the images contradict, and widens the pose's region to what
   /// the pose is then. Returns the notes' text.
   std::string name_causes(Calibration& result, Observer& observer, const Refined& fit,
-                          const Explained& explained) const {
+                          const Refined& known, const Explained& explained) const {
     if (agreement(observer, explained.fit.state) < least_agreeing) return {};
     std::string text;
     const auto add = [&](const std::string& cause) {
@@ -163,8 +217,13 @@ class Calibrator {
           "joint states from another pose: let it stand still, or move there and back");
       text += (text.empty() ? "" : "; ") + result.notes.back();
     }
-    for (const Explained::Pose& pose : explained.poses)
-      result.covariance += pose.covariance + covering * pose.motion * pose.motion.transpose();
+    const Eigen::Isometry3d from =
+        known.state.T_parent_camera.inverse() * fit.state.T_parent_camera;
+    for (const Explained::Pose& pose : explained.poses) {
+      const calibration::Twist moved =
+          calibration::twist_of(from * calibration::motion(pose.motion));
+      result.covariance += pose.covariance + covering * moved * moved.transpose();
+    }
     if (const std::string depth = calibration::text_of_depth(explained.fit); !depth.empty()) {
       add(depth);
       const calibration::Twist moved =
@@ -240,7 +299,8 @@ class Calibrator {
     return true;
   }
 
-  [[nodiscard]] Calibration result_of(const Refined& fit, const Explained& explained) const {
+  [[nodiscard]] Calibration result_of(const Refined& fit, const Unknowns& all,
+                                      const Explained& explained) const {
     Calibration result;
     result.T_parent_camera = fit.state.T_parent_camera;
     result.covariance = fit.covariance.topLeftCorner<6, 6>();
@@ -254,8 +314,8 @@ class Calibrator {
       result.shift_down = estimate(fit.state.depth_shift.y(), fit, Unknowns::shift + 1);
     }
     if (options_.focal) {
-      result.focal_x = estimate(fit.state.focal.x(), fit, unknowns_.focal());
-      result.focal_y = estimate(fit.state.focal.y(), fit, unknowns_.joints() - 1);
+      result.focal_x = estimate(fit.state.focal.x(), fit, all.focal());
+      result.focal_y = estimate(fit.state.focal.y(), fit, all.joints() - 1);
     }
     if (options_.joint_offsets)
       for (const Explained::Joint& joint : explained.joints)
@@ -263,9 +323,8 @@ class Calibrator {
     for (std::size_t j = 0; j < unknowns_.variables.size(); ++j)
       result.joint_offsets.at(unknowns_.variables[j]) =
           estimate(fit.state.joint_offsets.at(unknowns_.variables[j]), fit,
-                   unknowns_.joints() + static_cast<int>(j));
-    if (unknowns_.has_time)
-      result.time_offset = estimate(fit.state.time_offset, fit, unknowns_.time());
+                   all.joints() + static_cast<int>(j));
+    if (all.has_time) result.time_offset = estimate(fit.state.time_offset, fit, all.time());
     result.link_residuals = fit.link_residuals;
     return result;
   }
@@ -288,12 +347,26 @@ class Calibrator {
            " turn would add most";
   }
 
+  /// Names a frame without which the position is known much worse.
+  [[nodiscard]] std::string carrying_frames(const calibration::Equations& equations) const {
+    constexpr double much = 3.0;
+    const std::vector<double> wider = equations.wider_without();
+    const auto most = std::ranges::max_element(wider);
+    if (wider.size() != used_.size() || !(*most > much)) return {};
+    const auto& frame = *used_[static_cast<std::size_t>(most - wider.begin())];
+    return "; frame " + std::to_string(frame.index) +
+           " alone tells much of it: record more like it";
+  }
+
   /// Names joints, as the first of an arm before a fixed camera, whose offset is to the images the
   /// same as another pose.
-  [[nodiscard]] std::string untold_joints(const Explained& explained) const {
+  [[nodiscard]] std::string untold_joints(const Explained& explained, const Refined& known) const {
+    constexpr double much = 1.5;  // of the rotation's own error
+    const double least =
+        std::max(untold, much * calibration::longest_axis(known.covariance.topLeftCorner<3, 3>()));
     std::string names;
     for (std::size_t j = 0; j < explained.joints.size(); ++j)
-      if (explained.joints[j].rotation_error > untold)
+      if (explained.joints[j].rotation_error > least)
         names += (names.empty() ? "" : ", ") + robot_.variables()[j];
     return names.empty() ? names
                          : "; the images cannot tell an offset of " + names + " from another pose";
@@ -357,14 +430,21 @@ class Calibrator {
     }
   }
 
-  /// Refuses a pose that is not known well enough.
-  static void check_errors(Calibration& result, const std::string& causes) {
-    const double widest = result.depth_offset ? widest_position : widest_by_masks;
-    if (result.position_error() <= widest && result.rotation_error() <= widest_rotation) return;
+  /// Marks a pose that is not known well enough, with what helps most.
+  void check_errors(Calibration& result, const std::string& causes) const {
+    const double widest = options_.accept.value_or(has_depth() ? widest_position : widest_by_masks);
+    const double turned = options_.accept.value_or(widest_rotation);
+    if (result.position_error() <= widest && result.rotation_error() <= turned) return;
+    result.is_wide = true;
+    std::string remedy = causes;
+    if (remedy.empty()) {
+      if (has_depth() && !unknowns_.has_shift)
+        remedy = "give masks of the robot in the colour images (--masks), or ";
+      remedy += "record more poses of the robot; " + result.advice;
+    }
     result.faults.push_back(
         "the pose is known to " + number(1e3 * result.position_error(), 0) + " mm and " +
-        number(result.rotation_error() * 180.0 / 3.14159265358979, 1) + " degrees only: " +
-        (causes.empty() ? "record more poses of the robot; " + result.advice : causes));
+        number(result.rotation_error() * 180.0 / 3.14159265358979, 1) + " degrees only: " + remedy);
   }
 
   std::span<const CalibrationFrame> frames_;
@@ -372,6 +452,7 @@ class Calibrator {
   const Robot& robot_;
   const CalibrationOptions& options_;
   std::size_t parent_;
+  std::optional<std::size_t> turning_;  // the joint whose zero is by definition right
   Model model_;
   Unknowns unknowns_;
   FramePointers used_;
@@ -379,43 +460,12 @@ class Calibrator {
 
 }  // namespace
 
-std::vector<NearbyPoses> nearby_poses(const StampedPoses& trajectory, std::int64_t stamp) {
-  std::vector<NearbyPoses> found;
-  for (const auto& [time, poses] : trajectory) {
-    const double seconds = 1e-9 * static_cast<double>(time - stamp);
-    if (std::abs(seconds) <= nearby) found.push_back({seconds, poses});
-  }
-  std::ranges::sort(found, {}, &NearbyPoses::seconds);
-  if (found.empty() || found.front().seconds > -least_nearby || found.back().seconds < least_nearby)
-    return {};
-  return found;
-}
-
 double Calibration::position_error() const {
   return calibration::longest_axis(covariance.bottomRightCorner<3, 3>());
 }
 
 double Calibration::rotation_error() const {
   return calibration::longest_axis(covariance.topLeftCorner<3, 3>());
-}
-
-bool CalibrationFrames::wants(std::span<const Eigen::Isometry3d> T_root_link) const {
-  return std::all_of(frames_.begin(), frames_.end(), [&](const CalibrationFrame& frame) {
-    return pose_difference(frame.T_root_link, T_root_link) >= motion_;
-  });
-}
-
-void CalibrationFrames::add(CalibrationFrame frame) {
-  ++seen_;
-  if (!wants(frame.T_root_link)) return;
-  frames_.push_back(std::move(frame));
-  while (frames_.size() > most) {
-    motion_ *= 1.5;
-    std::vector<CalibrationFrame> all;
-    all.swap(frames_);
-    for (CalibrationFrame& kept : all)
-      if (wants(kept.T_root_link)) frames_.push_back(std::move(kept));
-  }
 }
 
 Calibration calibrate(std::span<const CalibrationFrame> frames, const Intrinsics& camera,

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/pipeline/frame.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra {
@@ -54,7 +56,13 @@ struct CalibrationOptions {
   /// Estimate the zero offsets of joints that the images contradict; needs depth.
   bool joint_offsets = false;
   bool time_offset = false;  ///< estimate the time between images and poses, too; needs depth
-  std::uint64_t seed = 1;    ///< of the poses that are tried
+  /// Standard deviation of the zeros of joints, rad (m of sliding ones). Published errors of
+  /// industrial arms are 0.002 to 0.007; hobby servos repeat to 0.02 or 0.03.
+  double joint_accuracy = 0.005;
+  /// The widest 95 % region of a good pose, metres, and as many rad; null: 0.03, without depth 0.06
+  /// m and 0.03 rad.
+  std::optional<double> accept = {};
+  std::uint64_t seed = 1;  ///< of the poses that are tried
 };
 
 /// A small motion of the camera in its own frame: rotation (rad) in x, y, z, then translation (m).
@@ -79,8 +87,9 @@ struct Estimate {
 
 struct Calibration {
   Eigen::Isometry3d T_parent_camera;
-  /// Of T_parent_camera, the larger of two: from the residuals' correlation, and from what the pose
-  /// is without each frame in turn. It covers the pose that each cause in `notes` gives.
+  /// Of T_parent_camera: what joints' zeros within CalibrationOptions::joint_accuracy do, the
+  /// residuals' own, and what errors common to a frame or a link do. It covers the pose that each
+  /// cause in `notes` gives.
   PoseCovariance covariance;
   /// Metres: measured = true (1 + depth_scale) + depth_offset; neither without depth.
   std::optional<Estimate> depth_offset, depth_scale;
@@ -100,12 +109,13 @@ struct Calibration {
   std::vector<double> link_residuals;  ///< signed medians by link, metres; NaN: not seen
   double mask_overlap = 0.0;           ///< intersection over union with the masks; 0 without masks
 
-  /// Why the pose must not be used and what to record instead, a line each; empty: it is good.
+  /// Why the pose must not be used and what helps, a line each; empty: it is good.
   std::vector<std::string> faults;
   /// Frames that were left out, and inputs that the images contradict, with the amount: a focal
   /// length, a joint's zero, the time of the poses, the sensor's depth.
   std::vector<std::string> notes;
-  std::string advice;  ///< what is known least, and which joints' motion would add most
+  std::string advice;    ///< what is known least, and which joints' motion would add most
+  bool is_wide = false;  ///< the only fault: the region is wider than CalibrationOptions::accept
 
   [[nodiscard]] bool is_good() const { return faults.empty(); }
   /// Half of the longest axis of the 95 % ellipsoid of the camera's position (m) and rotation
@@ -114,24 +124,59 @@ struct Calibration {
   [[nodiscard]] double rotation_error() const;
 };
 
-/// Chooses frames between which the robot moves.
+/// Chooses frames of an input between which the robot moves: those in which it stands still before
+/// the others, or moving ones alone, for CalibrationOptions::time_offset.
 class CalibrationFrames {
  public:
   static constexpr std::size_t least = 3;
   static constexpr std::size_t most = 20;
   static constexpr double least_motion = 0.03;  ///< metres that one link moves, at least
 
-  /// Keeps the frame if a link moved since every kept frame; thins out when there are too many.
+  /// `needs_depth`: frames without a depth image are not used.
+  CalibrationFrames(const Robot& robot, bool needs_depth, bool moving = false)
+      : robot_(robot), needs_depth_(needs_depth), moving_(moving) {}
+
+  /// Looks at the next frame of the input. If it is wanted, returns it without its images: call
+  /// add() with them. The poses of other frames, also of those without an image, tell the time
+  /// offset. Throws InputError if the camera moves on its link, and for moving frames without a
+  /// stamp.
+  [[nodiscard]] std::optional<CalibrationFrame> pass(const Frame& frame);
+  /// Keeps the frame of the last pass(); thins out when there are too many.
   void add(CalibrationFrame frame);
-  [[nodiscard]] std::span<const CalibrationFrame> frames() const { return frames_; }
+
+  /// Returns the chosen frames, with the poses around those of a moving robot.
+  [[nodiscard]] std::vector<CalibrationFrame> chosen() const;
+  /// Returns the camera's pose in its link as the frames have it; null: they have none.
+  [[nodiscard]] const std::optional<Eigen::Isometry3d>& T_parent_camera() const {
+    return T_parent_camera_;
+  }
   [[nodiscard]] std::size_t seen() const { return seen_; }
-  /// Whether add() would keep a frame with these poses.
-  [[nodiscard]] bool wants(std::span<const Eigen::Isometry3d> T_root_link) const;
+  /// Returns which frames cannot be used and whether too few are at rest, a line each.
+  [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
-  std::size_t seen_ = 0;
-  double motion_ = least_motion;
-  std::vector<CalibrationFrame> frames_;
+  struct Kept {
+    double motion = least_motion;
+    std::vector<CalibrationFrame> frames = {};
+    [[nodiscard]] bool wants(std::span<const Eigen::Isometry3d> T_root_link) const;
+    void add(CalibrationFrame frame);
+  };
+  [[nodiscard]] bool has_rested() const { return !moving_ && resting_.frames.size() >= least; }
+  [[nodiscard]] bool is_posed(const RobotPose& pose) const;
+  void follow(const CalibrationFrame& frame, std::optional<std::int64_t> stamp);
+  void follow_camera(const CalibrationFrame& frame, const Eigen::Isometry3d& T_parent_camera);
+
+  Robot robot_;
+  bool needs_depth_, moving_;
+  Kept resting_, all_;
+  std::optional<std::int64_t> stamp_;  // of the last frame with a pose
+  std::vector<Eigen::Isometry3d> T_root_link_;
+  std::optional<double> speed_;  // since the one before, of the fastest link's origin, m/s
+  StampedPoses trajectory_;
+  std::map<std::size_t, std::int64_t> stamps_;  // of kept frames
+  std::optional<Eigen::Isometry3d> T_parent_camera_;
+  std::size_t seen_ = 0, faulty_ = 0;
+  std::string fault_;  // of the first
 };
 
 /// Estimates a camera's pose from the robot that it sees: in depth images, or in masks alone. The

@@ -18,6 +18,7 @@ namespace {
 // In 60 simulated runs without a fault (bench/calibration_study) nothing was named.
 constexpr double named = 4.0;     // sigmas from 0
 constexpr double possible = 2.5;  // the same: the pose's region covers it
+constexpr double bar = 2.0;       // sigmas that notes state: a value below is not named
 /// A cause must also lower the weighted squares: a sigma of few frames can be small by chance.
 constexpr double least_drop = 16.0;
 /// Causes whose drops are nearer to each other's than first-order steps are to the truth.
@@ -106,20 +107,6 @@ Test test(const Equations& equations, const Unknowns& all, const Unknowns& own,
   return result;
 }
 
-/// The causes that a robot and its frames can show.
-std::vector<Cause> possible_causes(const Robot& robot,
-                                   std::span<const CalibrationFrame* const> frames) {
-  std::vector<Cause> causes{{.kind = Cause::Kind::focal}};
-  for (const Joint& joint : robot.joints())
-    if (!joint.mimics &&
-        (joint.type == JointType::revolute || joint.type == JointType::continuous ||
-         joint.type == JointType::prismatic))
-      causes.push_back({.kind = Cause::Kind::joint, .variable = *joint.variable});
-  if (std::ranges::any_of(frames, [](const auto* frame) { return !frame->nearby.empty(); }))
-    causes.push_back({.kind = Cause::Kind::clock});
-  return causes;
-}
-
 std::string number(double value, int digits) {
   std::ostringstream text;
   text << std::fixed << std::setprecision(digits) << value;
@@ -129,7 +116,7 @@ std::string number(double value, int digits) {
 /// The size of a value and twice its standard deviation.
 std::string amount(double value, double variance, double scale, int digits) {
   return number(scale * std::abs(value), digits) + " +- " +
-         number(2.0 * scale * std::sqrt(variance), digits);
+         number(bar * scale * std::sqrt(variance), digits);
 }
 
 std::string name_of(const Cause& cause, const Robot& robot) {
@@ -152,7 +139,7 @@ std::string focal_text(const Explained& explained, const Intrinsics& camera) {
   std::string text;
   for (const auto& [i, name, given] :
        {std::tuple{0, "fx", camera.fx()}, std::tuple{1, "fy", camera.fy()}}) {
-    if (sigmas[i] < named && sigmas[1 - i] >= named) continue;
+    if (sigmas[i] < bar || (sigmas[i] < named && sigmas[1 - i] >= named)) continue;
     const double longer = 1.0 / (1.0 + focal[i]) - 1.0;
     text += (text.empty() ? "" : ", ") + std::string(name) + " is " +
             amount(longer, variances[i], 100.0, 1) + " % too " + (longer > 0.0 ? "long" : "short") +
@@ -172,6 +159,19 @@ bool is_wider(const Explained::Pose& pose, const Refined& fit) {
 }
 
 }  // namespace
+
+std::vector<Cause> possible_causes(const Robot& robot,
+                                   std::span<const CalibrationFrame* const> frames) {
+  std::vector<Cause> causes{{.kind = Cause::Kind::focal}};
+  for (const Joint& joint : robot.joints())
+    if (!joint.mimics &&
+        (joint.type == JointType::revolute || joint.type == JointType::continuous ||
+         joint.type == JointType::prismatic))
+      causes.push_back({.kind = Cause::Kind::joint, .variable = *joint.variable});
+  if (std::ranges::any_of(frames, [](const auto* frame) { return !frame->nearby.empty(); }))
+    causes.push_back({.kind = Cause::Kind::clock});
+  return causes;
+}
 
 std::string text_of(const FoundCause& found, const Explained& explained, const Robot& robot,
                     const Intrinsics& camera) {
@@ -275,16 +275,21 @@ Explained explain(Observer& observer, const Unknowns& own,
     const auto best = std::ranges::max_element(tests, {}, &Test::drop);
     if (best == tests.end()) break;
     if (best->drop < least_drop || result.causes.size() == most_causes) {
-      result.poses.push_back({pose_after(*best).motion, PoseCovariance::Zero()});
+      if (best->cause.kind != Cause::Kind::joint)  // whose zeros the pose's region covers
+        result.poses.push_back({pose_after(*best).motion, PoseCovariance::Zero()});
       break;
     }
     // A first-order step falls short where residuals are large: the whole way tells.
     const Unknowns freed = with(result.unknowns, best->cause);
     const Refined fitted = refine(observer, freed, frames, state);
     const std::vector<int> its = indices(freed, best->cause);
-    if (!(sigmas_of(freed.values(fitted.state)(its), fitted.covariance(its, its)) > named)) {
-      result.poses.push_back(
-          {twist_of(from * fitted.state.T_parent_camera), fitted.covariance.topLeftCorner<6, 6>()});
+    const Eigen::VectorXd values = freed.values(fitted.state)(its);
+    const Eigen::MatrixXd covariance = fitted.covariance(its, its);
+    const double clearest = (values.array().square() / covariance.diagonal().array()).maxCoeff();
+    if (!(sigmas_of(values, covariance) > named && clearest > bar * bar)) {
+      if (best->cause.kind != Cause::Kind::joint)  // see above
+        result.poses.push_back({twist_of(from * fitted.state.T_parent_camera),
+                                fitted.covariance.topLeftCorner<6, 6>()});
       break;
     }
     FoundCause& found = result.causes.emplace_back();

@@ -59,7 +59,7 @@ Eigen::VectorXd Unknowns::values(const State& state) const {
 }
 
 Eigen::VectorXd Unknowns::prior_sigmas() const {
-  Eigen::VectorXd sigmas = Eigen::VectorXd::Constant(size(), 0.02);  // joints: rad or m
+  Eigen::VectorXd sigmas = Eigen::VectorXd::Constant(size(), 0.02);  // doubted joints: rad or m
   constexpr double held = 1e-9;  // far below what any measurement tells
   sigmas.head<6>().setConstant(std::numeric_limits<double>::infinity());
   sigmas[depth_offset] = holds_depth ? held : 0.005;
@@ -67,6 +67,8 @@ Eigen::VectorXd Unknowns::prior_sigmas() const {
   sigmas[outline] = 10.0;
   if (has_shift) sigmas.segment<2>(shift).setConstant(10.0);
   sigmas.segment(focal(), focal_count).setConstant(0.1);
+  sigmas.segment(time() - static_cast<int>(accurate), static_cast<int>(accurate))
+      .setConstant(accuracy);
   if (has_time) sigmas[time()] = 0.1;
   return sigmas;
 }

@@ -52,6 +52,8 @@ struct Unknowns {
   bool has_shift = false;
   int focal_count = 0;                      ///< 1: fx and fy by the same factor; 2: each by its own
   std::vector<std::size_t> variables = {};  ///< Robot::variables() whose offsets are estimated
+  std::size_t accurate = 0;  ///< the last so many of `variables` have zeros within `accuracy`
+  double accuracy = 0.0;     ///< rad or m, standard deviation
   bool has_time = false;
   bool holds_depth = false;  ///< depth offset and scale stay as they are: there may be no depth
 
@@ -162,7 +164,7 @@ struct Part {
 /// The normal equations of frames at one state.
 struct Equations {
   std::vector<Part> parts;         ///< by frame, then link; empty: nothing seen
-  std::vector<std::size_t> views;  ///< of each part: which are wrong together
+  std::vector<std::size_t> views;  ///< of each part: the first one with the same view of its link
   std::size_t links = 0;
   Eigen::MatrixXd information;  ///< of all, with what is expected of the unknowns
   Eigen::VectorXd gradient;     ///< likewise
@@ -174,8 +176,10 @@ struct Equations {
   [[nodiscard]] Eigen::VectorXd step() const { return -dense::solve(information, gradient); }
   /// Returns the equations after a step, to first order.
   [[nodiscard]] Equations after(const Eigen::VectorXd& step) const;
-  /// Returns the unknowns' covariance, where the gradient is 0.
+  /// Returns the unknowns' covariance, where the gradient is 0. NaN if all frames repeat one view.
   [[nodiscard]] Eigen::MatrixXd covariance() const;
+  /// Returns how many times as far the camera's position may be off without each frame.
+  [[nodiscard]] std::vector<double> wider_without() const;
 };
 
 [[nodiscard]] Equations equations_at(Observer& observer, const Unknowns& unknowns,
@@ -201,6 +205,10 @@ struct Cause {
 
   bool operator==(const Cause&) const = default;
 };
+
+/// Returns the causes that a robot and its frames can show.
+[[nodiscard]] std::vector<Cause> possible_causes(const Robot& robot,
+                                                 std::span<const CalibrationFrame* const> frames);
 
 /// A cause that explains the residuals much better than the inputs do.
 struct FoundCause {

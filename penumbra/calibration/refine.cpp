@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
 #include <penumbra/base/rigid-inl.hpp>
@@ -142,30 +141,50 @@ Equations equations_of(const Residuals& residuals, const Unknowns& unknowns, con
   return all;
 }
 
-/// The covariance by the jackknife (Efron 1982): how far the solution moves without each group of
-/// parts, in one step from all of them. `groups` names each part's. NaN for fewer than two groups.
-Matrix jackknife(const Equations& equations, const std::vector<std::size_t>& groups) {
-  const Matrix& information = equations.information;
-  std::map<std::size_t, Part> left_out;
-  for (std::size_t i = 0; i < groups.size(); ++i) {
+/// The sums of the parts of each frame, or of each link, that is seen.
+std::vector<Part> sums_of(const Equations& equations, bool by_frame) {
+  std::vector<Part> sums(by_frame ? equations.parts.size() / equations.links : equations.links);
+  for (std::size_t i = 0; i < equations.parts.size(); ++i) {
     const Part& part = equations.parts[i];
+    Part& sum = sums[by_frame ? i / equations.links : i % equations.links];
     if (part.information.size() == 0) continue;
-    const auto [at, is_new] = left_out.try_emplace(groups[i], part);
-    if (!is_new) at->second += part;
+    if (sum.information.size() == 0)
+      sum = part;
+    else
+      sum += part;
   }
-  Matrix unseen = equations.prior.asDiagonal();
-  for (const auto& [group, part] : left_out) unseen += part.steps * part.steps.transpose();
-  const Matrix inverse = dense::inverse(information);
-  Matrix covariance = dense::sandwich(inverse, unseen);
-  const auto count = static_cast<double>(left_out.size());
-  if (left_out.size() < 2)
-    return Matrix::Constant(covariance.rows(), covariance.cols(),
-                            std::numeric_limits<double>::quiet_NaN());
-  for (const auto& [group, part] : left_out) {
-    const Vector moved = dense::solve(information - part.information, part.gradient);
-    covariance += (count - 1.0) / count * moved * moved.transpose();
+  std::erase_if(sums, [](const Part& sum) { return sum.information.size() == 0; });
+  return sums;
+}
+
+/// The gradient of a group that is larger by what the solution gave way to it: its residuals are
+/// smaller than its errors, the more so the more of the result it carries (CR2; Bell and McCaffrey
+/// 2002). `inverse`: of all information.
+Vector unleveraged(const Part& group, const Matrix& inverse) {
+  constexpr double seen = 1e-9;     // of the largest principal value
+  constexpr double carried = 1e-3;  // a group that carries a direction alone shows no error there
+  const dense::PrincipalAxes axes = dense::principal_axes(group.information);
+  const Vector widths =
+      axes.values.cwiseMax(seen * axes.values[axes.values.size() - 1]).cwiseSqrt();
+  const Matrix factor = axes.vectors * widths.asDiagonal();
+  const Matrix rest =
+      Matrix::Identity(inverse.rows(), inverse.cols()) - factor.transpose() * inverse * factor;
+  const dense::PrincipalAxes left = dense::principal_axes(rest);
+  const Vector residual =
+      widths.cwiseInverse().cwiseProduct(axes.vectors.transpose() * group.gradient);
+  return factor *
+         (left.vectors * left.values.cwiseMax(carried).cwiseSqrt().cwiseInverse().cwiseProduct(
+                             left.vectors.transpose() * residual));
+}
+
+/// What errors that are common to each frame, or to each link, do to the solution.
+Matrix scatter(const Equations& equations, const Matrix& inverse, bool by_frame) {
+  Matrix unseen = Matrix::Zero(inverse.rows(), inverse.cols());
+  for (const Part& group : sums_of(equations, by_frame)) {
+    const Vector gradient = unleveraged(group, inverse);
+    unseen += gradient * gradient.transpose() + group.steps * group.steps.transpose();
   }
-  return covariance;
+  return dense::sandwich(inverse, unseen);
 }
 
 std::vector<double> medians_by_link(const Residuals& residuals, std::size_t links) {
@@ -215,25 +234,34 @@ Equations Equations::after(const Vector& step) const {
   return there;
 }
 
-/// The largest, in each unknown, of leaving out views, frames and links. With few frames or links
-/// it is wider, as the variance of Student's t is with as many degrees of freedom. NaN if all
-/// frames repeat one view.
+/// The residuals' own and what is expected of the unknowns, which no residual scales, and what
+/// frames or links scatter, whichever is larger in each unknown.
 Matrix Equations::covariance() const {
-  std::vector<std::size_t> frame_of, link_of;
-  std::set<std::size_t> links_in_view;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    frame_of.push_back(i / links);
-    link_of.push_back(i % links);
-    if (parts[i].information.size() > 0) links_in_view.insert(i % links);
-  }
-  const Matrix by_view = jackknife(*this, views);
-  Vector variances = by_view.diagonal().cwiseMax(jackknife(*this, frame_of).diagonal());
-  if (links_in_view.size() > 1)
-    variances = variances.cwiseMax(jackknife(*this, link_of).diagonal());
-  const Vector scale = variances.cwiseQuotient(by_view.diagonal()).cwiseSqrt();
-  const auto freedoms = static_cast<double>(std::clamp<std::size_t>(
-      links_in_view.size(), 3, std::max<std::size_t>(3, views.size() / links)));
-  return freedoms / (freedoms - 2.0) * scale.asDiagonal() * by_view * scale.asDiagonal();
+  const Matrix inverse = dense::inverse(information);
+  std::set<std::size_t> seen;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (parts[i].information.size() > 0) seen.insert(views[i]);
+  if (seen.size() < 2)
+    return Matrix::Constant(inverse.rows(), inverse.cols(),
+                            std::numeric_limits<double>::quiet_NaN());
+  constexpr double least = std::numeric_limits<double>::min();
+  const Matrix by_frame = scatter(*this, inverse, true);
+  const Vector scale = scatter(*this, inverse, false)
+                           .diagonal()
+                           .cwiseQuotient(by_frame.diagonal().cwiseMax(least))  // 0: held
+                           .cwiseMax(1.0)
+                           .cwiseSqrt();
+  return inverse + scale.asDiagonal() * by_frame * scale.asDiagonal();
+}
+
+std::vector<double> Equations::wider_without() const {
+  const auto position = [](const Matrix& of) {
+    return longest_axis(dense::inverse(of).block<3, 3>(3, 3));
+  };
+  std::vector<double> wider;
+  for (const Part& frame : sums_of(*this, true))
+    wider.push_back(position(information - frame.information) / position(information));
+  return wider;
 }
 
 Equations equations_at(Observer& observer, const Unknowns& unknowns,

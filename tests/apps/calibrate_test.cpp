@@ -80,6 +80,59 @@ TEST_F(CalibrateTest, RefusesTooFewFramesAndOtherRobots) {
   EXPECT_FALSE(fs::exists(out("camera_pose.csv")));
 }
 
+/// Five poses, without masks of one of them. Their published pose is good to a centimetre or two.
+class CalibrateFewPoses : public RealRecording {
+ protected:
+  void SetUp() override {
+    RealRecording::SetUp();
+    if (!IsSkipped()) copy_recording("xarm7_realsense_2");
+  }
+  Outcome calibrate(const Words& options) const {
+    return penumbra(Words{"calibrate", path("recording"), "-o", out()} + options);
+  }
+  /// The found pose is as near to the published one as it says, and within the limit.
+  void expect_near(const fs::path& published) const {
+    const Json json = read_json(out("calibration.json"));
+    Isometry3d pose;
+    for (int i = 0; i < 16; ++i)
+      pose(i / 4, i % 4) = json["T_parent_camera"][std::size_t(i / 4)][std::size_t(i % 4)];
+    const double off = metres_between(pose, io::read_pose_csv(published));
+    EXPECT_LT(off, near);
+    EXPECT_LT(off, json["position_error_95_m"].get<double>());
+  }
+
+  static constexpr double near = 0.015;  // metres
+};
+
+TEST_F(CalibrateFewPoses, GiveAPoseThatSaysHowWellItIsKnown) {
+  const fs::path published = path("recording/camera_pose.csv");
+  const Outcome outcome = calibrate({});
+  EXPECT_EQ(outcome.status, 2);
+  expect_has(outcome.out, {"static_transform_publisher"});
+  expect_has(outcome.err, {"--masks", "--accept"});
+  EXPECT_EQ(read_json(out("calibration.json"))["good"], false);
+  EXPECT_FALSE(fs::exists(out("camera_pose.csv")));
+  expect_near(published);
+  succeed(calibrate({"--accept", "60"}));
+  EXPECT_TRUE(fs::exists(out("camera_pose.csv")));
+  succeed(calibrate({"--masks", "robot_mask_%d.png"}));
+  expect_near(published);
+}
+
+TEST_F(CalibrateFewPoses, WithoutTheFourthAreNotAcceptedWrongly) {
+  const fs::path published = path("recording/camera_pose.csv");
+  const std::string joints = read_file(path("recording/joint_states.csv"));
+  const auto row = joints.find("\n3,");
+  write_file(path("recording/joint_states.csv"),
+             joints.substr(0, row) + joints.substr(joints.find('\n', row + 1)));
+  Isometry3d off = io::read_pose_csv(published);
+  off.translation() += Vector3d(0.05, -0.06, 0.05);
+  off.linear() = off.linear() * Eigen::AngleAxisd(0.15, Vector3d(1, 2, -1).normalized()).matrix();
+  io::write_pose_csv(path("off.csv"), off);
+  EXPECT_EQ(calibrate({"--initial", path("off.csv")}).status, 2);
+  expect_near(published);
+}
+
 /// The shipped recording without depth, with the masks that `run` writes of it.
 class CalibrateMasksTest : public FolderTest {
  protected:

@@ -234,6 +234,45 @@ TEST_F(RenderedCalibration, ClocksThatDifferAreNamed) {
   EXPECT_LT(off(one_way.T_parent_camera), 1.2 * one_way.position_error());  // on the border
 }
 
+/// A frame at a time (ns); without an image unless there is depth.
+Frame frame_at(std::int64_t stamp, std::vector<double> joints, const Image<float>* depth) {
+  Frame frame;
+  frame.stamp = stamp;
+  frame.pose.positions = std::move(joints);
+  if (depth != nullptr) frame.depth = depth->view();
+  return frame;
+}
+
+TEST(CalibrationFrames, PosesWithoutImagesTellTheTimeOfImagesThatAreSecondsApart) {
+  const Robot robot = load_arm();
+  const Image<float> depth(8, 6);
+  CalibrationFrames frames(robot, true, true);
+  std::vector<double> joints = robot.rest_positions();
+  for (int i = 0; i <= 130; ++i) {  // 6.5 s, images each 2 s
+    joints[1] = 0.015 * i;          // rad: the tip moves by 0.2 m/s
+    auto kept = frames.pass(frame_at(i * 50 * ms, joints, i % 40 == 39 ? &depth : nullptr));
+    if (kept) frames.add(*std::move(kept));
+  }
+  ASSERT_EQ(frames.chosen().size(), 3U);
+  for (const CalibrationFrame& frame : frames.chosen()) EXPECT_GE(frame.nearby.size(), 5U);
+  EXPECT_EQ(frames.seen(), 131U);
+}
+
+TEST(CalibrationFrames, FramesAtRestAreTakenBeforeOthers) {
+  const Robot robot = load_arm();
+  const Image<float> depth(8, 6);
+  CalibrationFrames frames(robot, true);
+  std::vector<double> joints = robot.rest_positions();
+  for (int i = 0; i < 40; ++i) {
+    if (i % 10 >= 3) joints[1] += 0.05;  // rests for three frames of ten
+    auto kept = frames.pass(frame_at(i * 100 * ms, joints, &depth));
+    if (kept) frames.add(*std::move(kept));
+  }
+  ASSERT_EQ(frames.chosen().size(), 4U);
+  for (const CalibrationFrame& frame : frames.chosen()) EXPECT_LT(frame.index % 10, 3U);
+  EXPECT_TRUE(frames.notes().empty());
+}
+
 TEST(CalibrationWatch, LimitsArePositive) {
   const Camera camera{Intrinsics(64, 48, 50, 50, 32, 24), {}, {}, {}};
   EXPECT_NO_THROW(CalibrationWatch watch(camera));

@@ -26,6 +26,20 @@ def test_a_rough_guess_ends_at_the_true_pose():
     assert found.covariance.shape == (6, 6)
 
 
+def test_an_opened_input_is_calibrated_as_on_the_command_line():
+    found = penumbra.calibrate(GIVEN, GIVEN.camera, GIVEN.robot, GIVEN.config)
+    by_list = calibrated(FRAMES, TRUTH, camera_parent=GIVEN.config.camera_parent)
+    assert found.is_good and np.array_equal(found.T_parent_camera, by_list.T_parent_camera)
+    # As a bag whose tf has the camera, the configuration of which has no pose.
+    by_tf = [frame.replace(pose=frame.pose.replace(T_parent_camera=ROUGH)) for frame in FRAMES]
+    config = GIVEN.config.replace(T_parent_camera=np.eye(4))
+    found = penumbra.calibrate(by_tf, GIVEN.camera, GIVEN.robot, config)
+    assert found.is_good
+    assert np.linalg.norm(found.T_parent_camera[:3, 3] - TRUTH[:3, 3]) < 0.003
+    moved = by_tf[:3] + FRAMES[3:4] + [by_tf[4].replace(pose=by_tf[4].pose.replace(T_parent_camera=TRUTH))]
+    refuses("frame 4: tf moves the camera", lambda: penumbra.calibrate(moved, GIVEN.camera, GIVEN.robot, config))
+
+
 def test_faults_are_told():
     wall = [frame.replace(depth=np.full_like(frame.depth, 3000)) for frame in FRAMES]
     found = calibrated(wall, TRUTH)
@@ -33,7 +47,7 @@ def test_faults_are_told():
     refuses("3 frames", lambda: calibrated(FRAMES[:2], TRUTH))
     refuses("masks", lambda: calibrated(FRAMES, TRUTH, masks=[np.zeros((480, 640), np.uint8)]), ValueError)
     jointless = [FRAMES[0], penumbra.Frame(None, None), FRAMES[1]]
-    refuses(r"frames\[1\]: needs 7 joint", lambda: calibrated(jointless, TRUTH), ValueError)
+    refuses("frame 1: has no joint positions", lambda: calibrated(jointless, TRUTH))
     blind = [FRAMES[0], FRAMES[1].replace(depth=None), FRAMES[2]]
     refuses("frame 1: has no depth image", lambda: calibrated(blind, TRUTH))
 
@@ -47,7 +61,7 @@ def test_masks_alone_are_enough():
     assert found.depth_offset is None and found.shift_right is None
     assert found.mask_overlap > 0.99
     assert np.linalg.norm(found.T_parent_camera[:3, 3] - TRUTH[:3, 3]) < 0.002
-    refuses("frame 0: has no mask", lambda: calibrated(frames, ROUGH))
+    refuses("frame 0: has no depth image", lambda: calibrated(frames, ROUGH))
     refuses("need depth images", lambda: calibrated(frames, ROUGH, masks=masks, joint_offsets=True))
 
 

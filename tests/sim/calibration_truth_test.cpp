@@ -101,6 +101,31 @@ TEST_F(CalibrationTruth, TheCameraIsFoundWithoutAGuess) {
   by_masks.expect_right(by_masks.without_guess());
 }
 
+/// All joints' zeros are a little off, as those of real arms.
+TEST_F(CalibrationTruth, TheRegionOfFewPosesHoldsTheTruthDespiteJointZeros) {
+  constexpr double zero = 0.005;  // rad, standard deviation
+  for (const std::uint64_t seed : {21, 22, 23, 24}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Seen seen(seed, 5);
+    std::vector<double> errors(seen.robot().variables().size());
+    for (double& error : errors) error = zero * seen.random.normal();
+    errors.back() = 0.0;  // the gripper
+    for (CalibrationFrame& frame : seen.frames) {
+      for (std::size_t j = 0; j < errors.size(); ++j) frame.joints[j] += errors[j];
+      seen.robot().forward_kinematics(frame.joints, frame.T_root_link);
+    }
+    const Calibration found = seen.from_guess();
+    ASSERT_TRUE(found.is_good()) << found.faults.front();
+    // The first joint's zero turns the whole arm: the pose is relative to where it is by its state.
+    const Eigen::Isometry3d truth =
+        Eigen::AngleAxisd(errors[0], Eigen::Vector3d::UnitZ()) * seen.simulation.T_base_camera();
+    const Eigen::Isometry3d error = truth.inverse() * found.T_parent_camera;
+    EXPECT_LT(error.translation().norm(), found.position_error());
+    EXPECT_LT(Eigen::AngleAxisd(error.linear()).angle(), found.rotation_error());
+    EXPECT_LT(found.position_error(), 0.02);
+  }
+}
+
 TEST_F(CalibrationTruth, AFrameWithWrongJointsIsLeftOut) {
   Seen seen(5);
   CalibrationFrame& wrong = seen.frames[4];
