@@ -64,8 +64,8 @@ bool ScanImage::place(const FrameReport& of, const Frame& frame) {
   for (std::size_t i = 0; i < frame.scan->points.count; ++i)
     if (is_on_robot(of.labels.data[i]))
       ++on_robot[length == 0 ? 0
-                             : static_cast<std::size_t>(std::min(
-                                   count - 1, (times[i] - first) * count / length))];
+                             : static_cast<std::size_t>(
+                                   std::min(count - 1, (times[i] - first) * count / length))];
   const std::int64_t part = std::ranges::max_element(on_robot) - on_robot.begin();
   std::size_t points = 0;
   for (std::int64_t i = 0; i < count; ++i)

@@ -28,7 +28,8 @@ Robot box_arm() {
   std::string xml = link_xml("base");
   const std::array<std::array<std::string, 3>, 3> joints{
       {{"turn", R"(<axis xyz="0 0 1"/>)", "base"},
-       {"lift", R"(<origin xyz="0 0 )" + std::to_string(shoulder_height) + R"("/><axis xyz="0 1 0"/>)",
+       {"lift",
+        R"(<origin xyz="0 0 )" + std::to_string(shoulder_height) + R"("/><axis xyz="0 1 0"/>)",
         "turn_link"},
        {"bend", R"(<origin xyz=")" + std::to_string(upper_arm) + R"( 0 0"/><axis xyz="0 1 0"/>)",
         "lift_link"}}};
@@ -67,7 +68,8 @@ class Scanner {
       std::array<Isometry3d, 3> T_box_sensor;
       Isometry3d T(AngleAxisd(q[0], Vector3d::UnitZ()));
       for (std::size_t i = 0; i < 3; ++i) {
-        if (i == 1) T = T * Translation3d(0, 0, shoulder_height) * AngleAxisd(q[1], Vector3d::UnitY());
+        if (i == 1)
+          T = T * Translation3d(0, 0, shoulder_height) * AngleAxisd(q[1], Vector3d::UnitY());
         if (i == 2) T = T * Translation3d(upper_arm, 0, 0) * AngleAxisd(q[2], Vector3d::UnitY());
         T_box_sensor[i] = (T * Translation3d(arm_boxes[i].centre)).inverse() * sensor_pose();
       }
@@ -84,10 +86,10 @@ class Scanner {
         times_.push_back(std::int32_t(after));
       }
     }
-    return {.stamp = begin,
-            .scan = Scan{.points = {reinterpret_cast<const std::byte*>(points_.data()),
-                                    points_.size()},
-                         .times = times_}};
+    return {
+        .stamp = begin,
+        .scan = Scan{.points = {reinterpret_cast<const std::byte*>(points_.data()), points_.size()},
+                     .times = times_}};
   }
 
  private:
@@ -101,8 +103,8 @@ class Scanner {
 /// What a user may have wrong.
 struct Mistake {
   Isometry3d T_sensor_given = Isometry3d::Identity();
-  std::int64_t late = 0;   // nanoseconds by which the joints' stamps are wrong
-  double zero = 0.0;       // of the joint 'lift', rad
+  std::int64_t late = 0;  // nanoseconds by which the joints' stamps are wrong
+  double zero = 0.0;      // of the joint 'lift', rad
 };
 
 Session session_of(const Mistake& mistake = {}) {
@@ -140,7 +142,8 @@ TEST(ScanSetup, ASensorThatStandsElsewhereIsNamedWithTheAmount) {
     const Diagnosis& found = session.diagnosis();
     EXPECT_EQ(found.cause, Diagnosis::Cause::camera_pose) << found.message;
     ASSERT_TRUE(holds(found.message, "the sensor's pose is about ")) << found.message;
-    const double amount = std::stod(found.message.substr(found.message.find_first_of("0123456789")));
+    const double amount =
+        std::stod(found.message.substr(found.message.find_first_of("0123456789")));
     constexpr double within = 12.0;  // mm: the error bars are up to as long
     EXPECT_NEAR(amount, 1e3 * by.norm(), within) << found.message;
     EXPECT_FALSE(holds(found.message, "calibrate")) << "which reads no clouds";
