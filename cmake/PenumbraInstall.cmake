@@ -60,7 +60,7 @@ if(TARGET penumbra_io)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/io/${room}
       DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/penumbra_io/io COMPONENT ${component}
       FILES_MATCHING PATTERN "*.hpp" PATTERN "*-inl.hpp" EXCLUDE
-      PATTERN "tuning_report.hpp" EXCLUDE)
+      PATTERN "tuning_report.hpp" EXCLUDE PATTERN "json.hpp" EXCLUDE)
   endforeach()
 endif()
 

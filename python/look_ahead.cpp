@@ -88,7 +88,7 @@ void bind_trajectory(py::module_& m) {
       },
       "The variable that differs most from `start` where the motion begins, and by how much.");
   motion.def_property_readonly(
-      "notes", [](const Trajectory& self) { return Frozen<std::string>{self.notes(self.robot())}; },
+      "notes", [](const Trajectory& self) { return Frozen<std::string>{self.notes()}; },
       "One line for each likely mistake: joints that exceed a limit of the URDF, times that may be "
       "in milliseconds.");
   motion.def("at", &positions_at, py::arg("times"),

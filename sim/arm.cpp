@@ -15,7 +15,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/mesh/mesh_file.hpp>
-#include <penumbra/robot/file_locator-inl.hpp>
+#include <penumbra/robot/file_locator.hpp>
 
 #include <io/files/stl_file.hpp>
 #include <sim/arm.hpp>

@@ -17,7 +17,7 @@
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/receive_buffers.hpp>
 #include <apps/penumbra/text.hpp>
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 
 namespace penumbra::app {
 namespace {

@@ -137,8 +137,8 @@ void LiveSubscriptions::receive(std::chrono::nanoseconds at_most) {
   const std::lock_guard lock(mutex_);
   for (std::size_t i = 0; i < subscriptions_.size(); ++i) {
     if (!subscriptions_[i]) continue;
-    for (io::Sample sample; subscriptions_[i]->take(sample);)
-      runner_.receive(i, {sample.data, sample.owner, sample.publisher});
+    for (io::SerializedMessage message; subscriptions_[i]->take(message);)
+      runner_.receive(i, message);
   }
 }
 

@@ -17,7 +17,7 @@
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/camera_info.hpp>
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/files/names.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/pending_file.hpp>

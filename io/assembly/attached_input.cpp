@@ -12,7 +12,7 @@
 #include <io/assembly/attached_input.hpp>
 #include <io/assembly/robot_input.hpp>
 #include <io/files/printable.hpp>
-#include <io/ros/wire_values-inl.hpp>
+#include <io/ros/wire_values.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -3,7 +3,7 @@
 #include <variant>
 
 #include <io/assembly/depth_input.hpp>
-#include <io/files/depth_pixels-inl.hpp>
+#include <io/files/depth_pixels.hpp>
 #include <io/files/ray_depth.hpp>
 
 namespace penumbra::io {

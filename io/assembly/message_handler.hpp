@@ -14,12 +14,14 @@
 
 namespace penumbra::io {
 
-/// A received message in CDR, with its 4 bytes of encapsulation.
+/// A received message in CDR, with its 4 bytes of encapsulation. Up to 3 bytes of padding may
+/// follow.
 struct SerializedMessage {
   std::span<const std::byte> data;
   /// Keeps `data` alive without a copy; null: pixels that are kept are copied.
   std::shared_ptr<const void> owner = {};
-  std::uint64_t publisher = 0;  ///< a unique number on the topic; 0: not known
+  std::uint64_t publisher = 0;   ///< a unique number on the topic; 0: not known
+  std::int64_t source_time = 0;  ///< nanoseconds since 1970: the time of writing; 0: not known
 };
 
 /// Decodes a message and hands it on. Returns why it cannot be decoded, or nothing. `now`:

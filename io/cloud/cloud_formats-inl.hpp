@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/mesh/mesh_formats.hpp>
 
 #include <io/cloud/cloud_file.hpp>
 

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include <io/dds/graph_json.hpp>
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -58,7 +58,7 @@ class DdsSubscription final : public Subscription {
   }
   ~DdsSubscription() override { dds_delete(reader_); }
 
-  bool take(Sample& sample) override {
+  bool take(SerializedMessage& message) override {
     for (;;) {
       ddsi_serdata* data = nullptr;
       dds_sample_info_t info;
@@ -66,7 +66,7 @@ class DdsSubscription final : public Subscription {
       std::shared_ptr<const void> owner = own_taken(data);
       if (!info.valid_data) continue;  // the end of a publisher, not a message
       ++taken_;
-      sample = {cdr_bytes(data), std::move(owner), info.source_timestamp, info.publication_handle};
+      message = {cdr_bytes(data), std::move(owner), info.publication_handle, info.source_timestamp};
       return true;
     }
   }

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include <io/assembly/message_handler.hpp>
+
 namespace penumbra::io {
 
 struct TopicQos {
@@ -25,14 +27,6 @@ struct TopicQos {
 
 struct ParticipantOptions {
   std::optional<int> domain;  ///< 0..232; default: ROS_DOMAIN_ID, or else 0
-};
-
-struct Sample {
-  /// CDR with 4 bytes of encapsulation. Up to 3 bytes of padding may follow.
-  std::span<const std::byte> data;
-  std::shared_ptr<const void> owner;  ///< keeps `data` alive without a copy
-  std::int64_t source_time = 0;       ///< nanoseconds since 1970: the time of writing, by DDS
-  std::uint64_t publisher = 0;        ///< a unique number of the publisher in this process
 };
 
 /// The counts of a subscription since it was made: received = taken + overwritten + waiting.
@@ -57,7 +51,7 @@ class Subscription {
   virtual ~Subscription() = default;
 
   /// Takes the next message in the order of arrival. Returns false if there is none.
-  virtual bool take(Sample& sample) = 0;
+  virtual bool take(SerializedMessage& message) = 0;
 
   [[nodiscard]] virtual SubscriptionStatus status() const = 0;
 };

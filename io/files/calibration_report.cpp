@@ -7,7 +7,7 @@
 #include <penumbra/base/version.hpp>
 
 #include <io/files/calibration_report.hpp>
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -8,7 +8,7 @@
 #include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/files/camera_views.hpp>
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/files/names.hpp>
 
 namespace penumbra::io {

@@ -14,7 +14,7 @@
 
 #include <penumbra/camera/intrinsics.hpp>
 
-#include <io/files/depth_pixels-inl.hpp>
+#include <io/files/depth_pixels.hpp>
 
 namespace penumbra::io {
 namespace {

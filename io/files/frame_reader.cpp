@@ -10,7 +10,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/camera/registration.hpp>
 
-#include <io/files/depth_pixels-inl.hpp>
+#include <io/files/depth_pixels.hpp>
 #include <io/files/frame_reader.hpp>
 #include <io/files/image_file.hpp>
 #include <io/files/ray_depth.hpp>

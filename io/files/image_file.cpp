@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <io/files/depth_pixels-inl.hpp>
+#include <io/files/depth_pixels.hpp>
 #include <io/files/exr.hpp>
 #include <io/files/image_file.hpp>
 #include <io/files/jpeg.hpp>

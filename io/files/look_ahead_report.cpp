@@ -3,7 +3,7 @@
 
 #include <penumbra/base/version.hpp>
 
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/files/look_ahead_report.hpp>
 
 namespace penumbra::io {

@@ -14,7 +14,7 @@
 
 #include <penumbra/camera/intrinsics.hpp>
 
-#include <io/files/depth_pixels-inl.hpp>
+#include <io/files/depth_pixels.hpp>
 #include <io/files/disk_file.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/numbers.hpp>

@@ -6,7 +6,7 @@
 
 #include <penumbra/base/version.hpp>
 
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/files/report_json.hpp>
 
 namespace penumbra::io {

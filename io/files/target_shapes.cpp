@@ -34,9 +34,10 @@ ShapeSource source_of(const TargetReader& reader, const YamlNode& node, const Va
                       const MakeShape& make) {
   const auto values = reader.values(
       node, format, [&](const FrameValue& value) { check(make(value), reader.context.images); });
-  return {[=](std::int64_t index) {
+  return {[=](std::int64_t index, Target& target) {
             const FrameValue value = values->at(index);
-            return ShapeSource::Given{made_of(value, make), value.stamp};
+            target.shape = made_of(value, make);
+            target.stamp = value.stamp;
           },
           values->has_stamps()};
 }
@@ -123,29 +124,28 @@ ShapeSource read_run_lengths(const TargetReader& reader, const YamlNode& node) {
 ShapeSource read_mask(const TargetReader& reader, const YamlNode& node) {
   const ImageSize size{reader.context.images.width(), reader.context.images.height()};
   const auto read = [size, common = region_settings(reader.node, Extent::amodal)](
-                        const std::filesystem::path& file) {
+                        const std::filesystem::path& file) -> TargetShape {
     auto mask = std::make_shared<Image<std::uint8_t>>();
     read_png(file, *mask, size).require();
-    return ShapeSource::Given{
-        region_target(common,
-                      PixelMask{Shared<ImageView<const std::uint8_t>>(
-                          std::shared_ptr<const Image<std::uint8_t>>(std::move(mask)))},
-                      FrameValue{})};
+    return region_target(common,
+                         PixelMask{Shared<ImageView<const std::uint8_t>>(
+                             std::shared_ptr<const Image<std::uint8_t>>(std::move(mask)))},
+                         FrameValue{});
   };
   if (!node.is_map()) {
-    ShapeSource::Given given;
+    TargetShape given;
     node.with_context([&] {
       given = read(reader.folder / node.text());
-      check(given.shape, reader.context.images);
+      check(given, reader.context.images);
     });
-    return {[given](std::int64_t) { return given; }};
+    return {[given](std::int64_t, Target& target) { target.shape = given; }};
   }
   node.allow_only({"files"});
   const YamlNode& files = node.at("files");
   const FramePattern pattern = files.with_context(
       [&] { return FramePattern(files.text(), reader.folder, reader.context.stamps); });
   if (pattern.existing().empty()) files.fail("no file of that name for any frame");
-  return {[=](std::int64_t index) { return read(pattern.file(index)); }};
+  return {[=](std::int64_t index, Target& target) { target.shape = read(pattern.file(index)); }};
 }
 
 /// Reads semi-axes and angle of a key point from `radius` or `ellipse`, in pixels, or with _m in

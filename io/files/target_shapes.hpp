@@ -33,14 +33,11 @@ struct TargetReader {
   }
 };
 
-/// A target's shape by frame. `of_frame` throws InputError with the place if a frame has no valid
-/// shape.
+/// A target's shape by frame.
 struct ShapeSource {
-  struct Given {
-    TargetShape shape;
-    std::optional<std::int64_t> stamp = {};  ///< nanoseconds; none: the frame's
-  };
-  std::function<Given(std::int64_t index)> of_frame;
+  /// Sets a target's shape and, if the file has it, stamp. Throws InputError with the place if the
+  /// frame has no valid shape.
+  std::function<void(std::int64_t index, Target& target)> set;
   bool may_be_late = false;
   bool has_pose = false;  ///< with an orientation
 };

@@ -227,9 +227,7 @@ Target target_of(const TargetSource& source, std::int64_t index) {
   Target target = source.settings;
   try {
     if (source.estimate) target.estimate = source.estimate->of_frame(index);
-    ShapeSource::Given given = source.shape.of_frame(index);
-    target.stamp = given.stamp;
-    target.shape = std::move(given.shape);
+    source.shape.set(index, target);
   } catch (const InputError& fault) {
     target.fault = fault.what();
   }

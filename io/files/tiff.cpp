@@ -10,7 +10,7 @@
 
 #include <tiffio.h>
 
-#include <io/files/depth_pixels-inl.hpp>
+#include <io/files/depth_pixels.hpp>
 
 namespace penumbra::io {
 namespace {

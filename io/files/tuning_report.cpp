@@ -6,7 +6,7 @@
 
 #include <penumbra/base/version.hpp>
 
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/files/picture.hpp>
 #include <io/files/tuning_report.hpp>

@@ -5,7 +5,7 @@
 
 #include <penumbra/base/version.hpp>
 
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/files/view_planning_report.hpp>
 
 namespace penumbra::io {

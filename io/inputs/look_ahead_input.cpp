@@ -66,7 +66,7 @@ void add(NamedTrajectory motion, LookAheadInput& to) {
          << ": the robot is elsewhere than the plan assumes";
     to.notes.push_back(note.str());
   }
-  for (const std::string& line : motion.trajectory.notes(to.robot))
+  for (const std::string& line : motion.trajectory.notes())
     to.notes.push_back(motion.name + ": " + line);
   to.trajectories.push_back(std::move(motion));
 }

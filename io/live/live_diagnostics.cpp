@@ -7,7 +7,7 @@
 
 #include <penumbra/time/source_tracks.hpp>
 
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/files/printable.hpp>
 #include <io/files/statistics.hpp>
 #include <io/live/live_diagnostics.hpp>

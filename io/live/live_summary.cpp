@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/live/live_summary.hpp>
 
 namespace penumbra::io {

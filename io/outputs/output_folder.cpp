@@ -10,7 +10,7 @@
 #include <penumbra/base/whole_file-inl.hpp>
 
 #include <io/cloud/cloud_file.hpp>
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/files/png.hpp>

@@ -9,7 +9,7 @@
 #include <io/ros/message_decoder.hpp>
 #include <io/ros/message_definition.hpp>
 #include <io/ros/moveit_messages.hpp>
-#include <io/ros/wire_values-inl.hpp>
+#include <io/ros/wire_values.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -5,7 +5,7 @@
 #include <io/ros/lidar_messages.hpp>
 #include <io/ros/message_encoder.hpp>
 #include <io/ros/moveit_messages.hpp>
-#include <io/ros/wire_values-inl.hpp>
+#include <io/ros/wire_values.hpp>
 
 namespace penumbra::io {
 namespace {

@@ -26,7 +26,7 @@ namespace penumbra::io {
 // A rotation whose quaternion does not have unit length (its square is off by 1 % or more, as in
 // tf2) is read as NaN.
 
-// Messages that are converted to one value of ours (wire_values-inl.hpp).
+// Messages that are converted to one value of ours (wire_values.hpp).
 struct TimeWire;
 struct Vector2Wire;
 struct PointWire;

@@ -79,34 +79,37 @@ Target& TargetInbox::add_target(std::string name, const MessageHeader& header) {
   return target;
 }
 
-TargetInbox::BaseName TargetInbox::base_name_of(const std::string& topic, const std::string& id,
-                                                std::span<const HypothesisMessage> results) {
-  return {without_controls(topic + "/" + (id.empty() ? best_class(results) : id)), !id.empty()};
-}
-
-std::vector<Target*> TargetInbox::add_targets(const std::vector<BaseName>& names,
-                                              const MessageHeader& header) {
+template <typename Detection>
+std::vector<Target*> TargetInbox::add_targets(const std::string& topic, const MessageHeader& header,
+                                              const std::vector<Detection>& detections,
+                                              std::string Detection::*id) {
+  make_room(topic, header.stamp);
+  std::vector<std::string> names;
+  for (const Detection& detection : detections) {
+    std::string name = detection.*id;
+    if constexpr (requires { detection.results; })
+      if (name.empty()) name = best_class(detection.results);
+    names.push_back(without_controls(topic + "/" + name));
+  }
   std::unordered_map<std::string_view, std::size_t> uses;
-  for (const BaseName& base : names) ++uses[base.text];
+  for (const std::string& base : names) ++uses[base];
   std::unordered_set<std::string> taken;
   std::unordered_map<std::string_view, int> last;
   std::vector<Target*> all;
-  for (const BaseName& base : names) {
-    std::string name = base.text;
-    for (int& i = last.try_emplace(base.text, 1).first->second; !taken.insert(name).second;)
-      name = base.text + " " + std::to_string(++i);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& base = names[i];
+    std::string name = base;
+    for (int& n = last.try_emplace(base, 1).first->second; !taken.insert(name).second;)
+      name = base + " " + std::to_string(++n);
     all.push_back(&add_target(name, header));
-    all.back()->has_identity = base.is_id && uses[base.text] == 1 && name == base.text;
+    all.back()->has_identity = !(detections[i].*id).empty() && uses[base] == 1 && name == base;
   }
   return all;
 }
 
 void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& message) {
-  make_room(topic, message.header.stamp);
-  std::vector<BaseName> names;
-  for (const Detection2DMessage& detection : message.detections)
-    names.push_back(base_name_of(topic, detection.id, detection.results));
-  const std::vector<Target*> all = add_targets(names, message.header);
+  const std::vector<Target*> all =
+      add_targets(topic, message.header, message.detections, &Detection2DMessage::id);
   for (std::size_t i = 0; i < all.size(); ++i) {
     auto& shape = all[i]->shape.emplace<RegionTarget>();
     shape.region = region_of(message.detections[i].bbox);
@@ -120,11 +123,8 @@ void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& m
 }
 
 void TargetInbox::add(const std::string& topic, const Detection3DArrayMessage& message) {
-  make_room(topic, message.header.stamp);
-  std::vector<BaseName> names;
-  for (const Detection3DMessage& detection : message.detections)
-    names.push_back(base_name_of(topic, detection.id, detection.results));
-  const std::vector<Target*> all = add_targets(names, message.header);
+  const std::vector<Target*> all =
+      add_targets(topic, message.header, message.detections, &Detection3DMessage::id);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const BoundingBox3D& box = message.detections[i].bbox;
     const ReferenceFrame frame = resolve_frame(*all[i]);
@@ -133,11 +133,8 @@ void TargetInbox::add(const std::string& topic, const Detection3DArrayMessage& m
 }
 
 void TargetInbox::add(const std::string& topic, const KeypointsMessage& message) {
-  make_room(topic, message.header.stamp);
-  std::vector<BaseName> names;
-  for (const KeypointMessage& keypoint : message.keypoints)
-    names.push_back(base_name_of(topic, keypoint.name, {}));
-  const std::vector<Target*> all = add_targets(names, message.header);
+  const std::vector<Target*> all =
+      add_targets(topic, message.header, message.keypoints, &KeypointMessage::name);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const KeypointMessage& keypoint = message.keypoints[i];
     KeypointTarget shape{.pixel = {keypoint.u, keypoint.v}, .score = keypoint.score};

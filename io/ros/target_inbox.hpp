@@ -74,22 +74,18 @@ class TargetInbox {
     Target target;
   };
 
-  /// A target's name, without the number that equal names get.
-  struct BaseName {
-    std::string text;
-    bool is_id = false;
-  };
-
   /// Drops old targets. To be called before a message's targets are added.
   void make_room(const std::string& topic, std::int64_t stamp);
   Target& add_target(std::string name, const MessageHeader& header);
-  /// Adds a target for each of a message's detections.
-  std::vector<Target*> add_targets(const std::vector<BaseName>& names, const MessageHeader& header);
+  /// Adds a target for each of a message's detections, named by its id or else by its class; equal
+  /// names get numbers.
+  template <typename Detection>
+  std::vector<Target*> add_targets(const std::string& topic, const MessageHeader& header,
+                                   const std::vector<Detection>& detections,
+                                   std::string Detection::*id);
   /// Returns the frame of a 3-D target, which is no image frame. Sets its fault if that is neither
   /// the camera's nor a link.
   ReferenceFrame resolve_frame(Target& target) const;
-  static BaseName base_name_of(const std::string& topic, const std::string& id,
-                               std::span<const HypothesisMessage> results);
 
   const Robot& robot_;
   std::string camera_frame_, frame_prefix_;

@@ -5,7 +5,7 @@
 
 #include <io/files/image_size.hpp>
 #include <io/files/jpeg.hpp>
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/web/frame_store.hpp>
 #include <io/web/scene.hpp>
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/web/live_view.hpp>
 
 namespace penumbra::io {

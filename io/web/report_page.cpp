@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <io/files/jpeg.hpp>
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/web/page_files.hpp>
 #include <io/web/report_page.hpp>

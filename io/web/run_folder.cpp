@@ -7,7 +7,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/files/names.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/png.hpp>

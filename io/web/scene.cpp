@@ -5,7 +5,7 @@
 
 #include <penumbra/mesh/triangle_mesh.hpp>
 
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/web/scene.hpp>
 #include <io/web/web_types.hpp>
 

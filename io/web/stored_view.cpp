@@ -4,7 +4,7 @@
 
 #include <penumbra/base/version.hpp>
 
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/files/numbers.hpp>
 #include <io/web/page_files.hpp>
 #include <io/web/stored_view.hpp>

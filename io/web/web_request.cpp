@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-#include <io/files/json-inl.hpp>
+#include <io/files/json.hpp>
 #include <io/web/web_types.hpp>
 
 namespace penumbra::io {

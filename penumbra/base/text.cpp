@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include <penumbra/base/text-inl.hpp>
+#include <penumbra/base/text.hpp>
 
 namespace penumbra::detail {
 namespace {

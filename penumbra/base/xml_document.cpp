@@ -4,7 +4,7 @@
 #include <tinyxml2.h>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/text-inl.hpp>
+#include <penumbra/base/text.hpp>
 #include <penumbra/base/xml_document-inl.hpp>
 
 namespace penumbra::detail {

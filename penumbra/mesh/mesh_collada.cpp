@@ -10,7 +10,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/xml_document-inl.hpp>
-#include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/mesh/mesh_formats.hpp>
 
 namespace penumbra::mesh_formats {
 namespace {

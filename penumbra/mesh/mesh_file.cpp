@@ -6,7 +6,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/mesh/mesh_file.hpp>
-#include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/mesh/mesh_formats.hpp>
 #include <penumbra/mesh/weld.hpp>
 
 namespace penumbra {

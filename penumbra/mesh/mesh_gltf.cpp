@@ -15,7 +15,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
-#include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/mesh/mesh_formats.hpp>
 
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian");
 

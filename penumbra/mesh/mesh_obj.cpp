@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/mesh/mesh_formats.hpp>
 
 namespace penumbra::mesh_formats {
 namespace {

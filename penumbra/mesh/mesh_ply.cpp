@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/mesh/mesh_formats.hpp>
 
 namespace penumbra::mesh_formats {
 namespace {

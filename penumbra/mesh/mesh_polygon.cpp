@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/mesh/mesh_formats.hpp>
 
 namespace penumbra::mesh_formats {
 namespace {

@@ -3,7 +3,7 @@
 #include <bit>
 #include <cstring>
 
-#include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/mesh/mesh_formats.hpp>
 
 static_assert(std::endian::native == std::endian::little, "binary STL is read as it lies");
 

@@ -14,8 +14,8 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/text-inl.hpp>
-#include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/base/text.hpp>
+#include <penumbra/mesh/mesh_formats.hpp>
 #include <penumbra/mesh/simplified.hpp>
 #include <penumbra/mesh/surface_offset.hpp>
 #include <penumbra/mesh/surface_patches.hpp>

@@ -5,10 +5,10 @@
 #include <cstdlib>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/text-inl.hpp>
+#include <penumbra/base/text.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/base/xml_document-inl.hpp>
-#include <penumbra/robot/file_locator-inl.hpp>
+#include <penumbra/robot/file_locator.hpp>
 
 namespace penumbra::detail {
 namespace {

@@ -8,7 +8,7 @@
 #include <fnmatch.h>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/text-inl.hpp>
+#include <penumbra/base/text.hpp>
 #include <penumbra/robot/link_choice-inl.hpp>
 
 namespace penumbra::detail {

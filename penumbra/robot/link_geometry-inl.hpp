@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <penumbra/mesh/prepared_mesh.hpp>
-#include <penumbra/robot/file_locator-inl.hpp>
+#include <penumbra/robot/file_locator.hpp>
 #include <penumbra/robot/link_choice-inl.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/robot/urdf-inl.hpp>

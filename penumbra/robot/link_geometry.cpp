@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/text-inl.hpp>
+#include <penumbra/base/text.hpp>
 #include <penumbra/mesh/mesh_file.hpp>
 #include <penumbra/mesh/primitives.hpp>
 #include <penumbra/mesh/surface_offset.hpp>

@@ -9,7 +9,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
-#include <penumbra/base/text-inl.hpp>
+#include <penumbra/base/text.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/link_geometry-inl.hpp>
 #include <penumbra/robot/robot.hpp>

@@ -8,7 +8,7 @@
 #include <unordered_set>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/text-inl.hpp>
+#include <penumbra/base/text.hpp>
 #include <penumbra/robot/robot_tree-inl.hpp>
 
 namespace penumbra::detail {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/text-inl.hpp>
+#include <penumbra/base/text.hpp>
 #include <penumbra/robot/trajectory.hpp>
 
 namespace penumbra {
@@ -194,12 +194,12 @@ void Trajectory::append_limits(const Joint& joint, std::size_t i,
 }
 
 /// A robot that moves takes more than a thousandth of its joints' speed.
-std::string Trajectory::slow_line(const Robot& robot) const {
+std::string Trajectory::slow_line() const {
   constexpr double least_duration = 60.0, least_way = 0.01;  // seconds; rad or m of a joint
   constexpr double slow = 1.5e-3;                            // of a joint's usual speed
   if (duration() < least_duration) return {};
   double farthest = 0.0;
-  for (const Joint& joint : robot.joints()) {
+  for (const Joint& joint : robot_.joints()) {
     const auto moved = std::ranges::find(variables_, joint.variable);
     if (!joint.variable || joint.mimics || moved == variables_.end()) continue;
     const auto i = static_cast<std::size_t>(moved - variables_.begin());
@@ -215,14 +215,14 @@ std::string Trajectory::slow_line(const Robot& robot) const {
   return line.str();
 }
 
-std::vector<std::string> Trajectory::notes(const Robot& robot) const {
+std::vector<std::string> Trajectory::notes() const {
   std::vector<std::string> lines;
-  for (const Joint& joint : robot.joints()) {
+  for (const Joint& joint : robot_.joints()) {
     const auto moved = std::ranges::find(variables_, joint.variable);
     if (joint.variable && !joint.mimics && moved != variables_.end())
       append_limits(joint, static_cast<std::size_t>(moved - variables_.begin()), lines);
   }
-  if (std::string line = slow_line(robot); !line.empty()) lines.push_back(std::move(line));
+  if (std::string line = slow_line(); !line.empty()) lines.push_back(std::move(line));
   return lines;
 }
 

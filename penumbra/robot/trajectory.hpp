@@ -58,7 +58,7 @@ class Trajectory {
   /// One line for each likely mistake: joints that exceed a limit of the URDF, of position at a
   /// point or of velocity, with the largest excess; and a motion so slow that its times may be in
   /// milliseconds.
-  [[nodiscard]] std::vector<std::string> notes(const Robot& robot) const;
+  [[nodiscard]] std::vector<std::string> notes() const;
 
  private:
   struct Fastest {
@@ -66,7 +66,7 @@ class Trajectory {
   };
   [[nodiscard]] Fastest fastest(std::size_t i) const;
   void append_limits(const Joint& joint, std::size_t i, std::vector<std::string>& lines) const;
-  [[nodiscard]] std::string slow_line(const Robot& robot) const;
+  [[nodiscard]] std::string slow_line() const;
 
   Robot robot_;
   std::vector<std::optional<std::size_t>> variables_;  // null: mimics

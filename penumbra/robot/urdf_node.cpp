@@ -3,7 +3,7 @@
 #include <cctype>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/text-inl.hpp>
+#include <penumbra/base/text.hpp>
 #include <penumbra/robot/urdf_node-inl.hpp>
 
 namespace penumbra::detail {

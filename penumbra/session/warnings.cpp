@@ -71,8 +71,7 @@ void Warnings::add(const FrameReport& report, const Frame& frame) {
   for (const std::size_t link : report.near_links) ++frames_near_[link];
   uncovered_ = std::max(uncovered_, report.pixels.uncovered);
   if (body_note_.empty()) body_note_ = report.note;
-  if (frame.plan && frame.plan != plan_ && plan_notes_.empty())
-    plan_notes_ = frame.plan->notes(robot_);
+  if (frame.plan && frame.plan != plan_ && plan_notes_.empty()) plan_notes_ = frame.plan->notes();
   plan_ = frame.plan;
   add_targets(report);
   add_stamp(report);

@@ -40,7 +40,7 @@ class Commands : public LiveGraph {
     const auto heard = hear(topic, joint_type);
     auto player = std::async(std::launch::async, [&] { return play(options); });
     std::vector<Bytes> messages;
-    io::Sample sample;
+    io::SerializedMessage sample;
     bool done = false;
     do {
       done = player.wait_for(0s) == std::future_status::ready;
@@ -75,7 +75,7 @@ TEST_F(Commands, PlayPublishesTheBagByteForByteAndSaysSo) {
 TEST_F(Commands, PlayLoopsUntilCtrlCAndLatecomersHaveLatchedTopics) {
   const auto joints = hear("/joint_states", joint_type);
   const auto player = play_in_loop(bag_);
-  io::Sample sample;
+  io::SerializedMessage sample;
   ASSERT_TRUE(eventually(*graph_, [&] { return joints->take(sample); }));
   const auto late = graph_->subscribe("/robot_description", "std_msgs/msg/String",
                                       {.reliable = true, .latched = true, .depth = 1});
@@ -100,7 +100,7 @@ TEST_F(Commands, PlayKeepsThePaceOfTheRecording) {
     RunningProgram player(on_domain("play", {file(), "--rate", std::to_string(rate)}),
                           path("play.log"));
     std::vector<std::int64_t> times;
-    io::Sample sample;
+    io::SerializedMessage sample;
     ASSERT_TRUE(eventually(*graph_, [&] {
       while (heard->take(sample)) times.push_back(sample.source_time);
       return times.size() >= 25;

@@ -88,7 +88,7 @@ TEST(Graph, RefusesBadSettingsInOneLineThatNamesThem) {
 
 TEST(Graph, AMessageOutlivesItsSubscriptionAndParticipant) {
   const LoneDomain domain;
-  io::Sample sample;
+  io::SerializedMessage sample;
   {
     const auto graph = io::join_graph({.domain = domain.id()});
     const auto heard = graph->subscribe("/a", image, {.reliable = true});

@@ -27,7 +27,7 @@ bool eventually(io::Participant& graph, IsSo is_so) {
 /// The numbers of the pattern messages that wait in a subscription; -1 for what is none.
 inline std::vector<std::int64_t> take_numbers(io::Subscription& subscription) {
   std::vector<std::int64_t> numbers;
-  io::Sample sample;
+  io::SerializedMessage sample;
   while (subscription.take(sample)) numbers.push_back(pattern_number(sample.data));
   return numbers;
 }

@@ -38,7 +38,7 @@ class LiveGraph : public testing::Test {
   template <typename M, typename IsEnough>
   [[nodiscard]] bool hears(io::Subscription& heard, IsEnough is_enough) const {
     const io::Decoder<M> decoder;
-    io::Sample sample;
+    io::SerializedMessage sample;
     return eventually(*graph_, [&] {
       bool is_so = false;
       for (M message; !is_so && heard.take(sample);)

@@ -105,6 +105,8 @@ std::string room_of(const std::string& path) {
   return top == "penumbra" ? path.substr(0, path.find('/', first + 1)) : top;
 }
 
+std::string folder_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
+
 bool is_standard(const std::string& include) {
   static const std::regex pattern("[a-z_]+");
   return std::regex_match(include, pattern);
@@ -134,11 +136,10 @@ TEST(Layers, IncludesPointDown) {
 }
 
 TEST(Layers, PrivateHeadersServeTheirFolderAlone) {
-  for (const auto& file : source_files({"penumbra"}, {".cpp", ".hpp"})) {
+  for (const auto& file : shipped()) {
     for (const auto& include : includes(file)) {
-      if (!include.starts_with("penumbra/") || !include.ends_with("-inl.hpp")) continue;
-      const std::string room = room_of(include);
-      EXPECT_TRUE(room == room_of(file.path) || room == "penumbra/base")
+      if (!include.ends_with("-inl.hpp") || include.starts_with("penumbra/base/")) continue;
+      EXPECT_TRUE(folder_of(file.path).starts_with(folder_of(include)))
           << file.path << " includes " << include;
     }
   }

@@ -4,7 +4,7 @@
 #include "mesh_samples.hpp"
 
 #include <penumbra/mesh/mesh_file.hpp>
-#include <penumbra/mesh/mesh_formats-inl.hpp>
+#include <penumbra/mesh/mesh_formats.hpp>
 #include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra::test {

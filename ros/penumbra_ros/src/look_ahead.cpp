@@ -123,7 +123,7 @@ LookAheadService::Service::Response LookAheadService::answer(const Service::Requ
     std::vector<std::vector<penumbra::TargetForecast>> forecasts;
     for (const auto& message : request.trajectories) {
       const Trajectory motion = trajectory_of(message, forecasts.size(), robot, seen.positions);
-      for (const std::string& note : motion.notes(robot))
+      for (const std::string& note : motion.notes())
         response.message += (response.message.empty() ? "trajectories[" : "\ntrajectories[") +
                             std::to_string(forecasts.size()) + "]: " + note;
       forecasts.push_back(ahead.along(motion));

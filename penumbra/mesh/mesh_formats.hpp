@@ -14,7 +14,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/base/text-inl.hpp>
+#include <penumbra/base/text.hpp>
 #include <penumbra/mesh/triangle_mesh.hpp>
 
 namespace penumbra::mesh_formats {
