@@ -46,6 +46,9 @@ Unknowns with(Unknowns unknowns, const Cause& cause) {
     case Cause::Kind::clock:
       unknowns.has_time = true;
       break;
+    case Cause::Kind::lens:
+      unknowns.has_lens = true;
+      break;
   }
   return unknowns;
 }
@@ -58,6 +61,8 @@ bool has(const Unknowns& unknowns, const Cause& cause) {
       return std::ranges::count(unknowns.variables, cause.variable) > 0;
     case Cause::Kind::clock:
       return unknowns.has_time;
+    case Cause::Kind::lens:
+      return unknowns.has_lens;
   }
   return true;
 }
@@ -66,6 +71,7 @@ bool has(const Unknowns& unknowns, const Cause& cause) {
 std::vector<int> indices(const Unknowns& unknowns, const Cause& cause) {
   if (cause.kind == Cause::Kind::focal) return {unknowns.focal(), unknowns.focal() + 1};
   if (cause.kind == Cause::Kind::clock) return {unknowns.time()};
+  if (cause.kind == Cause::Kind::lens) return {unknowns.lens()};
   const auto at = std::ranges::find(unknowns.variables, cause.variable);
   return {unknowns.joints() + static_cast<int>(at - unknowns.variables.begin())};
 }
@@ -84,6 +90,7 @@ std::vector<int> indices(const Unknowns& all, const Unknowns& some) {
                     static_cast<int>(std::distance(all.variables.begin(),
                                                    std::ranges::find(all.variables, variable))));
   if (some.has_time) found.push_back(all.time());
+  if (some.has_lens) found.push_back(all.lens());
   return found;
 }
 
@@ -125,6 +132,8 @@ std::string name_of(const Cause& cause, const Robot& robot) {
       return "the focal length";
     case Cause::Kind::joint:
       return "the zero of " + robot.variables()[cause.variable];
+    case Cause::Kind::lens:
+      return "the lens's distortion";
     case Cause::Kind::clock:
       break;
   }
@@ -162,7 +171,7 @@ bool is_wider(const Explained::Pose& pose, const Refined& fit) {
 
 std::vector<Cause> possible_causes(const Robot& robot,
                                    std::span<const CalibrationFrame* const> frames) {
-  std::vector<Cause> causes{{.kind = Cause::Kind::focal}};
+  std::vector<Cause> causes{{.kind = Cause::Kind::focal}, {.kind = Cause::Kind::lens}};
   for (const Joint& joint : robot.joints())
     if (!joint.mimics &&
         (joint.type == JointType::revolute || joint.type == JointType::continuous ||
@@ -191,6 +200,11 @@ std::string text_of(const FoundCause& found, const Explained& explained, const R
                   slides ? 1e3 : 180.0 / std::numbers::pi, slides ? 1 : 2) +
            (slides ? " mm" : " degrees") + " off" +
            (has_depth ? " (penumbra calibrate --joint-offsets)" : "");
+  } else if (found.cause.kind == Cause::Kind::lens) {
+    const int at = explained.unknowns.lens();
+    text = "the lens distorts the images otherwise than camera_info says: k1 is " +
+           amount(state.lens, explained.fit.covariance(at, at), 1.0, 3) +
+           (state.lens > 0.0 ? " larger" : " smaller") + " (calibrate the lens)";
   } else {
     const int at = explained.unknowns.time();
     text = "the images' stamps are " +
@@ -205,8 +219,10 @@ std::string text_of(const FoundCause& found, const Explained& explained, const R
 
 std::string text_of_depth(const Refined& fit) {
   constexpr int offset = Unknowns::depth_offset, scale = Unknowns::depth_scale;
+  // An offset is rarer than a scale: fewer sigmas beyond the usual are enough.
   const auto is_beyond = [&](double value, int at, double usual) {
-    return std::abs(value) > usual + named * std::sqrt(fit.covariance(at, at));
+    const double sigmas = at == offset ? bar : named;
+    return std::abs(value) > usual + sigmas * std::sqrt(fit.covariance(at, at));
   };
   std::string text;
   if (is_beyond(fit.state.depth_offset, offset, usual_offset))

@@ -41,6 +41,7 @@ void Unknowns::step(State& state, const Eigen::VectorXd& by) const {
   for (std::size_t j = 0; j < variables.size(); ++j)
     state.joint_offsets.at(variables[j]) += by[joints() + static_cast<int>(j)];
   if (has_time) state.time_offset += by[time()];
+  if (has_lens) state.lens += by[lens()];
 }
 
 Eigen::VectorXd Unknowns::values(const State& state) const {
@@ -55,6 +56,7 @@ Eigen::VectorXd Unknowns::values(const State& state) const {
   for (std::size_t j = 0; j < variables.size(); ++j)
     all[joints() + static_cast<int>(j)] = state.joint_offsets.at(variables[j]);
   if (has_time) all[time()] = state.time_offset;
+  if (has_lens) all[lens()] = state.lens;
   return all;
 }
 
@@ -70,6 +72,7 @@ Eigen::VectorXd Unknowns::prior_sigmas() const {
   sigmas.segment(time() - static_cast<int>(accurate), static_cast<int>(accurate))
       .setConstant(accuracy);
   if (has_time) sigmas[time()] = 0.1;
+  if (has_lens) sigmas[lens()] = 0.3;
   return sigmas;
 }
 

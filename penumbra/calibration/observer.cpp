@@ -86,9 +86,11 @@ void Observer::observe(const CalibrationFrame& frame, std::size_t number, const 
 }
 
 /// `gradient` is the residual's derivative by a motion of its link in the camera's frame. The
-/// camera moves by the opposite. `by_focal` is that by the focal lengths' relative change.
+/// camera moves by the opposite. `by_focal` is that by the focal lengths' relative change; a lens
+/// changes them by the square of the distance from the axis, here to first order.
 void Observer::add_row(const View& view, const Residual& residual, const Twist& gradient,
-                       const Eigen::Vector2d& by_focal, Residuals& out) const {
+                       const Eigen::Vector2d& by_focal, const Eigen::Vector3d& ray,
+                       Residuals& out) const {
   out.list.push_back(residual);
   out.rows.resize(out.rows.size() + static_cast<std::size_t>(unknowns_.size()), 0.0);
   double* const row = out.rows.data() + out.rows.size() - unknowns_.size();
@@ -99,6 +101,9 @@ void Observer::add_row(const View& view, const Residual& residual, const Twist& 
   for (int i = unknowns_.joints(); i < unknowns_.size(); ++i)
     row[i] = gradient.dot(
         view.link_twists[static_cast<std::size_t>(i - unknowns_.joints())][residual.link]);
+  const double by_lens = ray.head<2>().squaredNorm() * by_focal.sum();
+  out.list.back().value += by_lens * view.state.lens;
+  if (unknowns_.has_lens) row[unknowns_.lens()] = by_lens;
 }
 
 void Observer::add_surface(const View& view, const Reach& reach, Residuals& out) const {
@@ -136,7 +141,7 @@ void Observer::add_surface(const View& view, const Reach& reach, Residuals& out)
                .link = static_cast<std::uint16_t>(links(u, v) - 1),
                .frame = view.number,
                .value = (measured - expected) * along + view.rest().dot(sideways)},
-              gradient, -measured * normal.head<2>().cwiseProduct(ray.head<2>()), out);
+              gradient, -measured * normal.head<2>().cwiseProduct(ray.head<2>()), ray, out);
       double* const row = out.rows.data() + out.rows.size() - unknowns_.size();
       row[Unknowns::depth_offset] = -along;
       row[Unknowns::depth_scale] = -measured * along;
@@ -229,7 +234,7 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
                  .link = static_cast<std::uint16_t>(view.robot.links(u, v) - 1),
                  .frame = view.number,
                  .value = value},
-                gradient, by_focal, out);
+                gradient, by_focal, p / edge, out);
         return out.rows.data() + out.rows.size() - unknowns_.size();
       };
       const bool has_depth = !view.frame.depth.empty();

@@ -37,6 +37,7 @@ struct State {
   Eigen::Vector2d focal = Eigen::Vector2d::Zero();  ///< fx and fy are 1 + this of the camera's
   std::vector<double> joint_offsets;                ///< of Robot::variables(); empty: all are 0
   double time_offset = 0.0;                         ///< seconds from an image to its poses
+  double lens = 0.0;  ///< the first radial coefficient of a distortion that the camera lacks
 
   /// Returns the true depth where the sensor measures `depth`.
   [[nodiscard]] float corrected(float depth) const {
@@ -45,8 +46,8 @@ struct State {
 };
 
 /// The order of the unknowns in a step: the camera's motion in its own frame, depth offset, depth
-/// scale, outline, then the depth's shift, the focal lengths, the joints' offsets and the time
-/// offset where they are estimated.
+/// scale, outline, then the depth's shift, the focal lengths, the joints' offsets, the time offset
+/// and the lens where they are estimated.
 struct Unknowns {
   static constexpr int pose = 0, depth_offset = 6, depth_scale = 7, outline = 8, shift = 9;
   bool has_shift = false;
@@ -54,13 +55,14 @@ struct Unknowns {
   std::vector<std::size_t> variables = {};  ///< Robot::variables() whose offsets are estimated
   std::size_t accurate = 0;  ///< the last so many of `variables` have zeros within `accuracy`
   double accuracy = 0.0;     ///< rad or m, standard deviation
-  bool has_time = false;
+  bool has_time = false, has_lens = false;
   bool holds_depth = false;  ///< depth offset and scale stay as they are: there may be no depth
 
   [[nodiscard]] int focal() const { return has_shift ? shift + 2 : shift; }
   [[nodiscard]] int joints() const { return focal() + focal_count; }
   [[nodiscard]] int time() const { return joints() + static_cast<int>(variables.size()); }
-  [[nodiscard]] int size() const { return time() + (has_time ? 1 : 0); }
+  [[nodiscard]] int lens() const { return time() + (has_time ? 1 : 0); }
+  [[nodiscard]] int size() const { return lens() + (has_lens ? 1 : 0); }
   void step(State& state, const Eigen::VectorXd& by) const;
   /// Of those with an expectation of 0; 0 for the pose and for what is held.
   [[nodiscard]] Eigen::VectorXd values(const State& state) const;
@@ -141,7 +143,7 @@ class Observer {
   void add_surface(const View& view, const Reach& reach, Residuals& out) const;
   void add_outlines(const View& view, const Reach& reach, Residuals& out) const;
   void add_row(const View& view, const Residual& residual, const Twist& gradient,
-               const Eigen::Vector2d& by_focal, Residuals& out) const;
+               const Eigen::Vector2d& by_focal, const Eigen::Vector3d& ray, Residuals& out) const;
   [[nodiscard]] VirtualDepthView render(const CalibrationFrame& frame, const State& state);
 
   const Model& model_;
@@ -199,7 +201,7 @@ struct Refined {
 
 /// An input that may be wrong.
 struct Cause {
-  enum class Kind : std::uint8_t { focal, joint, clock };
+  enum class Kind : std::uint8_t { focal, joint, clock, lens };
   Kind kind = Kind::focal;
   std::size_t variable = 0;  ///< of Robot::variables(); only of a joint
 

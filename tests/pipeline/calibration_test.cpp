@@ -33,6 +33,22 @@ bool says(const Calibration& found, const std::string& word) {
                              [&](const auto& note) { return bool(holds(note, word)); });
 }
 
+/// Moves pixels as a lens does, by its first radial coefficient.
+template <typename T>
+Image<T> seen_by_lens(const Image<T>& image, const Intrinsics& k, double k1) {
+  Image<T> raw(image.width(), image.height());
+  for (const auto [u, v] : each_pixel(0, 0, image.width(), image.height())) {
+    const Vector2d seen(k.ray(u, v).x(), k.ray(u, v).y());
+    Vector2d straight = seen;
+    for (int i = 0; i < 20; ++i) straight = seen / (1.0 + k1 * straight.squaredNorm());
+    const auto x = std::lround(k.cx() + k.fx() * straight.x());
+    const auto y = std::lround(k.cy() + k.fy() * straight.y());
+    if (x >= 0 && y >= 0 && x < image.width() && y < image.height())
+      raw(u, v) = image(int(x), int(y));
+  }
+  return raw;
+}
+
 class RenderedCalibration : public testing::Test {
  protected:
   RenderedCalibration() {
@@ -40,7 +56,7 @@ class RenderedCalibration : public testing::Test {
     unknowns.focal_count = 2;
     unknowns.variables.resize(robot.variables().size());
     std::iota(unknowns.variables.begin(), unknowns.variables.end(), std::size_t{0});
-    unknowns.has_time = true;
+    unknowns.has_time = unknowns.has_lens = true;
     state.joint_offsets.resize(robot.variables().size());
     const Vector3d eye(1.4, 0.5, 0.9), forward = (Vector3d(0, 0, 0.4) - eye).normalized();
     const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();
@@ -128,6 +144,8 @@ TEST_F(RenderedCalibration, DerivativesAreThoseOfRenderedImages) {
   const Model model(robot, 0);
   Observer observer(model, camera, unknowns);
   state.focal = Vector2d(0.05, -0.03);  // the derivatives hold away from 0, too
+  const Intrinsics focused(848, 480, 1.05 * camera.fx(), 0.97 * camera.fy(), camera.cx(),
+                           camera.cy());
   const int focal = unknowns.focal(), joints = unknowns.joints();
   const std::pair<int, double> changes[] = {{0, 0.01},
                                             {1, 0.01},
@@ -142,7 +160,8 @@ TEST_F(RenderedCalibration, DerivativesAreThoseOfRenderedImages) {
                                             {joints, 0.02},
                                             {joints + 1, 0.02},
                                             {joints + 2, 0.02},
-                                            {unknowns.time(), 0.03}};
+                                            {unknowns.time(), 0.03},
+                                            {unknowns.lens(), 0.3}};
   const auto size = std::size_t(unknowns.size());
   for (const auto& [unknown, change] : changes) {
     std::array<Vector2d, calibration::kinds> all;
@@ -151,6 +170,8 @@ TEST_F(RenderedCalibration, DerivativesAreThoseOfRenderedImages) {
       State truth = state;
       unknowns.step(truth, by * Eigen::VectorXd::Unit(unknowns.size(), unknown));
       draw(truth);
+      frame.depth = seen_by_lens(frame.depth, focused, truth.lens);
+      frame.mask = seen_by_lens(frame.mask, focused, truth.lens);
       Residuals residuals;
       observer.observe(frame, 0, state, {.depth = 0.1, .pixels = 40.0}, residuals);
       for (std::size_t k = 0; k < calibration::kinds; ++k)
@@ -195,6 +216,16 @@ TEST_F(RenderedCalibration, AWrongFocalLengthIsNamedAndFound) {
   EXPECT_NEAR(freed.focal_x->value, 1.0 / 1.02 - 1.0, 0.003);
   EXPECT_NEAR(freed.focal_y->value, 1.0 / 1.02 - 1.0, 0.003);
   EXPECT_LT(off(freed.T_parent_camera), 0.004);
+}
+
+TEST_F(RenderedCalibration, ALensThatCameraInfoLacksIsNamed) {
+  for (const double k1 : {-0.1, 0.1}) {
+    std::vector<CalibrationFrame> frames = drawn(state);
+    for (CalibrationFrame& each : frames) each.depth = seen_by_lens(each.depth, camera, k1);
+    const Calibration found = calibrate(frames, camera, robot, options());
+    EXPECT_TRUE(says(found, "lens")) << k1;
+    EXPECT_LT(off(found.T_parent_camera), found.position_error());
+  }
 }
 
 TEST_F(RenderedCalibration, AnOffsetOfAJointIsNamed) {
