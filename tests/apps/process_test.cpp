@@ -24,7 +24,7 @@ TEST_F(Process, ARunOnTheRecordingStaysSmall) {
   }
 }
 
-TEST_F(Process, TheDemosProgramIsRunAndHandlesNoBags) {
+TEST_F(Process, TheDemosProgramRunsRecordingsOfImages) {
   const auto demo = [](const Words& arguments) {
     return penumbra(arguments, {}, PENUMBRA_DEMO_PROGRAM);
   };
@@ -32,8 +32,9 @@ TEST_F(Process, TheDemosProgramIsRunAndHandlesNoBags) {
   succeed(demo({"run", path(), "-o", path("demo"), "--save", "labels,overlay"}));
   for (const char* const name : {"labels/000000.png", "overlay/000000.png"})
     EXPECT_EQ(read_file(path("demo") / name), read_file(out(name)));
-  expect_failed(demo({"run", path(), "-o", path("out.mcap")}), {"out.mcap", "no bags"});
-  expect_failed(demo({"run", path("in.mcap"), "-o", path("other")}), {"in.mcap", "no bags"});
+  expect_failed(demo({"run", path(), "-o", path("out.mcap")}), {"out.mcap", "images in a folder"});
+  expect_failed(demo({"run", path("in.mcap"), "-o", path("other")}),
+                {"in.mcap", "images in a folder"});
   expect_failed(demo({"view", path()}), {"view", "run"});
 }
 
