@@ -95,10 +95,12 @@ TEST_F(CalibrationTruth, ARoughGuessIsEnough) {
 }
 
 TEST_F(CalibrationTruth, TheCameraIsFoundWithoutAGuess) {
-  Seen by_depth(4), by_masks(14);
-  by_depth.expect_right(by_depth.without_guess());
+  Seen by_masks(14);
   by_masks.see_masks_only();
   by_masks.expect_right(by_masks.without_guess());
+  if (!is_full_run()) return;  // CalibrateOfAnUnknownCamera searches by depth
+  Seen by_depth(4);
+  by_depth.expect_right(by_depth.without_guess());
 }
 
 /// All joints' zeros are a little off, as those of real arms.
@@ -183,7 +185,7 @@ TEST_F(CalibrationTruth, ARobotOutOfViewIsRefused) {
     std::fill_n(frame.mask.data(), frame.mask.size(), std::uint8_t{0});
   for (Seen* seen : {&by_depth, &by_masks}) {
     EXPECT_FALSE(seen->from_guess().is_good());
-    EXPECT_FALSE(seen->without_guess().is_good());
+    if (is_full_run()) EXPECT_FALSE(seen->without_guess().is_good());
   }
 }
 
