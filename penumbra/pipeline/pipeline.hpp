@@ -59,7 +59,7 @@ class Pipeline {
   /// rays, is unknown. In targets and reports, the camera is the points' frame. Throws InputError
   /// for a robot without geometry, an unknown parent, a pose that is not rigid, and as
   /// CloudLabeller.
-  explicit Pipeline(Robot robot, const CloudConfig& config);
+  Pipeline(const Robot& robot, const CloudConfig& config);
   ~Pipeline();
   Pipeline(Pipeline&&) noexcept;
   Pipeline& operator=(Pipeline&&) noexcept;

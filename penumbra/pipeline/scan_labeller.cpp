@@ -300,7 +300,7 @@ LabelledFrame ScanLabeller::label(const Frame& frame, PoseStage& poses) {
 }
 
 // Here, so that a program that reads no scans need not be linked with their labels.
-Pipeline::Pipeline(Robot robot, const CloudConfig& config)
+Pipeline::Pipeline(const Robot& robot, const CloudConfig& config)
     : Pipeline(robot, config.sensor_parent, config.T_parent_sensor,
                std::make_unique<ScanLabeller>(robot, config)) {}
 

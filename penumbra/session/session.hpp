@@ -28,7 +28,7 @@ class Session {
   Session(Robot robot, const Camera& camera, const PipelineConfig& config,
           const DriftLimits& limits = {});
   /// Of a sensor of points. `limits`: ranges of lidars are known to about a centimetre.
-  Session(Robot robot, const CloudConfig& config,
+  Session(const Robot& robot, const CloudConfig& config,
           const DriftLimits& limits = {.position = 0.02, .rotation = 0.02})
       : Session(Pipeline(robot, config), make_scan_image(robot, config), limits) {}
 
