@@ -185,7 +185,9 @@ TEST_F(CalibrationTruth, ARobotOutOfViewIsRefused) {
     std::fill_n(frame.mask.data(), frame.mask.size(), std::uint8_t{0});
   for (Seen* seen : {&by_depth, &by_masks}) {
     EXPECT_FALSE(seen->from_guess().is_good());
-    if (is_full_run()) EXPECT_FALSE(seen->without_guess().is_good());
+    if (is_full_run()) {
+      EXPECT_FALSE(seen->without_guess().is_good());
+    }
   }
 }
 
