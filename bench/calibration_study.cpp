@@ -42,7 +42,7 @@ struct Outcome {
 
 Outcome calibrated(const RobotChoice& robot, const Setup& setup, std::uint64_t seed) {
   Cell cell(robot, setup, seed);
-  const std::vector<CalibrationFrame> frames = cell.frames();
+  const std::vector<KeptFrame> frames = cell.frames();
   CalibrationOptions options;
   if (setup.on_hand) options.camera_parent = robot.flange;
   if (!setup.search) options.initial = cell.off();
@@ -170,12 +170,12 @@ void run_real(const std::filesystem::path& recording, bool masks, bool depth = t
   io::CalibrationInput input = io::read_calibration_input(
       options, [](const std::string&) {}, [] {});
   if (!depth)
-    for (CalibrationFrame& frame : input.frames) frame.depth = {};
+    for (KeptFrame& frame : input.frames) frame.depth = {};
   sim::Random random(7, 7);
   const auto any = [&] {
     return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
   };
-  const auto found = [&](const std::vector<CalibrationFrame>& frames, bool off) {
+  const auto found = [&](const std::vector<KeptFrame>& frames, bool off) {
     CalibrationOptions wanted{.camera_parent = input.input.config.camera_parent,
                               .initial = input.input.config.T_parent_camera};
     if (off) {
@@ -198,7 +198,7 @@ void run_real(const std::filesystem::path& recording, bool masks, bool depth = t
   for (std::size_t a = 0; a < input.frames.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
       for (std::size_t c = 0; c < b; ++c) {
-        std::vector<CalibrationFrame> some = input.frames;
+        std::vector<KeptFrame> some = input.frames;
         for (const std::size_t left : {a, b, c})
           some.erase(some.begin() + static_cast<std::ptrdiff_t>(left));
         subsets.push_back(found(some, false).T_parent_camera);
@@ -286,7 +286,7 @@ void run_faulty(const RobotChoice& robot, std::size_t kind, std::uint64_t seed, 
   const auto& errors = faults.setup.joint_errors;
   if (!errors.empty())  // the first joint turns the whole arm: its zero is a matter of definition
     truth = Eigen::AngleAxisd(errors[0], Eigen::Vector3d::UnitZ()) * truth;
-  const std::vector<CalibrationFrame> frames = cell.frames();
+  const std::vector<KeptFrame> frames = cell.frames();
   CalibrationOptions options{.camera_parent = "", .initial = cell.off(), .seed = seed};
   const auto start = std::chrono::steady_clock::now();
   const Calibration found = calibrate(frames, given, cell.robot(), options);
@@ -435,7 +435,7 @@ void run_few(const RobotChoice& robot, std::size_t poses, double width, std::uin
   Cell cell(robot, setup, seed);
   const Eigen::Isometry3d truth =  // as in run_faulty()
       Eigen::AngleAxisd(setup.joint_errors[0], Eigen::Vector3d::UnitZ()) * cell.truth();
-  const std::vector<CalibrationFrame> frames = cell.frames();
+  const std::vector<KeptFrame> frames = cell.frames();
   const CalibrationOptions options{.camera_parent = "", .initial = cell.off(), .seed = seed};
   const auto start = std::chrono::steady_clock::now();
   const Calibration found = calibrate(frames, Cell::intrinsics(), cell.robot(), options);

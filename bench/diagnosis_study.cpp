@@ -105,7 +105,7 @@ Sequence simulated(const RobotChoice& choice, const Setup& setup, std::uint64_t 
   if (setup.speed > 0.0) {
     cell.start_swing();
     for (std::size_t i = 0; i < setup.frames; ++i) {
-      CalibrationFrame frame;
+      KeptFrame frame;
       frame.index = i;
       const double seconds = static_cast<double>(i) / 30.0;
       frame.joints = cell.joints_at(seconds);
@@ -115,7 +115,7 @@ Sequence simulated(const RobotChoice& choice, const Setup& setup, std::uint64_t 
     }
     return sequence;
   }
-  for (CalibrationFrame& frame : cell.frames())
+  for (KeptFrame& frame : cell.frames())
     sequence.instants.push_back(
         {frame.index, {}, frame.joints, std::make_shared<Image<float>>(std::move(frame.depth))});
   return sequence;

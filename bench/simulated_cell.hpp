@@ -92,11 +92,11 @@ class Cell {
   [[nodiscard]] const Robot& robot() const { return arm_.robot(); }
   [[nodiscard]] const Eigen::Isometry3d& truth() const { return T_parent_camera_; }
 
-  std::vector<CalibrationFrame> frames() {
-    std::vector<CalibrationFrame> all;
+  std::vector<KeptFrame> frames() {
+    std::vector<KeptFrame> all;
     if (setup_.speed > 0.0) return moving_frames();
     while (all.size() < setup_.frames) {
-      CalibrationFrame frame;
+      KeptFrame frame;
       frame.index = all.size();
       frame.joints = pose();
       draw(frame);
@@ -140,7 +140,7 @@ class Cell {
   }
 
   /// Measures the depth of the frame's joints.
-  void draw(CalibrationFrame& frame) {
+  void draw(KeptFrame& frame) {
     std::vector<Eigen::Isometry3d> parts(7, Eigen::Isometry3d::Identity());
     const Eigen::Isometry3d T_root_camera =
         setup_.on_hand ? arm_.link_pose(frame.joints, choice_.flange) * T_parent_camera_
@@ -170,9 +170,9 @@ class Cell {
   }
 
   /// Replaces the depth by the mask of the visible robot, with the setup's faults.
-  void draw_mask(CalibrationFrame& frame) {
+  void draw_mask(KeptFrame& frame) {
     if (random_.uniform(0.0, 1.0) < setup_.wrong_masks) {
-      CalibrationFrame other;
+      KeptFrame other;
       other.joints = pose();
       draw(other);
     }
@@ -302,22 +302,25 @@ class Cell {
   }
 
   /// Frames of the swinging arm, with the poses at the times of 30 images per second around them.
-  std::vector<CalibrationFrame> moving_frames() {
+  std::vector<KeptFrame> moving_frames() {
     constexpr double period = 1.0 / 30.0;  // seconds
     constexpr int around = 4;              // images before and after
     start_swing();
-    std::vector<CalibrationFrame> all;
+    std::vector<KeptFrame> all;
     while (all.size() < setup_.frames) {
-      CalibrationFrame frame;
+      KeptFrame frame;
       frame.index = all.size();
       const double stamp = 1.7 / pace_ * static_cast<double>(all.size());
       frame.joints = joints_at(stamp + setup_.late);
       draw(frame);
       frame.joints = reported(joints_at(stamp));
-      frame.T_root_link.resize(robot().links().size());
+      frame.stamp = static_cast<std::int64_t>(1e9 * stamp);
       for (int k = -around; k <= around; ++k) {
-        robot().forward_kinematics(reported(joints_at(stamp + period * k)), frame.T_root_link);
-        frame.nearby.push_back({period * k, frame.T_root_link});
+        KeptFrame& near = frame.nearby.emplace_back();
+        near.stamp = *frame.stamp + static_cast<std::int64_t>(1e9 * period * k);
+        near.joints = reported(joints_at(stamp + period * k));
+        near.T_root_link.resize(robot().links().size());
+        robot().forward_kinematics(near.joints, near.T_root_link);
       }
       frame.T_root_link = frame.nearby[around].T_root_link;
       all.push_back(std::move(frame));

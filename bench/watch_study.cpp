@@ -141,7 +141,7 @@ class WatchStudy {
   Camera camera_{Cell::intrinsics(), {}, {}, {}};
   Pipeline pipeline_;
   std::size_t frames_;
-  CalibrationFrame frame_;
+  KeptFrame frame_;
   Watched still_{camera_}, bump_{camera_}, drift_{camera_};
   std::size_t within_ = 0, false_alarms_ = 0, false_clocks_ = 0, bumps_ = 0, drifts_ = 0,
               processed_ = 0;
@@ -198,7 +198,7 @@ class ClockStudy {
     std::vector<Late> all;
     for (const double sign : {-1.0, 1.0})
       all.push_back({sign * random.uniform(0.01, 0.08), CalibrationWatch(camera)});
-    CalibrationFrame frame;
+    KeptFrame frame;
     for (std::size_t i = 0; i < frames; ++i) {
       const double seconds = 1e-9 * static_cast<double>(period) * static_cast<double>(i);
       frame.joints = joints_at(seconds);

@@ -30,8 +30,8 @@ set(public_headers
   labels/cloud_rule.hpp labels/labels.hpp poses/pose_lookup.hpp poses/robot_pose.hpp tracking/trackers.hpp
   targets/region.hpp targets/target.hpp targets/target_judge.hpp
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
-  calibration/calibration.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
-  planning/plan_forecast.hpp session/session.hpp session/warnings.hpp tuning/missing_parts.hpp
+  calibration/calibration.hpp calibration/kept_frames.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
+  planning/plan_forecast.hpp session/session.hpp session/warnings.hpp
   planning/look_ahead.hpp fusion/target_fusion.hpp robot/trajectory.hpp planning/view_planning.hpp
   cloud/cloud_labels.hpp cloud/scan.hpp tuning/cloud_tuning.hpp)
 set(component_of_calibration setup)

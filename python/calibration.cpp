@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <variant>
 
 #include <python/bindings.hpp>
@@ -8,47 +9,14 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/calibration/calibration.hpp>
 #include <penumbra/calibration/watch.hpp>
-#include <penumbra/camera/rectification.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
-
-#include <io/files/image_size.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 
 namespace penumbra::python {
 
 namespace {
 
 using MaskArgument = ImageArgument<"masks", std::uint8_t>;
-
-/// A frame's joints and poses. `name`: as errors call it.
-CalibrationFrame posed_frame(const Frame& frame, const std::string& name, const Robot& robot) {
-  const RobotPose& pose = frame.pose;
-  CalibrationFrame result;
-  result.T_root_link = pose.T_root_link;
-  if (!result.T_root_link.empty()) return result;
-  if (pose.status != FrameStatus::ok || pose.positions.size() != robot.variables().size())
-    throw py::value_error(name + ": needs " + std::to_string(robot.variables().size()) +
-                          " joint positions");
-  result.joints = pose.positions;
-  result.T_root_link.resize(robot.links().size());
-  robot.forward_kinematics(result.joints, result.T_root_link);
-  return result;
-}
-
-/// `name`: as errors call the frame.
-std::int64_t stamp_of(const Frame& frame, const std::string& name) {
-  if (!frame.stamp) throw py::value_error(name + ": needs a stamp for the time offset");
-  return *frame.stamp;
-}
-
-StampedPoses trajectory_of(const std::vector<Frame>& motion, const Robot& robot) {
-  StampedPoses trajectory;
-  for (std::size_t i = 0; i < motion.size(); ++i) {
-    const std::string name = "motion[" + std::to_string(i) + "]";
-    trajectory.emplace_back(stamp_of(motion[i], name),
-                            posed_frame(motion[i], name, robot).T_root_link);
-  }
-  return trajectory;
-}
 
 /// Where the camera is, or the configuration of an input, whose frames may say it themselves.
 using Start = std::variant<PipelineConfig, Eigen::Isometry3d>;
@@ -61,46 +29,48 @@ template <typename Given>
 Calibration calibrate_frames(const py::iterable& frames, const Given& given, const Robot& robot,
                              const std::optional<Start>& initial, std::string camera_parent,
                              const std::vector<MaskArgument>& masks, bool focal, bool joint_offsets,
-                             const std::vector<Frame>& motion, double joint_accuracy,
+                             std::vector<Frame> motion, double joint_accuracy,
                              const std::optional<double>& accept, std::uint64_t seed) {
-  const StampedPoses trajectory = trajectory_of(motion, robot);
-  const Camera camera = camera_of(given);
-  std::optional<Rectification> lens;
-  if (!camera.distortion.is_none()) lens.emplace(camera);
-  const auto copy = [&](const auto& image) {
-    auto room = std::decay_t<decltype(image)>();
-    return io::copy_of(io::rectified(lens ? &*lens : nullptr, image.view(), room));
-  };
-  CalibrationFrames chosen(robot, masks.empty());
+  const auto* const config = initial ? std::get_if<PipelineConfig>(&*initial) : nullptr;
+  if (config != nullptr && camera_parent.empty()) camera_parent = config->camera_parent;
+  for (std::size_t i = 0; i < motion.size(); ++i)
+    if (!motion[i].stamp)
+      throw py::value_error("motion[" + std::to_string(i) + "]: needs a stamp for the time offset");
+  std::ranges::stable_sort(motion, {}, &Frame::stamp);
+  using Choice = KeptFrames::Choice;
+  KeptFrames chosen(robot, camera_of(given),
+                    {.choice = motion.empty() ? Choice::rest_first : Choice::any,
+                     .needs_depth = masks.empty(),
+                     .parent = find_camera_parent(robot, camera_parent)});
+  auto next = motion.begin();
   for (const py::handle each : frames) {
     const auto frame = each.cast<Frame>();
     const std::size_t number = chosen.seen();
-    std::optional<CalibrationFrame> kept = chosen.pass(frame);
+    if (!motion.empty() && !frame.stamp)
+      throw py::value_error("frames[" + std::to_string(number) +
+                            "]: needs a stamp for the time offset");
+    for (; next != motion.end() && next->stamp < frame.stamp; ++next) chosen.follow(*next);
+    std::optional<KeptFrame> kept = chosen.pass(frame);
     if (!kept) continue;
-    if (!is_empty(frame.depth.view)) kept->depth = copy(metres_of(frame.depth.view));
-    if (number < masks.size()) kept->mask = copy(io::copy_of(std::get<0>(masks[number].view)));
-    if (!motion.empty())
-      kept->nearby =
-          nearby_poses(trajectory, stamp_of(frame, "frames[" + std::to_string(number) + "]"));
+    if (!is_empty(frame.depth.view)) kept->depth = chosen.depth_of(frame.depth.view);
+    if (number < masks.size()) kept->mask = chosen.image_of(std::get<0>(masks[number].view));
     chosen.add(*std::move(kept));
   }
+  for (; next != motion.end(); ++next) chosen.follow(*next);
   if (!masks.empty() && masks.size() != chosen.seen())
     throw py::value_error("masks: expected one for each of " + std::to_string(chosen.seen()) +
                           " frames; got " + std::to_string(masks.size()));
   std::optional<Eigen::Isometry3d> start;
-  if (initial && std::holds_alternative<PipelineConfig>(*initial)) {
-    const auto& config = std::get<PipelineConfig>(*initial);
-    start = chosen.T_parent_camera().value_or(config.T_parent_camera);
-    if (camera_parent.empty()) camera_parent = config.camera_parent;
-  } else if (initial) {
+  if (config != nullptr)
+    start = chosen.T_parent_camera().value_or(config->T_parent_camera);
+  else if (initial)
     start = std::get<Eigen::Isometry3d>(*initial);
-  }
-  const std::vector<CalibrationFrame> all = chosen.chosen();
+  const std::vector<KeptFrame> all = chosen.chosen();
   const std::vector<std::string> notes = chosen.notes();
-  if (all.size() < CalibrationFrames::least && !notes.empty())
+  if (all.size() < KeptFrames::least && !notes.empty())
     throw InputError("calibration needs 3 frames or more: " + notes.back());
   const py::gil_scoped_release others;
-  Calibration found = calibrate(all, lens ? lens->pinhole() : camera.intrinsics, robot,
+  Calibration found = calibrate(all, chosen.camera(), robot,
                                 {.camera_parent = camera_parent,
                                  .initial = start,
                                  .focal = focal,

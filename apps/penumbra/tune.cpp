@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <iostream>
-#include <map>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
@@ -34,23 +34,31 @@ struct TuneArguments {
 
 namespace fs = std::filesystem;
 
-/// Keeps frames to measure, and their colour images by index.
-class KeptFrames final : public io::RunOutput {
+/// Keeps frames to measure.
+class TuneOutput final : public io::RunOutput {
  public:
-  explicit KeptFrames(const DepthRange& range) : frames(range) {}
+  explicit TuneOutput(const Pipeline& pipeline)
+      : frames(pipeline.robot(), pipeline.report_camera(),
+               {.most = most_tuning_frames, .motion = 0.02}),
+        range_{pipeline.rule().range.near, std::min(pipeline.rule().range.far, 1e3)} {}
 
   void begin(const io::ReportHead& /*head*/) override {}
   void save(const FrameReport& report, const Frame& frame,
             const io::ShownTargets& /*targets*/) override {
-    frames.add(report);
-    if (!frame.color.view.empty() && frames.holds(report.index))
-      colors[report.index] = io::copy_of(frame.color.view);
-    std::erase_if(colors, [&](const auto& color) { return !frames.holds(color.first); });
+    std::optional<KeptFrame> kept = frames.pass(report, frame.pose.positions);
+    if (!kept || report.nothing_measured) return;
+    kept->depth = frames.depth_of(report.depth, range_);
+    kept->virtual_depth = io::copy_of(report.virtual_depth.depth);
+    kept->links = io::copy_of(report.virtual_depth.links);
+    kept->color = io::copy_of(frame.color.view);
+    frames.add(*std::move(kept));
   }
   void finish(const io::Statistics& /*all*/, std::span<const std::string> /*notes*/) override {}
 
-  TuningFrames frames;
-  std::map<std::size_t, Image<Rgb8>> colors;
+  KeptFrames frames;
+
+ private:
+  MeasuredRange range_;
 };
 
 std::string percent(double share) { return fixed(100.0 * share, 2) + " %"; }
@@ -138,7 +146,7 @@ int execute(const TuneArguments& arguments) {
                            .others = {{"tune.png"}, {"extra_*.stl", io::stl_begin}}});
   io::InputSession session(arguments.session, print_line);
   const Pipeline& pipeline = session.pipeline();
-  KeptFrames kept(pipeline.rule().range);
+  TuneOutput kept(pipeline);
   {
     Progress progress(session.size().value_or(0));
     const io::RunResult result = session.run(kept, [&] {
@@ -157,7 +165,9 @@ int execute(const TuneArguments& arguments) {
           "measures them)");
   }
   folder.begin(session.made_files());
-  const Tuning tuning = tune(kept.frames, pipeline.intrinsics(), pipeline.robot(), pipeline.rule());
+  print_notes(kept.frames.notes());
+  const auto frames = kept.frames.frames();
+  const Tuning tuning = tune(frames, pipeline.intrinsics(), pipeline.robot(), pipeline.rule());
   std::vector<io::WrittenExtra> extras;
   for (const ExtraPart& part : tuning.extras) {
     const std::string& link = pipeline.robot().links()[part.link];
@@ -166,11 +176,9 @@ int execute(const TuneArguments& arguments) {
     extras.push_back({link, "extra_" + name + ".stl"});
     folder.add(extras.back().file, [&](const fs::path& file) { io::write_stl(file, part.mesh); });
   }
-  const auto frames = kept.frames.frames();
-  const TuningFrame& shown = frames[tuning.fringe.shown_frame];
+  const KeptFrame& shown = frames[tuning.fringe.shown_frame];
   Image<Rgb8> color;
-  const auto seen = io::rectified(pipeline.rectification(),
-                                  std::as_const(kept.colors[shown.index]).view(), color);
+  const auto seen = io::rectified(pipeline.rectification(), shown.color.view(), color);
   const Image<Rgb8> picture = io::draw_tuning(tuning, shown, seen);
   folder.add("tune.png", [&](const fs::path& file) { io::write_png(file, picture.view()); });
   folder.add_text("tune.json", io::tuning_json(tuning, frames, extras) + "\n");

@@ -50,10 +50,10 @@ std::string percent(double share) {
 
 }  // namespace
 
-std::string tuning_json(const Tuning& tuning, std::span<const TuningFrame> frames,
+std::string tuning_json(const Tuning& tuning, std::span<const KeptFrame> frames,
                         std::span<const WrittenExtra> extras) {
   Json indices = Json::array(), parts = Json::array();
-  for (const TuningFrame& frame : frames) indices.push_back(frame.index);
+  for (const KeptFrame& frame : frames) indices.push_back(frame.index);
   for (std::size_t i = 0; i < extras.size(); ++i)
     parts.push_back(extra_json(tuning.extras[i], extras[i]));
   const ToleranceFit& fit = tuning.tolerance;
@@ -70,8 +70,7 @@ std::string tuning_json(const Tuning& tuning, std::span<const TuningFrame> frame
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
-Image<Rgb8> draw_tuning(const Tuning& tuning, const TuningFrame& frame,
-                        ImageView<const Rgb8> color) {
+Image<Rgb8> draw_tuning(const Tuning& tuning, const KeptFrame& frame, ImageView<const Rgb8> color) {
   Image<Rgb8> image;
   const FringeFit& fringe = tuning.fringe;
   FrameReport report;

@@ -20,12 +20,12 @@ struct WrittenExtra {
 };
 
 /// Returns tune.json. The frames are named by their index.
-[[nodiscard]] std::string tuning_json(const Tuning& tuning, std::span<const TuningFrame> frames,
+[[nodiscard]] std::string tuning_json(const Tuning& tuning, std::span<const KeptFrame> frames,
                                       std::span<const WrittenExtra> extras);
 
 /// Draws the frame with the most fringe: its colour, or its depth in grey if `color` is empty; the
 /// robot's outline; pixels that the recommended rule removes in green, those that it leaves in red.
-[[nodiscard]] Image<Rgb8> draw_tuning(const Tuning& tuning, const TuningFrame& frame,
+[[nodiscard]] Image<Rgb8> draw_tuning(const Tuning& tuning, const KeptFrame& frame,
                                       ImageView<const Rgb8> color);
 
 }  // namespace penumbra::io

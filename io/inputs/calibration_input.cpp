@@ -5,30 +5,16 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/camera/rectification.hpp>
+#include <penumbra/poses/pose_stage.hpp>
 
 #include <io/files/frame_pattern.hpp>
-#include <io/files/image_size.hpp>
 #include <io/files/png.hpp>
 #include <io/inputs/calibration_input.hpp>
 
 namespace penumbra::io {
-namespace {
-
-template <typename T>
-Image<T> rectified_copy(const std::optional<Rectification>& lens, const Image<T>& raw) {
-  Image<T> image;
-  return copy_of(rectified(lens ? &*lens : nullptr, raw.view(), image));
-}
-
-}  // namespace
-
 CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
                                         const LineSink& print, const std::function<void()>& step) {
   RunInput input = open_input(options.input, print);
-  std::optional<Rectification> lens;
-  if (!input.camera.distortion.is_none()) lens.emplace(input.camera);
-  const Intrinsics camera = lens ? lens->pinhole() : input.camera.intrinsics;
   std::optional<FramePattern> masks;
   const auto& path = options.input.path;
   if (options.masks)
@@ -39,7 +25,11 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   if (!has_depth && !masks) throw InputError(path.string() + ": has no depth: give --masks");
   const auto source = input.frames(input.robot);
   Frame frame;
-  CalibrationFrames frames(input.robot, has_depth, options.time_offset);
+  KeptFrames frames(
+      input.robot, input.camera,
+      {.choice = options.time_offset ? KeptFrames::Choice::moving : KeptFrames::Choice::rest_first,
+       .needs_depth = has_depth,
+       .parent = find_camera_parent(input.robot, input.config.camera_parent)});
   std::size_t unmasked = 0;
   std::string no_mask;
   const auto pass = [&] {
@@ -51,7 +41,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   };
   while (source->next(frame)) {
     step();
-    std::optional<CalibrationFrame> kept = pass();
+    std::optional<KeptFrame> kept = pass();
     if (!kept) continue;
     if (masks) {
       Image<std::uint8_t> mask;
@@ -65,17 +55,17 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
               ImageSize{input.camera.intrinsics.width(), input.camera.intrinsics.height()});
           !read.ok())
         throw InputError("--masks: " + read.message);
-      kept->mask = rectified_copy(lens, mask);
+      kept->mask = frames.image_of(std::as_const(mask).view());
     }
     if (has_depth)
-      kept->depth = rectified_copy(
-          lens, metres_of(frame.depth.view, {input.camera.range.near, input.camera.range.far}));
+      kept->depth =
+          frames.depth_of(frame.depth.view, {input.camera.range.near, input.camera.range.far});
     frames.add(*std::move(kept));
   }
 
   if (frames.T_parent_camera()) input.config.T_parent_camera = *frames.T_parent_camera();
   CalibrationInput result{.input = std::move(input),
-                          .camera = camera,
+                          .camera = frames.camera(),
                           .frames = frames.chosen(),
                           .seen = frames.seen(),
                           .notes = source->notes()};

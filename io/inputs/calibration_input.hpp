@@ -27,7 +27,7 @@ struct CalibrationInputOptions {
 struct CalibrationInput {
   RunInput input;     ///< its config has the camera's pose, also if it was by tf
   Intrinsics camera;  ///< of the frames' images, which are free of distortion
-  std::vector<CalibrationFrame> frames;
+  std::vector<KeptFrame> frames;
   std::size_t seen = 0;            ///< frames of the input
   std::vector<std::string> notes;  ///< a line each
 };

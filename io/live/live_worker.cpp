@@ -103,7 +103,7 @@ void LiveWorker::find_warnings(std::int64_t now, LiveOutcome& outcome) {
   if (!next_warnings_) next_warnings_ = now + first_warnings_after;
   if (now < *next_warnings_) return;
   const std::size_t poses = tools_->session.poses();  // 0 of clouds without rays
-  if (has_warned_ && (tools_->encoder || poses > 0) && poses < CalibrationFrames::least) return;
+  if (has_warned_ && (tools_->encoder || poses > 0) && poses < KeptFrames::least) return;
   has_warned_ = true;
   next_warnings_ = now + warnings_period;
   const auto taken = std::make_shared<const Warnings>(tools_->session.take_warnings());

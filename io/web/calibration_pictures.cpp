@@ -34,7 +34,7 @@ class FramePainter {
         renderer_(make_depth_renderer(Backend::cpu, camera, bodies_of(robot))) {}
 
   /// Returns the frame's depth with the robot at this camera pose.
-  ImageView<const Rgb8> draw(const CalibrationFrame& frame, const Calibration& found,
+  ImageView<const Rgb8> draw(const KeptFrame& frame, const Calibration& found,
                              const Eigen::Isometry3d& T_parent_camera) {
     FrameReport report;
     report.index = frame.index;
@@ -71,13 +71,13 @@ class FramePainter {
 
 }  // namespace
 
-std::vector<PagePicture> calibration_pictures(std::span<const CalibrationFrame> frames,
+std::vector<PagePicture> calibration_pictures(std::span<const KeptFrame> frames,
                                               const Intrinsics& camera, const Robot& robot,
                                               const CalibrationOptions& options,
                                               const Calibration& found) {
   FramePainter painter(camera, robot, options.camera_parent);
   std::vector<PagePicture> pictures;
-  for (const CalibrationFrame& frame : frames.first(std::min(frames.size(), most_frames))) {
+  for (const KeptFrame& frame : frames.first(std::min(frames.size(), most_frames))) {
     const std::string name = "frame " + std::to_string(frame.index);
     if (options.initial)
       pictures.push_back({frame.index, picture_uri(painter.draw(frame, found, *options.initial)),

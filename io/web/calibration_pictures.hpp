@@ -12,8 +12,10 @@ namespace penumbra::io {
 
 /// Returns pictures of the first frames' depth, or masks, with the robot at the first guess, if
 /// there is one, and at the result.
-[[nodiscard]] std::vector<PagePicture> calibration_pictures(
-    std::span<const CalibrationFrame> frames, const Intrinsics& camera, const Robot& robot,
-    const CalibrationOptions& options, const Calibration& found);
+[[nodiscard]] std::vector<PagePicture> calibration_pictures(std::span<const KeptFrame> frames,
+                                                            const Intrinsics& camera,
+                                                            const Robot& robot,
+                                                            const CalibrationOptions& options,
+                                                            const Calibration& found);
 
 }  // namespace penumbra::io

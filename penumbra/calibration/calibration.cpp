@@ -49,15 +49,11 @@ Estimate estimate(double value, const Refined& fit, int unknown) {
   return {value, std::sqrt(fit.covariance(unknown, unknown))};
 }
 
-using FramePointers = std::vector<const CalibrationFrame*>;
+using FramePointers = std::vector<const KeptFrame*>;
 
-void check_input(std::span<const CalibrationFrame> frames, const Intrinsics& camera,
+void check_input(std::span<const KeptFrame> frames, const Intrinsics& camera,
                  const CalibrationOptions& options) {
-  if (frames.size() < CalibrationFrames::least)
-    throw InputError("calibration needs " + std::to_string(CalibrationFrames::least) +
-                     " frames or more with different poses of the robot, and has " +
-                     std::to_string(frames.size()) +
-                     ": record the arm in some ten poses, with links near and far, left and right");
+  check_enough(frames, "calibration");
   if (!(options.joint_accuracy > 0.0) || (options.accept && !(*options.accept > 0.0)))
     throw InputError("joint_accuracy and accept must be above 0");
   const bool has_depth = !frames.front().depth.empty();
@@ -65,7 +61,7 @@ void check_input(std::span<const CalibrationFrame> frames, const Intrinsics& cam
     throw InputError(
         "offsets of joints and of the time need depth images; masks alone give the "
         "camera's pose and its focal length");
-  for (const CalibrationFrame& frame : frames) {
+  for (const KeptFrame& frame : frames) {
     if (frame.depth.empty() == has_depth || (frame.depth.empty() && frame.mask.empty()))
       throw InputError("frame " + std::to_string(frame.index) + ": has no " +
                        (has_depth ? "depth image" : "mask"));
@@ -79,7 +75,7 @@ void check_input(std::span<const CalibrationFrame> frames, const Intrinsics& cam
         (frame.mask.width() != camera.width() || frame.mask.height() != camera.height()))
       throw InputError("frame " + std::to_string(frame.index) +
                        ": its mask is not of the camera's size");
-    if (options.time_offset && frame.nearby.empty())
+    if (options.time_offset && !frame.tells_time())
       throw InputError("frame " + std::to_string(frame.index) +
                        ": has no poses before and after it; leave the time offset out");
   }
@@ -118,7 +114,7 @@ std::optional<std::size_t> turning_joint(const Robot& robot, std::size_t parent)
 /// One refinement on the frames that fit.
 class Calibrator {
  public:
-  Calibrator(std::span<const CalibrationFrame> frames, const Intrinsics& camera, const Robot& robot,
+  Calibrator(std::span<const KeptFrame> frames, const Intrinsics& camera, const Robot& robot,
              const CalibrationOptions& options)
       : frames_(frames),
         camera_(camera),
@@ -132,7 +128,7 @@ class Calibrator {
                             return frame.mask.empty();
                           });
     unknowns_.has_time = options.time_offset;
-    for (const CalibrationFrame& frame : frames) used_.push_back(&frame);
+    for (const KeptFrame& frame : frames) used_.push_back(&frame);
   }
 
   Calibration run() {
@@ -142,14 +138,13 @@ class Calibrator {
     const Unknowns all = with_joints();
     const Refined known = calibration::refine(observer, all, used_, with_zeros(fit.state));
     Calibration result = result_of(known, all, explained);
-    for (const CalibrationFrame& frame : frames_) {
+    for (const KeptFrame& frame : frames_) {
       result.frames.push_back(observer.fit(frame, known.state));
       result.frames.back().used = std::find(used_.begin(), used_.end(), &frame) != used_.end();
     }
     if (unknowns_.has_shift || !has_depth()) {
       std::size_t both = 0, either = 0;
-      for (const CalibrationFrame& frame : frames_)
-        observer.overlap(frame, known.state, both, either);
+      for (const KeptFrame& frame : frames_) observer.overlap(frame, known.state, both, either);
       result.mask_overlap =
           static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
     }
@@ -235,7 +230,7 @@ class Calibrator {
 
   [[nodiscard]] double agreement(Observer& observer, const State& state) const {
     double sum = 0.0;
-    for (const CalibrationFrame* frame : used_) sum += observer.fit(*frame, state).agreeing;
+    for (const KeptFrame* frame : used_) sum += observer.fit(*frame, state).agreeing;
     return sum / static_cast<double>(used_.size());
   }
 
@@ -287,14 +282,13 @@ class Calibrator {
   /// Leaves out frames in which the robot is elsewhere than its joints say.
   bool leave_out(Observer& observer, const State& state) {
     std::vector<double> agreeing;
-    for (const CalibrationFrame* frame : used_)
-      agreeing.push_back(observer.fit(*frame, state).agreeing);
+    for (const KeptFrame* frame : used_) agreeing.push_back(observer.fit(*frame, state).agreeing);
     std::vector<double> sorted = agreeing;
     const double least = elsewhere * detail::median(sorted);
     FramePointers good;
     for (std::size_t i = 0; i < used_.size(); ++i)
       if (agreeing[i] >= least) good.push_back(used_[i]);
-    if (good.size() == used_.size() || good.size() < CalibrationFrames::least) return false;
+    if (good.size() == used_.size() || good.size() < KeptFrames::least) return false;
     used_ = good;
     return true;
   }
@@ -382,7 +376,7 @@ class Calibrator {
         continue;
       double gain = 0.0;
       for (const double by : {-turn, turn}) {
-        CalibrationFrame frame;
+        KeptFrame frame;
         frame.joints = used_[used_.size() / 2]->joints;
         double& position = frame.joints[*joint.variable];
         position = std::clamp(position + by, joint.lower.value_or(position + by),
@@ -447,7 +441,7 @@ class Calibrator {
         number(result.rotation_error() * 180.0 / 3.14159265358979, 1) + " degrees only: " + remedy);
   }
 
-  std::span<const CalibrationFrame> frames_;
+  std::span<const KeptFrame> frames_;
   const Intrinsics& camera_;
   const Robot& robot_;
   const CalibrationOptions& options_;
@@ -468,7 +462,7 @@ double Calibration::rotation_error() const {
   return calibration::longest_axis(covariance.topLeftCorner<3, 3>());
 }
 
-Calibration calibrate(std::span<const CalibrationFrame> frames, const Intrinsics& camera,
+Calibration calibrate(std::span<const KeptFrame> frames, const Intrinsics& camera,
                       const Robot& robot, const CalibrationOptions& options) {
   check_input(frames, camera, options);
   return Calibrator(frames, camera, robot, options).run();

@@ -169,15 +169,14 @@ bool is_wider(const Explained::Pose& pose, const Refined& fit) {
 
 }  // namespace
 
-std::vector<Cause> possible_causes(const Robot& robot,
-                                   std::span<const CalibrationFrame* const> frames) {
+std::vector<Cause> possible_causes(const Robot& robot, std::span<const KeptFrame* const> frames) {
   std::vector<Cause> causes{{.kind = Cause::Kind::focal}, {.kind = Cause::Kind::lens}};
   for (const Joint& joint : robot.joints())
     if (!joint.mimics &&
         (joint.type == JointType::revolute || joint.type == JointType::continuous ||
          joint.type == JointType::prismatic))
       causes.push_back({.kind = Cause::Kind::joint, .variable = *joint.variable});
-  if (std::ranges::any_of(frames, [](const auto* frame) { return !frame->nearby.empty(); }))
+  if (std::ranges::any_of(frames, [](const auto* frame) { return frame->tells_time(); }))
     causes.push_back({.kind = Cause::Kind::clock});
   return causes;
 }
@@ -241,7 +240,7 @@ std::string text_of_depth(const Refined& fit) {
 }
 
 Twist motion_with_usual_depth(Observer& observer, const Unknowns& own,
-                              std::span<const CalibrationFrame* const> frames, const State& state) {
+                              std::span<const KeptFrame* const> frames, const State& state) {
   const Equations equations = equations_at(observer, own, frames, state);
   std::vector<int> others(static_cast<std::size_t>(own.size()));
   std::iota(others.begin(), others.end(), 0);
@@ -255,8 +254,8 @@ Twist motion_with_usual_depth(Observer& observer, const Unknowns& own,
   return equations.after(step).of(others).step().head<6>();
 }
 
-Explained explain(Observer& observer, const Unknowns& own,
-                  std::span<const CalibrationFrame* const> frames, const Refined& fit) {
+Explained explain(Observer& observer, const Unknowns& own, std::span<const KeptFrame* const> frames,
+                  const Refined& fit) {
   const Robot& robot = observer.model().robot();
   std::vector<Cause> candidates = possible_causes(robot, frames);
   std::erase_if(candidates, [&](const Cause& cause) { return has(own, cause); });

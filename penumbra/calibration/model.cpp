@@ -78,25 +78,6 @@ Eigen::VectorXd Unknowns::prior_sigmas() const {
 
 namespace {
 
-/// The poses at a time after the image; beyond the first and last the nearest.
-std::vector<Eigen::Isometry3d> poses_at(std::span<const NearbyPoses> nearby, double seconds) {
-  const auto after = std::find_if(nearby.begin(), nearby.end(),
-                                  [&](const auto& poses) { return poses.seconds >= seconds; });
-  if (after == nearby.begin()) return after->T_root_link;
-  const auto before = std::prev(after);
-  if (after == nearby.end()) return before->T_root_link;
-  const double fraction = (seconds - before->seconds) / (after->seconds - before->seconds);
-  std::vector<Eigen::Isometry3d> poses = before->T_root_link;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Eigen::Isometry3d& next = after->T_root_link[i];
-    poses[i].translation() += fraction * (next.translation() - poses[i].translation());
-    poses[i].linear() = Eigen::Quaterniond(poses[i].linear())
-                            .slerp(fraction, Eigen::Quaterniond(next.linear()))
-                            .toRotationMatrix();
-  }
-  return poses;
-}
-
 /// Turns or moves joints by offsets, in their order in Robot::variables(), rad or m. Planar and
 /// floating joints stay.
 void move_joints(const Robot& robot, std::span<const double> offsets,
@@ -115,19 +96,19 @@ void move_joints(const Robot& robot, std::span<const double> offsets,
 
 }  // namespace
 
-std::vector<Eigen::Isometry3d> Model::T_camera_link(const CalibrationFrame& frame,
+std::vector<Eigen::Isometry3d> Model::T_camera_link(const KeptFrame& frame,
                                                     const State& state) const {
-  std::vector<Eigen::Isometry3d> poses = state.time_offset == 0.0 || frame.nearby.empty()
-                                             ? frame.T_root_link
-                                             : poses_at(frame.nearby, state.time_offset);
+  std::vector<Eigen::Isometry3d> poses;
+  if (state.time_offset != 0.0 && frame.tells_time())
+    poses = poses_at(robot_, frame, state.time_offset);
+  if (poses.empty()) poses = frame.T_root_link;
   if (!state.joint_offsets.empty()) move_joints(robot_, state.joint_offsets, poses);
   const Eigen::Isometry3d T_camera_root = (poses[parent_] * state.T_parent_camera).inverse();
   for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
   return poses;
 }
 
-std::vector<std::vector<Twist>> Model::link_twists(const CalibrationFrame& frame,
-                                                   const State& state,
+std::vector<std::vector<Twist>> Model::link_twists(const KeptFrame& frame, const State& state,
                                                    const Unknowns& unknowns) const {
   constexpr double step = 1e-5;  // rad, m or s; far above rounding, far below any curvature
   std::vector<std::vector<Twist>> twists;

@@ -32,7 +32,7 @@ int nearest(double coordinate) {
 
 /// A frame with its robot rendered at a state.
 struct Observer::View {
-  const CalibrationFrame& frame;
+  const KeptFrame& frame;
   std::uint32_t number;
   const State& state;
   VirtualDepthView robot;
@@ -63,7 +63,7 @@ Observer::Observer(const Model& model, const Intrinsics& camera, const Unknowns&
       margin_(std::max(2, camera.width() / 200)),
       renderer_(make_depth_renderer(Backend::cpu, camera, bodies_of(model.robot()))) {}
 
-VirtualDepthView Observer::render(const CalibrationFrame& frame, const State& state) {
+VirtualDepthView Observer::render(const KeptFrame& frame, const State& state) {
   const Intrinsics scaled(nominal_.width(), nominal_.height(),
                           nominal_.fx() * (1.0 + state.focal.x()),
                           nominal_.fy() * (1.0 + state.focal.y()), nominal_.cx(), nominal_.cy());
@@ -74,7 +74,7 @@ VirtualDepthView Observer::render(const CalibrationFrame& frame, const State& st
   return renderer_->render(model_.T_camera_link(frame, state));
 }
 
-void Observer::observe(const CalibrationFrame& frame, std::size_t number, const State& state,
+void Observer::observe(const KeptFrame& frame, std::size_t number, const State& state,
                        const Reach& reach, Residuals& out) {
   const View view{.frame = frame,
                   .number = static_cast<std::uint32_t>(number),
@@ -249,7 +249,7 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
     }
 }
 
-FrameFit Observer::fit(const CalibrationFrame& frame, const State& state) {
+FrameFit Observer::fit(const KeptFrame& frame, const State& state) {
   const VirtualDepthView robot = render(frame, state);
   const View view{.frame = frame, .number = 0, .state = state, .robot = robot, .link_twists = {}};
   std::size_t measured = 0, agreeing = 0;
@@ -275,10 +275,9 @@ FrameFit Observer::fit(const CalibrationFrame& frame, const State& state) {
           .outline = detail::median(sizes[static_cast<std::size_t>(Kind::edge)])};
 }
 
-double Observer::information(const CalibrationFrame& frame, const State& state,
-                             const Twist& direction) {
+double Observer::information(const KeptFrame& frame, const State& state, const Twist& direction) {
   constexpr std::array<double, kinds> sigmas{0.003, 1.0, 1.0};  // metres, pixels, pixels
-  CalibrationFrame seen = frame;
+  KeptFrame seen = frame;
   const VirtualDepthView robot = render(frame, state);
   if (unknowns_.holds_depth)
     seen.mask = Image<std::uint8_t>(robot.depth.width, robot.depth.height);
@@ -307,7 +306,7 @@ double Observer::information(const CalibrationFrame& frame, const State& state,
   return sum;
 }
 
-void Observer::overlap(const CalibrationFrame& frame, const State& state, std::size_t& both,
+void Observer::overlap(const KeptFrame& frame, const State& state, std::size_t& both,
                        std::size_t& either) {
   const VirtualDepthView robot = render(frame, state);
   for (int v = 0; v < robot.depth.height; ++v)

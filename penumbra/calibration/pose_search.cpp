@@ -60,7 +60,7 @@ Image<std::uint8_t> made_small(const Image<std::uint8_t>& mask, const Intrinsics
 }  // namespace
 
 PoseSearch::PoseSearch(const Model& model, const Intrinsics& camera,
-                       std::span<const CalibrationFrame* const> frames, bool camera_is_fixed,
+                       std::span<const KeptFrame* const> frames, bool camera_is_fixed,
                        std::uint64_t seed)
     : model_(model),
       small_([&] {
@@ -69,7 +69,7 @@ PoseSearch::PoseSearch(const Model& model, const Intrinsics& camera,
       }()),
       seed_(seed),
       tolerance_(wide) {
-  for (const CalibrationFrame* frame : frames)
+  for (const KeptFrame* frame : frames)
     if (frame->depth.empty())
       frames_.push_back({frame, {}, made_small(frame->mask, small_)});
     else
@@ -98,7 +98,7 @@ void PoseSearch::find_moved() {
       depths.clear();
       for (const Small& small : frames_)
         if (small.depth(u, v) > 0.0f) depths.push_back(small.depth(u, v));
-      if (depths.size() < CalibrationFrames::least) continue;
+      if (depths.size() < KeptFrames::least) continue;
       const float middle = detail::median(depths);
       const float limit = middle - before_background - noise_of_square * middle * middle;
       for (Small& small : frames_)

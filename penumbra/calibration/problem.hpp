@@ -103,11 +103,11 @@ class Model {
  public:
   Model(const Robot& robot, std::size_t parent) : robot_(robot), parent_(parent) {}
 
-  [[nodiscard]] std::vector<Eigen::Isometry3d> T_camera_link(const CalibrationFrame& frame,
+  [[nodiscard]] std::vector<Eigen::Isometry3d> T_camera_link(const KeptFrame& frame,
                                                              const State& state) const;
   /// How each link moves in the camera's frame with the unknowns that move links apart from the
   /// camera, from Unknowns::joints() on: by unknown, then by link.
-  [[nodiscard]] std::vector<std::vector<Twist>> link_twists(const CalibrationFrame& frame,
+  [[nodiscard]] std::vector<std::vector<Twist>> link_twists(const KeptFrame& frame,
                                                             const State& state,
                                                             const Unknowns& unknowns) const;
   [[nodiscard]] const Robot& robot() const { return robot_; }
@@ -123,17 +123,16 @@ class Observer {
   Observer(const Model& model, const Intrinsics& camera, const Unknowns& unknowns);
 
   /// Adds the frame's residuals at a state.
-  void observe(const CalibrationFrame& frame, std::size_t number, const State& state,
-               const Reach& reach, Residuals& out);
+  void observe(const KeptFrame& frame, std::size_t number, const State& state, const Reach& reach,
+               Residuals& out);
 
   /// Returns how well the robot fits the frame.
-  [[nodiscard]] FrameFit fit(const CalibrationFrame& frame, const State& state);
+  [[nodiscard]] FrameFit fit(const KeptFrame& frame, const State& state);
   /// What a frame with these joints would tell about the pose in a direction, in any unit.
-  [[nodiscard]] double information(const CalibrationFrame& frame, const State& state,
+  [[nodiscard]] double information(const KeptFrame& frame, const State& state,
                                    const Twist& direction);
   /// Adds the pixels in which robot and mask are both, and in which one of them is.
-  void overlap(const CalibrationFrame& frame, const State& state, std::size_t& both,
-               std::size_t& either);
+  void overlap(const KeptFrame& frame, const State& state, std::size_t& both, std::size_t& either);
   [[nodiscard]] const Model& model() const { return model_; }
   /// What observe() estimates from now on.
   void set_unknowns(const Unknowns& unknowns) { unknowns_ = unknowns; }
@@ -144,7 +143,7 @@ class Observer {
   void add_outlines(const View& view, const Reach& reach, Residuals& out) const;
   void add_row(const View& view, const Residual& residual, const Twist& gradient,
                const Eigen::Vector2d& by_focal, const Eigen::Vector3d& ray, Residuals& out) const;
-  [[nodiscard]] VirtualDepthView render(const CalibrationFrame& frame, const State& state);
+  [[nodiscard]] VirtualDepthView render(const KeptFrame& frame, const State& state);
 
   const Model& model_;
   Intrinsics nominal_, camera_;  // camera_: with State::focal, that of renderer_
@@ -185,8 +184,7 @@ struct Equations {
 };
 
 [[nodiscard]] Equations equations_at(Observer& observer, const Unknowns& unknowns,
-                                     std::span<const CalibrationFrame* const> frames,
-                                     const State& state);
+                                     std::span<const KeptFrame* const> frames, const State& state);
 
 /// The result of refine().
 struct Refined {
@@ -197,7 +195,7 @@ struct Refined {
 
 /// Robust least squares from `start`, whose pose is a few centimetres and degrees off at most.
 [[nodiscard]] Refined refine(Observer& observer, const Unknowns& unknowns,
-                             std::span<const CalibrationFrame* const> frames, State start);
+                             std::span<const KeptFrame* const> frames, State start);
 
 /// An input that may be wrong.
 struct Cause {
@@ -210,7 +208,7 @@ struct Cause {
 
 /// Returns the causes that a robot and its frames can show.
 [[nodiscard]] std::vector<Cause> possible_causes(const Robot& robot,
-                                                 std::span<const CalibrationFrame* const> frames);
+                                                 std::span<const KeptFrame* const> frames);
 
 /// A cause that explains the residuals much better than the inputs do.
 struct FoundCause {
@@ -241,8 +239,7 @@ struct Explained {
 /// Frees causes in turn, the best first, while one explains the residuals of `fit` much better than
 /// zero does.
 [[nodiscard]] Explained explain(Observer& observer, const Unknowns& own,
-                                std::span<const CalibrationFrame* const> frames,
-                                const Refined& fit);
+                                std::span<const KeptFrame* const> frames, const Refined& fit);
 /// Returns a clause that names what was found, with its amount.
 [[nodiscard]] std::string text_of(const FoundCause& found, const Explained& explained,
                                   const Robot& robot, const Intrinsics& camera);
@@ -252,7 +249,7 @@ struct Explained {
 [[nodiscard]] std::string text_of_depth(const Refined& fit);
 /// Returns how the camera moves if the depth is within what sensors have.
 [[nodiscard]] Twist motion_with_usual_depth(Observer& observer, const Unknowns& own,
-                                            std::span<const CalibrationFrame* const> frames,
+                                            std::span<const KeptFrame* const> frames,
                                             const State& state);
 
 /// Rates camera poses on small images: agreement of measured and virtual depth, against what was
@@ -260,9 +257,8 @@ struct Explained {
 /// intersection over union of robot and masks.
 class PoseSearch {
  public:
-  PoseSearch(const Model& model, const Intrinsics& camera,
-             std::span<const CalibrationFrame* const> frames, bool camera_is_fixed,
-             std::uint64_t seed);
+  PoseSearch(const Model& model, const Intrinsics& camera, std::span<const KeptFrame* const> frames,
+             bool camera_is_fixed, std::uint64_t seed);
 
   /// Returns the score: at most 1 if all of the robot's pixels agree.
   [[nodiscard]] double score(const State& state, std::size_t every_frame = 1);
@@ -276,7 +272,7 @@ class PoseSearch {
 
  private:
   struct Small {
-    const CalibrationFrame* frame;
+    const KeptFrame* frame;
     Image<float> depth;
     Image<std::uint8_t> moved;  // 1: nearer than the background; without depth, the mask
   };

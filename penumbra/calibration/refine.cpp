@@ -32,8 +32,7 @@ using Vector = Eigen::VectorXd;
 
 /// What is wrong together, by frame, then link: a view of a link, which its mesh, its joint and the
 /// sensor's error there put out of place, and every later frame with the same view.
-std::vector<std::size_t> views_of(const Model& model,
-                                  std::span<const CalibrationFrame* const> frames) {
+std::vector<std::size_t> views_of(const Model& model, std::span<const KeptFrame* const> frames) {
   const std::size_t links = model.robot().links().size();
   std::vector<std::vector<Eigen::Isometry3d>> poses;
   std::vector<std::size_t> views;
@@ -197,7 +196,7 @@ std::vector<double> medians_by_link(const Residuals& residuals, std::size_t link
   return medians;
 }
 
-Residuals residuals_at(Observer& observer, std::span<const CalibrationFrame* const> frames,
+Residuals residuals_at(Observer& observer, std::span<const KeptFrame* const> frames,
                        const State& state, const Reach& reach) {
   Residuals residuals;
   for (std::size_t k = 0; k < frames.size(); ++k)
@@ -265,14 +264,14 @@ std::vector<double> Equations::wider_without() const {
 }
 
 Equations equations_at(Observer& observer, const Unknowns& unknowns,
-                       std::span<const CalibrationFrame* const> frames, const State& state) {
+                       std::span<const KeptFrame* const> frames, const State& state) {
   observer.set_unknowns(unknowns);
   return equations_of(residuals_at(observer, frames, state, last_reach), unknowns, state,
                       views_of(observer.model(), frames), observer.model().robot().links().size());
 }
 
 Refined refine(Observer& observer, const Unknowns& unknowns,
-               std::span<const CalibrationFrame* const> frames, State start) {
+               std::span<const KeptFrame* const> frames, State start) {
   const std::size_t links = observer.model().robot().links().size();
   const std::vector<std::size_t> views = views_of(observer.model(), frames);
   observer.set_unknowns(unknowns);

@@ -36,7 +36,7 @@ Image<float> made_small(const Image<float>& depth, int block) {
 Agreement::Agreement(const Setup& setup)
     : setup_(setup),
       block_(std::min(std::max(1, setup.camera.width() / small_width), setup.camera.height())) {
-  for (const DiagnosisFrame& frame : setup.frames) {
+  for (const KeptFrame& frame : setup.frames) {
     Small& small = frames_.emplace_back();
     small.depth = made_small(frame.depth, block_);
     small.moved = Image<std::uint8_t>(small.depth.width(), small.depth.height());
@@ -60,7 +60,7 @@ void Agreement::find_moved(double depth_factor) {
       small.moved.data()[i] = 0;
       if (const float z = small.depth.data()[i]; z > 0.0f) depths.push_back(factor * z);
     }
-    if (depths.size() < CalibrationFrames::least) continue;
+    if (depths.size() < KeptFrames::least) continue;
     const float middle = detail::median(depths);
     const float limit = middle - before_background - noise_of_square * middle * middle;
     for (Small& small : frames_)

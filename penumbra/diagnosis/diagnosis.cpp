@@ -34,7 +34,7 @@ class Comparison {
         observer_(model_, setup.camera, {}),
         agreement_(setup),
         given_(agreement_.rate(as_given(setup), wide)) {
-    for (const DiagnosisFrame& frame : setup.frames) frames_.push_back(&frame);
+    for (const KeptFrame& frame : setup.frames) frames_.push_back(&frame);
   }
 
   Diagnosis run(bool is_suspicious) {
@@ -45,7 +45,7 @@ class Comparison {
       for (Hypothesis& hypothesis : mistakes(setup_)) add(std::move(hypothesis));
       polish();
     }
-    if (setup_.frames.size() < CalibrationFrames::least)
+    if (setup_.frames.size() < KeptFrames::least)
       std::erase_if(rated_, [](const Rated& rated) { return !!rated.hypothesis.with_amount; });
     else if (!is_explained())
       add_pose();
@@ -104,7 +104,7 @@ class Comparison {
     // A camera on a moving link sees less of the robot in each frame.
     const std::size_t count =
         setup_.parent == 0 ? std::min<std::size_t>(4, frames_.size()) : frames_.size();
-    std::vector<const CalibrationFrame*> some;
+    std::vector<const KeptFrame*> some;
     for (std::size_t i = 0; i < count; ++i) some.push_back(frames_[i * frames_.size() / count]);
     std::vector<Eigen::Isometry3d> starts{setup_.T_parent_camera};
     if (given_.fit < good_fit) {
@@ -209,14 +209,14 @@ class Comparison {
           "frame, in metres)";
       if (largest_depth(setup_) <= normalised)
         result.message += "; no depth is above 1 m: is it normalised to 0 to 1? give metres";
-      if (setup_.frames.size() < CalibrationFrames::least)
+      if (setup_.frames.size() < KeptFrames::least)
         result.message += "; three different poses of the robot would tell more";
       return;
     }
     result.best = rated_.front().rating.score;
     const double gain = result.best - given_.score;
     // Few frames fit some wrong setup by chance.
-    if (gain < (setup_.frames.size() < CalibrationFrames::least ? great_gain : least_gain)) return;
+    if (gain < (setup_.frames.size() < KeptFrames::least ? great_gain : least_gain)) return;
     const auto explained = [&](const Rated& rated) {
       return (rated.rating.score - given_.score) / gain;
     };
@@ -243,7 +243,7 @@ class Comparison {
   }
 
   const Setup& setup_;
-  std::vector<const CalibrationFrame*> frames_;
+  std::vector<const KeptFrame*> frames_;
   calibration::Model model_;
   calibration::Observer observer_;
   Agreement agreement_;
@@ -264,9 +264,9 @@ std::string_view to_string(Diagnosis::Cause cause) {
   return names.at(static_cast<std::size_t>(cause));
 }
 
-Diagnosis diagnose(std::span<const DiagnosisFrame> frames, const Intrinsics& camera,
-                   const Robot& robot, std::size_t camera_parent,
-                   const Eigen::Isometry3d& T_parent_camera, bool is_suspicious, bool is_scanner) {
+Diagnosis diagnose(std::span<const KeptFrame> frames, const Intrinsics& camera, const Robot& robot,
+                   std::size_t camera_parent, const Eigen::Isometry3d& T_parent_camera,
+                   bool is_suspicious, bool is_scanner) {
   if (frames.empty()) return {};
   const diagnosis::Setup setup{frames, camera, robot, camera_parent, T_parent_camera, is_scanner};
   Diagnosis found = diagnosis::Comparison(setup).run(is_suspicious);

@@ -3,16 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <penumbra/calibration/calibration.hpp>
+#include <penumbra/calibration/kept_frames.hpp>
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
 namespace penumbra {
@@ -48,24 +45,10 @@ struct Diagnosis {
 
 [[nodiscard]] std::string_view to_string(Diagnosis::Cause cause);
 
-/// The robot in a frame near another one.
-struct NearbyFrame {
-  int frames = 0;                 ///< after the other one
-  std::optional<double> seconds;  ///< after the other one
-  std::vector<double> joints;     ///< order of Robot::variables(); empty if the poses are from TF
-  std::vector<Eigen::Isometry3d> T_root_link;
-};
-
-/// What a diagnosis needs of a frame.
-struct DiagnosisFrame : CalibrationFrame {
-  std::vector<NearbyFrame> around;  ///< in order, this frame's own among them
-};
-
 /// Keeps a few frames of a sequence, between which the robot moves, and diagnoses the setup.
 class SetupCheck {
  public:
   static constexpr std::size_t most = 12;  ///< frames that are kept
-  static constexpr int reach = 7;          ///< frames before and after a kept one
 
   /// `camera`: of the reports' images; `camera_parent`: index of the link that carries it.
   /// `is_scanner`: they are drawn from a sensor's scans, and the camera is the sensor.
@@ -82,37 +65,22 @@ class SetupCheck {
   [[nodiscard]] Diagnosis diagnose() const;
 
   /// Returns the number of kept frames. The robot's pose differs in all of them.
-  [[nodiscard]] std::size_t poses() const { return frames_.size(); }
+  [[nodiscard]] std::size_t poses() const { return kept_.frames().size(); }
+  /// Returns a line for each link that carries something large that the URDF lacks. `fringe_reach`:
+  /// of the label rule, pixels of the reports' images.
+  [[nodiscard]] std::vector<std::string> missing_parts(int fringe_reach) const;
 
  private:
-  struct Seen {
-    std::size_t number;
-    std::optional<std::int64_t> stamp;
-    std::vector<double> joints;
-    std::vector<Eigen::Isometry3d> T_root_link;
-  };
-  [[nodiscard]] bool wants(std::span<const Eigen::Isometry3d> T_root_link) const;
-  void keep(const FrameReport& report);
-  void thin_out();
-
   Robot robot_;
   std::size_t parent_;
   bool is_scanner_;
-  std::optional<Rectification> lens_;
-  int block_;
-  Intrinsics camera_;  // of the kept images
-  std::optional<Eigen::Isometry3d> T_parent_camera_;
+  KeptFrames kept_;
   std::size_t pixels_ = 0, measured_ = 0, elsewhere_ = 0;  // all, and the robot's
-  std::size_t seen_ = 0;
-  double motion_ = CalibrationFrames::least_motion;
-  std::deque<Seen> recent_;
-  std::vector<DiagnosisFrame> frames_;
-  std::vector<Seen> kept_;  // of frames_, without poses
 };
 
 /// Diagnoses a setup from frames of a pinhole camera. If nothing about them is suspicious, only
 /// small errors of the camera's pose are looked for. `is_scanner`: as of SetupCheck.
-[[nodiscard]] Diagnosis diagnose(std::span<const DiagnosisFrame> frames, const Intrinsics& camera,
+[[nodiscard]] Diagnosis diagnose(std::span<const KeptFrame> frames, const Intrinsics& camera,
                                  const Robot& robot, std::size_t camera_parent,
                                  const Eigen::Isometry3d& T_parent_camera,
                                  bool is_suspicious = true, bool is_scanner = false);

@@ -192,7 +192,7 @@ class Mistakes {
     const std::vector<std::size_t> turning = turning_variables();
     if (std::ranges::any_of(setup_.frames, [](const auto& f) { return f.joints.empty(); })) return;
     const auto name = [&](std::size_t i) { return "'" + setup_.robot.variables()[i] + "'"; };
-    const bool is_large = std::ranges::any_of(setup_.frames, [&](const DiagnosisFrame& frame) {
+    const bool is_large = std::ranges::any_of(setup_.frames, [&](const KeptFrame& frame) {
       return std::ranges::any_of(
           turning, [&](std::size_t i) { return std::abs(frame.joints[i]) > 2.0 * pi; });
     });
@@ -247,8 +247,11 @@ class Mistakes {
       std::size_t used = 0;
       for (std::size_t k = 0; k < setup_.frames.size(); ++k) {
         hypothesis.T_root_link[k].clear();
-        for (const NearbyFrame& near : setup_.frames[k].around)
-          if (near.frames == by) hypothesis.T_root_link[k] = near.T_root_link, ++used;
+        const KeptFrame& frame = setup_.frames[k];
+        const auto near = std::ranges::find_if(frame.nearby, [&](const KeptFrame& other) {
+          return other.number == frame.number + static_cast<std::size_t>(by);
+        });
+        if (near != frame.nearby.end()) hypothesis.T_root_link[k] = near->T_root_link, ++used;
       }
       if (used < 2 && used < setup_.frames.size()) continue;
       hypothesis.cause = Cause::joint_time;
@@ -268,7 +271,7 @@ class Mistakes {
           Hypothesis hypothesis = as_given(setup);
           std::size_t used = 0;
           for (std::size_t k = 0; k < setup.frames.size(); ++k) {
-            hypothesis.T_root_link[k] = poses_at(setup, setup.frames[k].around, by);
+            hypothesis.T_root_link[k] = poses_at(setup.robot, setup.frames[k], by);
             used += !hypothesis.T_root_link[k].empty();
           }
           if (2 * used < setup.frames.size()) return hypothesis;
@@ -278,43 +281,6 @@ class Mistakes {
                                " ms apart: of a bag or topics, set time_offset to " + number(by, 3);
           return hypothesis;
         });
-  }
-
-  /// Interpolates between frames; empty where they do not reach, or are too far apart.
-  static Poses poses_at(const Setup& setup, std::span<const NearbyFrame> around, double seconds) {
-    constexpr double farthest = 1.5, farthest_linear = 0.15;  // seconds
-    if (std::ranges::any_of(around, [](const auto& near) { return !near.seconds; })) return {};
-    const auto after =
-        std::ranges::find_if(around, [&](const auto& near) { return *near.seconds >= seconds; });
-    if (after == around.begin() || after == around.end()) return {};
-    const auto before = std::prev(after);
-    const double gap = *after->seconds - *before->seconds;
-    const double x = (seconds - *before->seconds) / gap;
-    if (gap > (before->joints.empty() ? farthest_linear : farthest)) return {};
-    Poses poses = before->T_root_link;
-    if (before->joints.empty()) {
-      for (std::size_t i = 0; i < poses.size(); ++i) {
-        const Eigen::Isometry3d& next = after->T_root_link[i];
-        poses[i].translation() += x * (next.translation() - poses[i].translation());
-        poses[i].linear() = Eigen::Quaterniond(poses[i].linear())
-                                .slerp(x, Eigen::Quaterniond(next.linear()))
-                                .toRotationMatrix();
-      }
-      return poses;
-    }
-    // Cubic (Catmull and Rom 1974), with the slopes of the neighbours.
-    const auto first = before == around.begin() ? before : std::prev(before);
-    const auto last = std::next(after) == around.end() ? after : std::next(after);
-    std::vector<double> joints(before->joints.size());
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      const double a = before->joints[j], b = after->joints[j];
-      const double slope_a = gap * (b - first->joints[j]) / (*after->seconds - *first->seconds);
-      const double slope_b = gap * (last->joints[j] - a) / (*last->seconds - *before->seconds);
-      joints[j] = a + x * (slope_a + x * (3 * (b - a) - 2 * slope_a - slope_b +
-                                          x * (2 * (a - b) + slope_a + slope_b)));
-    }
-    setup.robot.forward_kinematics(joints, poses);
-    return poses;
   }
 
   const Setup& setup_;
@@ -329,14 +295,13 @@ Hypothesis as_given(const Setup& setup) {
                         .T_root_link = {},
                         .message = {},
                         .with_amount = {}};
-  for (const DiagnosisFrame& frame : setup.frames)
-    hypothesis.T_root_link.push_back(frame.T_root_link);
+  for (const KeptFrame& frame : setup.frames) hypothesis.T_root_link.push_back(frame.T_root_link);
   return hypothesis;
 }
 
 float largest_depth(const Setup& setup) {
   float largest = 0.0F;
-  for (const DiagnosisFrame& frame : setup.frames)
+  for (const KeptFrame& frame : setup.frames)
     for (const float z : std::span(frame.depth.data(), frame.depth.size()))
       if (std::isfinite(z)) largest = std::max(largest, z);
   return largest;

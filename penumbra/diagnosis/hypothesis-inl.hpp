@@ -36,7 +36,7 @@ struct Hypothesis {
 
 /// What is given.
 struct Setup {
-  std::span<const DiagnosisFrame> frames;
+  std::span<const KeptFrame> frames;
   const Intrinsics& camera;
   const Robot& robot;
   std::size_t parent;

@@ -48,9 +48,9 @@ Warnings::Warnings(const Pipeline& pipeline, const PipelineConfig& config)
   if (!has_depth_) return;
   const std::size_t parent =
       config.camera_parent.empty() ? 0 : *robot_.find_link(config.camera_parent);
-  sensor_.emplace(Sensor{.missing = MissingParts(robot_, pipeline.rule().fringe_reach),
-                         .setup = SetupCheck(robot_, pipeline.report_camera(), parent),
-                         .image = config.image});
+  sensor_.emplace(Sensor{.setup = SetupCheck(robot_, pipeline.report_camera(), parent),
+                         .image = config.image,
+                         .fringe_reach = pipeline.rule().fringe_reach});
 }
 
 void Warnings::add(const FrameReport& report, const Frame& frame) {
@@ -76,7 +76,6 @@ void Warnings::add(const FrameReport& report, const Frame& frame) {
   add_targets(report);
   add_stamp(report);
   if (sensor_ && !is_scanner_) {
-    sensor_->missing->add(report);
     sensor_->setup.add(report, positions);
     diagnosis_.reset();
   }
@@ -87,9 +86,9 @@ void Warnings::add(const FrameReport& report, const Frame& frame) {
 
 void Warnings::add(const ScanImage& image) {
   if (!sensor_)
-    sensor_.emplace(Sensor{.missing = {},
-                           .setup = SetupCheck(robot_, image.camera(), image.parent(), true),
-                           .image = ImageSpace::raw});
+    sensor_.emplace(Sensor{.setup = SetupCheck(robot_, image.camera(), image.parent(), true),
+                           .image = ImageSpace::raw,
+                           .fringe_reach = 0});
   sensor_->setup.add(image.report(), image.positions());
   diagnosis_.reset();
 }
@@ -176,9 +175,9 @@ std::vector<std::string> Warnings::lines() const {
                 "' beyond its limits in " + counted(frames_beyond_[i], "frame");
   if (!is_named && !joints.empty())
     lines.push_back(joints + ": are the positions in radians and metres?");
-  if (!sensor_ || !sensor_->missing || found.cause != Diagnosis::Cause::none || !body_note_.empty())
-    return lines;
-  for (std::string& line : sensor_->missing->lines()) lines.push_back(std::move(line));
+  if (!sensor_ || found.cause != Diagnosis::Cause::none || !body_note_.empty()) return lines;
+  for (std::string& line : sensor_->setup.missing_parts(sensor_->fringe_reach))
+    lines.push_back(std::move(line));
   return lines;
 }
 
@@ -187,7 +186,7 @@ void Warnings::add_scan_lines(std::vector<std::string>& lines) const {
   if (on_robot == 0)
     lines.emplace_back(
         "no point is on the robot: it is out of the sensor's view, or the sensor's pose is wrong");
-  else if (poses() < CalibrationFrames::least && exceeds(beyond_, likely_wrong, on_robot))
+  else if (poses() < KeptFrames::least && exceeds(beyond_, likely_wrong, on_robot))
     lines.push_back(
         std::to_string(
             std::lround(100.0 * static_cast<double>(beyond_) / static_cast<double>(on_robot))) +

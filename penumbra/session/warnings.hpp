@@ -14,7 +14,6 @@
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/tuning/missing_parts.hpp>
 
 namespace penumbra {
 
@@ -73,9 +72,9 @@ class Warnings {
 
   /// What compares frames that a sensor measured.
   struct Sensor {
-    std::optional<MissingParts> missing;  // null: scans, whose fringe has other causes
     SetupCheck setup;
     ImageSpace image;
+    int fringe_reach;  // pixels; 0: scans, whose fringe has other causes
   };
 
   Robot robot_;

@@ -36,7 +36,7 @@ struct Point {
 
 void add_points(const Scene& scene, const LabelRule& rule, const LabelView& labels,
                 std::size_t frame_number, std::vector<Point>& points) {
-  const TuningFrame& frame = scene.frames[frame_number];
+  const KeptFrame& frame = scene.frames[frame_number];
   const NearestPixels robot = seen_robot(labels);
   const auto point = [&](int u, int v) -> Eigen::Vector3d {
     return scene.camera.ray(u, v) * frame.depth(u, v);
@@ -64,13 +64,12 @@ void add_points(const Scene& scene, const LabelRule& rule, const LabelView& labe
 Groups rigid_groups(const Scene& scene) {
   Groups groups;
   const auto moves = [&](std::size_t a, std::size_t b) {
-    const auto pose = [&](const TuningFrame& frame) -> Eigen::Isometry3d {
-      return frame.T_camera_link[a].inverse() * frame.T_camera_link[b];
+    const auto pose = [&](const KeptFrame& frame) -> Eigen::Isometry3d {
+      return frame.T_root_link[a].inverse() * frame.T_root_link[b];
     };
     const Eigen::Isometry3d first = pose(scene.frames.front());
-    return std::any_of(scene.frames.begin(), scene.frames.end(), [&](const TuningFrame& frame) {
-      return !pose(frame).isApprox(first, 1e-3);
-    });
+    return std::any_of(scene.frames.begin(), scene.frames.end(),
+                       [&](const KeptFrame& frame) { return !pose(frame).isApprox(first, 1e-3); });
   };
   for (std::size_t link = 0; link < scene.robot.links().size(); ++link) {
     const auto same = std::find_if(groups.begin(), groups.end(),
@@ -90,11 +89,11 @@ struct NearLink {
 
 /// Returns the link of the group that is nearest to a voxel in the group's frame.
 NearLink nearest_link(const Scene& scene, const std::vector<std::size_t>& group, Voxel voxel) {
-  const std::vector<Eigen::Isometry3d>& links = scene.frames.front().T_camera_link;
-  const Eigen::Vector3d camera = links[group.front()] * centre_of(voxel);
+  const std::vector<Eigen::Isometry3d>& links = scene.frames.front().T_root_link;
+  const Eigen::Vector3d centre = links[group.front()] * centre_of(voxel);
   NearLink nearest{group.front(), std::numeric_limits<double>::infinity()};
   for (const std::size_t link : group) {
-    const Eigen::Vector3d point = links[link].inverse() * camera;
+    const Eigen::Vector3d point = links[link].inverse() * centre;
     const Eigen::AlignedBox3d& box = scene.robot.report()[link].bounds;
     const double distance = box.isEmpty() ? point.norm() : box.exteriorDistance(point);
     if (distance < nearest.distance) nearest = {link, distance};
@@ -105,10 +104,13 @@ NearLink nearest_link(const Scene& scene, const std::vector<std::size_t>& group,
 /// Scores voxels in the frame of one group by the number of frames in which they are occupied.
 class Grid {
  public:
-  Grid(const Scene& scene, const std::vector<std::size_t>& group) : scene_(scene), group_(group) {}
+  Grid(const Scene& scene, const std::vector<std::size_t>& group) : scene_(scene), group_(group) {
+    for (const KeptFrame& frame : scene.frames)
+      T_camera_group_.push_back(frame.T_root_camera->inverse() * frame.T_root_link[group.front()]);
+  }
 
   [[nodiscard]] Voxel voxel_of(const Point& point) const {
-    return voxel_at(frame(point.frame).inverse() * point.camera);
+    return voxel_at(T_camera_group_[point.frame].inverse() * point.camera);
   }
   void add(const Point& point) { hits_[voxel_of(point)] |= 1U << point.frame; }
 
@@ -123,15 +125,11 @@ class Grid {
   }
 
  private:
-  [[nodiscard]] const Eigen::Isometry3d& frame(std::size_t i) const {
-    return scene_.frames[i].T_camera_link[group_.front()];
-  }
-
   [[nodiscard]] double score(const Eigen::Vector3d& centre, std::uint32_t hits) const {
     int occupied = std::popcount(hits), empty = 0;
     for (std::size_t i = 0; i < scene_.frames.size(); ++i) {
       if ((hits >> i & 1U) != 0) continue;
-      const Eigen::Vector3d point = frame(i) * centre;
+      const Eigen::Vector3d point = T_camera_group_[i] * centre;
       const float measured = depth_at(scene_.frames[i].depth, point);
       const double behind = measured - point.z();
       const double same = same_surface * LabelRule().tolerance.at(point.z());
@@ -154,9 +152,10 @@ class Grid {
 
   const Scene& scene_;
   const std::vector<std::size_t>& group_;
+  std::vector<Eigen::Isometry3d> T_camera_group_;  // of each frame
   std::unordered_map<Voxel, std::uint32_t> hits_;  // a bit for each frame
 };
-static_assert(TuningFrames::most <= 32);
+static_assert(most_tuning_frames <= 32);
 
 /// Returns each point's score in the frame of each group.
 std::vector<std::vector<double>> scores_of(const Scene& scene, const Groups& groups,
@@ -202,7 +201,7 @@ void assign(const Scene& scene, const Groups& groups, std::vector<Point>& points
 /// Returns the part made of the pieces, in the frame of the nearest link of the group.
 ExtraPart make_part(const Scene& scene, const std::vector<std::size_t>& group,
                     const std::vector<VoxelSet>& pieces) {
-  const std::vector<Eigen::Isometry3d>& links = scene.frames.front().T_camera_link;
+  const std::vector<Eigen::Isometry3d>& links = scene.frames.front().T_root_link;
   const auto in_frame = [&](std::size_t link, const Eigen::Vector3d& point) -> Eigen::Vector3d {
     return links[link].inverse() * links[group.front()] * point;
   };

@@ -18,7 +18,7 @@ constexpr int candidates = FringeFit::farthest / FringeFit::step + 1;
 /// A frame as it looks with the settings that are recommended: the robot with the parts found.
 struct DrawnFrame {
   Image<float> virtual_depth;
-  Image<std::uint16_t> links;  // as in TuningFrame
+  Image<std::uint16_t> links;  // as in KeptFrame
 };
 
 /// Draws the parts found over the robot.
@@ -33,11 +33,12 @@ class PartPainter {
     renderer_ = make_depth_renderer(Backend::cpu, scene.camera, bodies);
   }
 
-  [[nodiscard]] DrawnFrame draw(const TuningFrame& frame) {
+  [[nodiscard]] DrawnFrame draw(const KeptFrame& frame) {
     DrawnFrame drawn{frame.virtual_depth, frame.links};
     if (parts_.empty()) return drawn;
     std::vector<Eigen::Isometry3d> poses;
-    for (const ExtraPart& part : parts_) poses.push_back(frame.T_camera_link[part.link]);
+    for (const ExtraPart& part : parts_)
+      poses.push_back(frame.T_root_camera->inverse() * frame.T_root_link[part.link]);
     const VirtualDepthView parts = renderer_->render(poses);
     for (int v = 0; v < parts.depth.height; ++v)
       for (int u = 0; u < parts.depth.width; ++u) {
@@ -86,7 +87,7 @@ class FringeSearch {
     std::array<std::size_t, candidates> left{};
     std::size_t most = 0;
     for (std::size_t i = 0; i < scene_.frames.size(); ++i) {
-      const TuningFrame& frame = scene_.frames[i];
+      const KeptFrame& frame = scene_.frames[i];
       const DrawnFrame drawn = painter_.draw(frame);
       const ArmPixels found = find(frame, drawn);
       if (found.carried.size() > most) most = found.carried.size(), fit.shown_frame = i;
@@ -105,7 +106,7 @@ class FringeSearch {
   }
 
   void show(FringeFit& fit) {
-    const TuningFrame& frame = scene_.frames[fit.shown_frame];
+    const KeptFrame& frame = scene_.frames[fit.shown_frame];
     const DrawnFrame drawn = painter_.draw(frame);
     Labeller& labeller = labellers_[static_cast<std::size_t>(fit.reach / FringeFit::step)];
     const LabelView labels = labeller.label(frame, drawn.virtual_depth);
@@ -129,7 +130,7 @@ class FringeSearch {
     return link > moves_.size() || moves_[link - 1U];  // more: an attached body
   }
 
-  [[nodiscard]] ArmPixels find(const TuningFrame& frame, const DrawnFrame& drawn) const {
+  [[nodiscard]] ArmPixels find(const KeptFrame& frame, const DrawnFrame& drawn) const {
     const ImageView<const float> virtual_depth = drawn.virtual_depth.view();
     const NearestPixels robot = robot_pixels(virtual_depth);
     ArmPixels found;

@@ -16,7 +16,7 @@ inline constexpr std::size_t least_pixels = 500;  // for each measurement
 
 /// The input of all stages.
 struct Scene {
-  std::span<const TuningFrame> frames;
+  std::span<const KeptFrame> frames;
   const Intrinsics& camera;
   const Robot& robot;
   Image<float> background;  // metres: median of each pixel without the robot; 0: unknown
@@ -33,7 +33,7 @@ struct Scene {
   }
 };
 
-[[nodiscard]] Scene make_scene(std::span<const TuningFrame> frames, const Intrinsics& camera,
+[[nodiscard]] Scene make_scene(std::span<const KeptFrame> frames, const Intrinsics& camera,
                                const Robot& robot);
 
 /// Labels the kept frames.
@@ -41,8 +41,8 @@ class Labeller {
  public:
   Labeller(const Scene& scene, const LabelRule& rule)
       : classifier_(scene.camera.width(), scene.camera.height(), rule) {}
-  LabelView label(const TuningFrame& frame) { return label(frame, frame.virtual_depth); }
-  LabelView label(const TuningFrame& frame, const Image<float>& virtual_depth) {
+  LabelView label(const KeptFrame& frame) { return label(frame, frame.virtual_depth); }
+  LabelView label(const KeptFrame& frame, const Image<float>& virtual_depth) {
     return classifier_.classify({virtual_depth.view(), {}, nullptr}, frame.depth.view());
   }
 

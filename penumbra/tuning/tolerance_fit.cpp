@@ -41,7 +41,7 @@ std::vector<Residual> residuals_of(const Scene& scene, LabelRule rule) {
     *term *= object;
   Labeller labeller(scene, rule);
   std::vector<Residual> residuals;
-  for (const TuningFrame& frame : scene.frames) {
+  for (const KeptFrame& frame : scene.frames) {
     const NearestPixels edges = edges_of(frame.virtual_depth, labeller.label(frame));
     for (int v = 0; v < scene.camera.height(); ++v)
       for (int u = 0; u < scene.camera.width(); ++u) {
@@ -94,7 +94,7 @@ Tolerance scaled(const Tolerance& curve, const std::vector<Residual>& residuals)
 double front_share(const Scene& scene, const LabelRule& rule) {
   Labeller labeller(scene, rule);
   std::size_t front = 0, robot = 0;
-  for (const TuningFrame& frame : scene.frames) {
+  for (const KeptFrame& frame : scene.frames) {
     const LabelView labels = labeller.label(frame);
     for (const Label label : {Label::front, Label::occluded, Label::unknown, Label::beyond})
       robot += labels.pixels[static_cast<std::size_t>(label)];

@@ -8,12 +8,11 @@
 namespace penumbra {
 namespace tuning {
 
-Scene make_scene(std::span<const TuningFrame> frames, const Intrinsics& camera,
-                 const Robot& robot) {
+Scene make_scene(std::span<const KeptFrame> frames, const Intrinsics& camera, const Robot& robot) {
   const int width = camera.width(), height = camera.height();
   Scene scene{frames, camera, robot, Image<float>(width, height)};
   std::vector<std::vector<float>> depths(scene.background.size());
-  for (const TuningFrame& frame : frames) {
+  for (const KeptFrame& frame : frames) {
     const NearestPixels nearest = robot_pixels(frame.virtual_depth.view());
     for (int v = 0; v < height; ++v)
       for (int u = 0; u < width; ++u)
@@ -29,10 +28,10 @@ Scene make_scene(std::span<const TuningFrame> frames, const Intrinsics& camera,
 std::vector<bool> moving_links(const Scene& scene) {
   constexpr double still = 1e-3;
   std::vector<bool> moves;
-  const std::vector<Eigen::Isometry3d>& first = scene.frames.front().T_camera_link;
+  const std::vector<Eigen::Isometry3d>& first = scene.frames.front().T_root_link;
   for (std::size_t link = 0; link < first.size(); ++link)
     moves.push_back(std::any_of(scene.frames.begin(), scene.frames.end(), [&](const auto& frame) {
-      return !frame.T_camera_link[link].isApprox(first[link], still);
+      return !frame.T_root_link[link].isApprox(first[link], still);
     }));
   return moves;
 }
@@ -54,10 +53,10 @@ NearestPixels seen_robot(const LabelView& labels) {
 
 }  // namespace tuning
 
-Tuning tune(const TuningFrames& frames, const Intrinsics& camera, const Robot& robot,
+Tuning tune(std::span<const KeptFrame> frames, const Intrinsics& camera, const Robot& robot,
             const LabelRule& current) {
-  frames.check();
-  const tuning::Scene scene = tuning::make_scene(frames.frames(), camera, robot);
+  check_enough(frames, "tune");
+  const tuning::Scene scene = tuning::make_scene(frames, camera, robot);
   Tuning found;
   found.rule = current;
   found.tolerance = tuning::fit_tolerance(scene, current);

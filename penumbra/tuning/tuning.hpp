@@ -8,11 +8,11 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
+#include <penumbra/calibration/kept_frames.hpp>
 #include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/mesh/triangle_mesh.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/tuning/tuning_frames.hpp>
 
 namespace penumbra {
 
@@ -39,7 +39,7 @@ struct FringeFit {
   /// By reach / step: `found` that are not fringe, as a share of the arm's measured points, with
   /// the recommended tolerance and the extra parts drawn.
   std::vector<double> left_over;
-  std::size_t shown_frame = 0;  ///< of TuningFrames::frames(), with the most fringe
+  std::size_t shown_frame = 0;  ///< number among the frames, with the most fringe
   Image<std::uint8_t> shown;    ///< its pixels: Shown, by the recommended rule
 };
 
@@ -57,9 +57,13 @@ struct Tuning {
   std::vector<ExtraPart> extras;  ///< one for each link that has any
 };
 
-/// Measures a sensor. `camera` is a pinhole camera whose images the frames are, `robot` what was
-/// drawn, `current` the rule in use. Throws InputError if the frames show too little.
-[[nodiscard]] Tuning tune(const TuningFrames& frames, const Intrinsics& camera, const Robot& robot,
-                          const LabelRule& current);
+constexpr std::size_t most_tuning_frames = 32;
+
+/// Measures a sensor in up to most_tuning_frames frames with depth, virtual depth and links, of a
+/// camera that does not move relative to the robot's root. `camera` is a pinhole camera whose
+/// images the frames are, `robot` what was drawn, `current` the rule in use. Throws InputError if
+/// the frames show too little.
+[[nodiscard]] Tuning tune(std::span<const KeptFrame> frames, const Intrinsics& camera,
+                          const Robot& robot, const LabelRule& current);
 
 }  // namespace penumbra

@@ -129,7 +129,7 @@ constexpr int few_scans = 40, columns_of_few = 80;
 TEST(ScanSetup, NothingIsSaidOfARightOne) {
   Session session = session_of();
   watch(session, few_scans, columns_of_few);
-  EXPECT_GE(session.poses(), CalibrationFrames::least);
+  EXPECT_GE(session.poses(), KeptFrames::least);
   EXPECT_EQ(session.diagnosis().cause, Diagnosis::Cause::none) << session.diagnosis().message;
   EXPECT_TRUE(session.warnings().empty()) << session.warnings().front();
 }

@@ -65,13 +65,14 @@ class RenderedCalibration : public testing::Test {
     std::vector<double> joints = robot.rest_positions();
     std::copy_n(std::array{0.3, 0.2, 1.0, 0.3, 0.6}.begin(), 5, joints.begin());
     for (const double seconds : {-0.1, 0.0, 0.1}) {
-      NearbyPoses poses{.seconds = seconds,
-                        .T_root_link = std::vector<Isometry3d>(robot.links().size())};
-      std::vector<double> then = joints;
-      for (double& joint : then) joint += 0.5 * seconds;
-      robot.forward_kinematics(then, poses.T_root_link);
-      frame.nearby.push_back(poses);
+      KeptFrame& near = frame.nearby.emplace_back();
+      near.stamp = static_cast<std::int64_t>(1e9 * seconds);
+      near.joints = joints;
+      near.T_root_link.resize(robot.links().size());
+      for (double& joint : near.joints) joint += 0.5 * seconds;
+      robot.forward_kinematics(near.joints, near.T_root_link);
     }
+    frame.stamp = 0;
     frame.joints = joints;
     frame.T_root_link = frame.nearby[1].T_root_link;
   }
@@ -107,8 +108,8 @@ class RenderedCalibration : public testing::Test {
   }
 
   /// Frames after each turn.
-  std::vector<CalibrationFrame> drawn(const State& truth) {
-    std::vector<CalibrationFrame> frames;
+  std::vector<KeptFrame> drawn(const State& truth) {
+    std::vector<KeptFrame> frames;
     for (const double turn : turns) {
       turn_joints(turn);
       robot.forward_kinematics(frame.joints, frame.T_root_link);
@@ -137,7 +138,7 @@ class RenderedCalibration : public testing::Test {
   Intrinsics camera{848, 480, 610.0, 600.0, 423.5, 239.5};
   Unknowns unknowns;
   State state{.T_parent_camera = Isometry3d::Identity(), .joint_offsets = {}};
-  CalibrationFrame frame;
+  KeptFrame frame;
 };
 
 TEST_F(RenderedCalibration, DerivativesAreThoseOfRenderedImages) {
@@ -160,7 +161,7 @@ TEST_F(RenderedCalibration, DerivativesAreThoseOfRenderedImages) {
                                             {joints, 0.02},
                                             {joints + 1, 0.02},
                                             {joints + 2, 0.02},
-                                            {unknowns.time(), 0.03},
+                                            {unknowns.time(), 0.02},
                                             {unknowns.lens(), 0.3}};
   const auto size = std::size_t(unknowns.size());
   for (const auto& [unknown, change] : changes) {
@@ -200,7 +201,7 @@ TEST_F(RenderedCalibration, ARobotOfWhichOnlyTheBaseIsSeenIsRefused) {
 }
 
 TEST_F(RenderedCalibration, AWrongFocalLengthIsNamedAndFound) {
-  const std::vector<CalibrationFrame> frames = drawn(state);
+  const std::vector<KeptFrame> frames = drawn(state);
   const Intrinsics wrong(848, 480, 1.02 * camera.fx(), 1.02 * camera.fy(), camera.cx(),
                          camera.cy());
   CalibrationOptions given = options();
@@ -220,8 +221,8 @@ TEST_F(RenderedCalibration, AWrongFocalLengthIsNamedAndFound) {
 
 TEST_F(RenderedCalibration, ALensThatCameraInfoLacksIsNamed) {
   for (const double k1 : {-0.1, 0.1}) {
-    std::vector<CalibrationFrame> frames = drawn(state);
-    for (CalibrationFrame& each : frames) each.depth = seen_by_lens(each.depth, camera, k1);
+    std::vector<KeptFrame> frames = drawn(state);
+    for (KeptFrame& each : frames) each.depth = seen_by_lens(each.depth, camera, k1);
     const Calibration found = calibrate(frames, camera, robot, options());
     EXPECT_TRUE(says(found, "lens")) << k1;
     EXPECT_LT(off(found.T_parent_camera), found.position_error());
@@ -239,13 +240,14 @@ TEST_F(RenderedCalibration, ClocksThatDifferAreNamed) {
   State truth = state;
   truth.time_offset = 0.04;
   const auto moving = [&](const auto& velocity) {
-    std::vector<CalibrationFrame> frames;
+    std::vector<KeptFrame> frames;
     for (std::size_t i = 0; i < turns.size(); ++i) {
       turn_joints(turns[i]);
-      for (NearbyPoses& poses : frame.nearby) {
-        std::vector<double> then = frame.joints;
-        for (std::size_t j = 0; j < 4; ++j) then[j] += velocity(i, j) * poses.seconds;
-        robot.forward_kinematics(then, poses.T_root_link);
+      for (KeptFrame& near : frame.nearby) {
+        near.joints = frame.joints;
+        for (std::size_t j = 0; j < 4; ++j)
+          near.joints[j] += velocity(i, j) * *near.seconds_after(frame);
+        robot.forward_kinematics(near.joints, near.T_root_link);
       }
       frame.T_root_link = frame.nearby[1].T_root_link;
       draw(truth);
@@ -274,10 +276,12 @@ Frame frame_at(std::int64_t stamp, std::vector<double> joints, const Image<float
   return frame;
 }
 
-TEST(CalibrationFrames, PosesWithoutImagesTellTheTimeOfImagesThatAreSecondsApart) {
+const Camera tiny_camera{Intrinsics(8, 6, 8, 8, 4, 3), {}, {}, {}};
+
+TEST(KeptFrames, PosesWithoutImagesTellTheTimeOfImagesThatAreSecondsApart) {
   const Robot robot = load_arm();
   const Image<float> depth(8, 6);
-  CalibrationFrames frames(robot, true, true);
+  KeptFrames frames(robot, tiny_camera, {.choice = KeptFrames::Choice::moving});
   std::vector<double> joints = robot.rest_positions();
   for (int i = 0; i <= 130; ++i) {  // 6.5 s, images each 2 s
     joints[1] = 0.015 * i;          // rad: the tip moves by 0.2 m/s
@@ -285,14 +289,14 @@ TEST(CalibrationFrames, PosesWithoutImagesTellTheTimeOfImagesThatAreSecondsApart
     if (kept) frames.add(*std::move(kept));
   }
   ASSERT_EQ(frames.chosen().size(), 3U);
-  for (const CalibrationFrame& frame : frames.chosen()) EXPECT_GE(frame.nearby.size(), 5U);
+  for (const KeptFrame& frame : frames.chosen()) EXPECT_GE(frame.nearby.size(), 5U);
   EXPECT_EQ(frames.seen(), 131U);
 }
 
-TEST(CalibrationFrames, FramesAtRestAreTakenBeforeOthers) {
+TEST(KeptFrames, FramesAtRestAreTakenBeforeOthers) {
   const Robot robot = load_arm();
   const Image<float> depth(8, 6);
-  CalibrationFrames frames(robot, true);
+  KeptFrames frames(robot, tiny_camera, {.choice = KeptFrames::Choice::rest_first});
   std::vector<double> joints = robot.rest_positions();
   for (int i = 0; i < 40; ++i) {
     if (i % 10 >= 3) joints[1] += 0.05;  // rests for three frames of ten
@@ -300,7 +304,7 @@ TEST(CalibrationFrames, FramesAtRestAreTakenBeforeOthers) {
     if (kept) frames.add(*std::move(kept));
   }
   ASSERT_EQ(frames.chosen().size(), 4U);
-  for (const CalibrationFrame& frame : frames.chosen()) EXPECT_LT(frame.index % 10, 3U);
+  for (const KeptFrame& frame : frames.chosen()) EXPECT_LT(frame.index % 10, 3U);
   EXPECT_TRUE(frames.notes().empty());
 }
 

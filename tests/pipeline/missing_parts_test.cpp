@@ -2,7 +2,7 @@
 // Which links carry a part that the URDF lacks, in a scene whose depth a formula tells.
 #include "slab_scene.hpp"
 
-#include <penumbra/tuning/missing_parts.hpp>
+#include <penumbra/diagnosis/diagnosis.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -14,13 +14,13 @@ std::vector<std::string> said_of_a_box(double share) {
   PipelineConfig config = plain_config();
   config.rule.fringe_reach = 40;
   Pipeline pipeline(slab_robot(), camera, config);
-  MissingParts parts(pipeline.robot(), config.rule.fringe_reach);
+  SetupCheck check(pipeline.robot(), camera, 0);
   for (const double slide : {0.0, 0.1, 0.3, 0.2}) {
     const SlabBox box{{-0.35, 0.0, 1.0 + share * slide}, {0.3, 0.2, 0.1}, 0};
     const Image<float> depth = scene_depth(camera, slide, {box});
-    parts.add(pipeline.process(frame_of(depth, slide)));
+    check.add(pipeline.process(frame_of(depth, slide)), {});
   }
-  return parts.lines();
+  return check.missing_parts(config.rule.fringe_reach);
 }
 
 TEST(MissingParts, NameTheLinkThatCarriesOne) {

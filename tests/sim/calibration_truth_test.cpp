@@ -19,12 +19,10 @@ struct Seen {
       : simulation("random", without_color(seed, true)), random(seed, 5) {
     sim::SimFrame frame;
     while (frames.size() < count && simulation.next(frame)) {
-      CalibrationFrame kept{.index = frames.size(),
-                            .depth = in_metres(frame.depth),
-                            .mask = {},
-                            .joints = frame.joints,
-                            .T_root_link = std::vector<Eigen::Isometry3d>(robot().links().size()),
-                            .nearby = {}};
+      KeptFrame kept{.index = frames.size(),
+                     .joints = frame.joints,
+                     .T_root_link = std::vector<Eigen::Isometry3d>(robot().links().size()),
+                     .depth = in_metres(frame.depth)};
       robot().forward_kinematics(kept.joints, kept.T_root_link);
       masks.push_back(mask_of(frame));
       frames.push_back(std::move(kept));
@@ -43,7 +41,7 @@ struct Seen {
 
   /// Takes the depth away and gives the frames their masks.
   void see_masks_only() {
-    for (CalibrationFrame& frame : frames) {
+    for (KeptFrame& frame : frames) {
       frame.depth = {};
       frame.mask = std::move(masks[frame.index]);
     }
@@ -80,7 +78,7 @@ struct Seen {
 
   sim::Simulation simulation;
   sim::Random random;
-  std::vector<CalibrationFrame> frames;
+  std::vector<KeptFrame> frames;
   std::vector<Image<std::uint8_t>> masks;
 };
 
@@ -112,7 +110,7 @@ TEST_F(CalibrationTruth, TheRegionOfFewPosesHoldsTheTruthDespiteJointZeros) {
     std::vector<double> errors(seen.robot().variables().size());
     for (double& error : errors) error = zero * seen.random.normal();
     errors.back() = 0.0;  // the gripper
-    for (CalibrationFrame& frame : seen.frames) {
+    for (KeptFrame& frame : seen.frames) {
       for (std::size_t j = 0; j < errors.size(); ++j) frame.joints[j] += errors[j];
       seen.robot().forward_kinematics(frame.joints, frame.T_root_link);
     }
@@ -130,7 +128,7 @@ TEST_F(CalibrationTruth, TheRegionOfFewPosesHoldsTheTruthDespiteJointZeros) {
 
 TEST_F(CalibrationTruth, AFrameWithWrongJointsIsLeftOut) {
   Seen seen(5);
-  CalibrationFrame& wrong = seen.frames[4];
+  KeptFrame& wrong = seen.frames[4];
   for (double& joint : wrong.joints) joint += 0.3;
   seen.robot().forward_kinematics(wrong.joints, wrong.T_root_link);
   const Calibration found = seen.from_guess();
@@ -178,10 +176,10 @@ TEST_F(CalibrationTruth, MasksAloneGiveTheFocalLength) {
 
 TEST_F(CalibrationTruth, ARobotOutOfViewIsRefused) {
   Seen by_depth(6, 3), by_masks(17, 3);
-  for (CalibrationFrame& frame : by_depth.frames)
+  for (KeptFrame& frame : by_depth.frames)
     std::fill_n(frame.depth.data(), frame.depth.size(), 3.0F);
   by_masks.see_masks_only();
-  for (CalibrationFrame& frame : by_masks.frames)
+  for (KeptFrame& frame : by_masks.frames)
     std::fill_n(frame.mask.data(), frame.mask.size(), std::uint8_t{0});
   for (Seen* seen : {&by_depth, &by_masks}) {
     EXPECT_FALSE(seen->from_guess().is_good());
@@ -195,7 +193,7 @@ TEST_F(CalibrationTruth, AnOffsetOfAJointIsFound) {
   Seen seen(7);
   constexpr double offset = 0.01;  // rad
   const std::size_t elbow = *seen.robot().find_variable("elbow");
-  for (CalibrationFrame& frame : seen.frames) {
+  for (KeptFrame& frame : seen.frames) {
     frame.joints[elbow] -= offset;
     seen.robot().forward_kinematics(frame.joints, frame.T_root_link);
   }
