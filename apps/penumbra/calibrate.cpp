@@ -101,12 +101,9 @@ void print_pose(const Calibration& found, const std::string& parent, const std::
     std::cout << "URDF: multiply the origin of this link's joint by the pose\n";
     return;
   }
-  std::cout << "ROS 2: ros2 run tf2_ros static_transform_publisher --x " << fixed(T(0, 3), 5)
-            << " --y " << fixed(T(1, 3), 5) << " --z " << fixed(T(2, 3), 5) << " --qx "
-            << fixed(q.x(), 6) << " --qy " << fixed(q.y(), 6) << " --qz " << fixed(q.z(), 6)
-            << " --qw " << fixed(q.w(), 6) << " --frame-id " << io::for_shell(parent)
-            << " --child-frame-id "
-            << (frame.empty() ? "camera_optical_frame" : io::for_shell(frame))
+  std::cout << "ROS 2: "
+            << io::static_transform_command(T, parent,
+                                            frame.empty() ? "camera_optical_frame" : frame)
             << "\n  (in place of the transforms that lead to this frame now)\n";
 }
 

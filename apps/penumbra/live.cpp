@@ -26,6 +26,7 @@
 #include <apps/penumbra/text.hpp>
 #include <io/files/disk_file.hpp>
 #include <io/files/pending_file.hpp>
+#include <io/files/pose_file.hpp>
 #include <io/live/diagnostic_changes.hpp>
 #include <io/live/live_summary.hpp>
 #include <io/ros/message_encoder.hpp>
@@ -156,6 +157,7 @@ class Live {
       : arguments_(arguments), pages_(pages) {
     std::vector<io::ResultSink*> sinks;
     for (const io::CameraInputOptions& camera : options.cameras) {
+      cameras_.push_back(camera.name);
       results_.push_back(std::make_unique<GraphResults>(graph, [&](const io::ResultTopic& topic) {
         return is_published(arguments, topic.name) ? names.resolve(result_name(camera.name, topic))
                                                    : std::string();
@@ -169,6 +171,8 @@ class Live {
       sinks.push_back(clouds_.back().get());
     }
     runner_ = std::make_unique<io::LiveRunner>(options, config_of(arguments), sinks);
+    for (std::size_t i = 0; i < results_.size() && arguments.calibrate; ++i)
+      runner_->calibration(i).begin(arguments.search);
     pages.watch(*runner_, options.cameras);
     if (options.cameras.size() > 1 && is_published(arguments, io::target_views_topic))
       fuse(options, names, graph);
@@ -192,6 +196,7 @@ class Live {
     graph.wake();
     receiving.join();
     runner_->stop();
+    print_calibrations(true);
     if (!fault_) fault_ = runner_->fault();
     return stopped;
   }
@@ -243,7 +248,9 @@ class Live {
       });
       add_losses(message);
       if (fusion_) fusion_->add_contradictions(message);
+      runner_->add_calibrations(message);
       diagnostics.publish(message);
+      print_calibrations(false);
       next += report_period;
       auto until = next;
       if (arguments_.duration)
@@ -252,6 +259,26 @@ class Live {
       stopped = stop.wait_until(until);
     }
     return stopped;
+  }
+
+  /// Prints the poses that were found: those that are final, or at the end.
+  void print_calibrations(bool is_end) {
+    printed_.resize(results_.size());
+    for (std::size_t i = 0; i < results_.size(); ++i) {
+      const CalibrationProgress of = runner_->calibration(i).progress();
+      if (of.message.empty() || (of.is_running && !is_end) || printed_[i] == of.found) continue;
+      if (!of.is_ready()) continue;
+      printed_[i] = of.found;
+      std::cout << (cameras_[i].empty() ? "" : cameras_[i] + ": ") << "calibrated: " << of.message
+                << '\n';
+      if (const auto transform = runner_->calibrated_transform(i))
+        std::cout << "ROS 2: "
+                  << io::static_transform_command(transform->T_parent_child,
+                                                  transform->header.frame_id,
+                                                  transform->child_frame_id)
+                  << "\n  (in place of the transform that leads to this frame now)\n";
+      std::cout << std::flush;
+    }
   }
 
   void fuse(const io::LiveOptions& options, const io::NameResolver& names, io::Participant& graph) {
@@ -290,12 +317,14 @@ class Live {
   LivePages& pages_;
   Clock::time_point begin_ = Clock::now();
   double cpu_at_start_ = cpu_seconds();
+  std::vector<std::string> cameras_;  // names
   std::vector<std::unique_ptr<GraphResults>> results_;
   std::vector<std::unique_ptr<GraphClouds>> clouds_;
   std::unique_ptr<io::Publication> target_views_;  // null with one camera
   std::optional<io::LiveFusion> fusion_;           // likewise
   std::unique_ptr<io::LiveRunner> runner_;
   std::unique_ptr<LiveSubscriptions> subscriptions_;
+  std::vector<std::shared_ptr<const Calibration>> printed_;
   std::exception_ptr fault_;
 };
 

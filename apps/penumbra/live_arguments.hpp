@@ -27,6 +27,8 @@ struct LiveArguments {
   double points_rate = 0;          ///< see io::LiveOptions
   std::optional<double> duration;  ///< seconds
   std::optional<std::filesystem::path> summary;
+  bool calibrate = false;
+  bool search = false;     ///< calibrate without a first guess
   ServerArguments server;  ///< no page is served without a port
 };
 

@@ -94,6 +94,11 @@ void add_options(CLI::App& app, LiveArguments& live) {
              live.points_rate, 0.0, 1000.0);
   add_number(app, "--duration", "end after so many seconds; default: never", "S", live.duration,
              0.0, longest_duration);
+  app.add_flag(
+      "--calibrate", live.calibrate,
+      "find each camera's pose from the robot that it sees, while somebody moves the robot; "
+      "nothing is changed (docs/calibration.md)");
+  app.add_flag("--search", live.search, "with --calibrate: without the pose in use as first guess");
   add_text(app, "--summary", "write at the end what became of all images", "JSON", live.summary);
   add_server(
       app, live.server,
@@ -108,6 +113,10 @@ void add_options(CLI::App& app, LiveArguments& live) {
 void check_options(const CLI::App& /*app*/, LiveArguments& live) {
   check_renderer(live.session.backend, live.session.renderer);
   check_server(live.server);
+  if (live.search && !live.calibrate)
+    throw InputError("--search: is of --calibrate; give that, too");
+  if (live.calibrate && live.cameras.empty() && !live.clouds.empty())
+    throw InputError("--calibrate: is of cameras, and only clouds are named; name one by --camera");
   live.points.check();
   const io::BagOptions& topics = live.session.input.bag;
   if (live.cameras.empty() && live.clouds.empty()) return;

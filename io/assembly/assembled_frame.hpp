@@ -49,6 +49,11 @@ struct SensorSetup {
 
 using CloudMessage = std::variant<PointCloud2Message, LaserScanMessage, LivoxMessage>;
 
+/// Returns whether the robot's pose is known, also if the camera's is not.
+[[nodiscard]] inline bool knows_robot(const RobotPose& pose) {
+  return has_pose(pose.status) || !pose.positions.empty() || !pose.T_root_link.empty();
+}
+
 /// A frame of messages, whose index counts the sensor's messages from 0. Images are not decoded
 /// yet: DepthInput does that. A source_message says why the frame must not be used.
 struct AssembledFrame : Frame {

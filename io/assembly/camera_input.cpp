@@ -104,6 +104,15 @@ bool CameraInput::take_color_info(const CameraInfoMessage& info) {
   return false;
 }
 
+void CameraInput::mount(const std::string& parent, const Eigen::Isometry3d& T_parent_camera,
+                        const std::string& source) {
+  options_.mount.parent = parent;
+  options_.mount.pose = T_parent_camera;
+  options_.mount.pose_source = source;
+  ++camera_infos_;
+  refresh();
+}
+
 std::shared_ptr<SensorSetup> CameraInput::find_setup() {
   if (!robot_.posed() || !info_ || frame_.empty() || lacks_color_info()) return nullptr;
   const Robot& robot = robot_.posed()->robot;
@@ -175,7 +184,7 @@ void CameraInput::complete(AssembledFrame& frame) {
   frame.plan = robot_.plan();
   const std::int64_t stamp = frame.stamp.value_or(0);
   const JudgedCameras& cameras = *frame.setup->sensor.cameras;
-  if (cameras.depth && has_pose(frame.pose.status))
+  if (cameras.depth && knows_robot(frame.pose))
     frame.setup->posed->history.transforms().at(frame.setup->queue.pose_stamp(stamp),
                                                 cameras.judged.frame_id, frame_,
                                                 frame.T_judged_depth);

@@ -63,6 +63,9 @@ class CameraInput final : public SensorInput {
   /// Both return whether the camera is another one than the known one, and was not before.
   bool take_info(const CameraInfoMessage& info);
   bool take_color_info(const CameraInfoMessage& info);
+  /// See FrameAssembler.
+  void mount(const std::string& parent, const Eigen::Isometry3d& T_parent_camera,
+             const std::string& source);
   void take_color(KeptImage image) { colors_.add(std::move(image)); }
 
   [[nodiscard]] const CameraInputOptions& options() const { return options_; }

@@ -78,6 +78,28 @@ std::string likely_prefix(const Robot& robot, const FrameTree& frames, const std
   return {};
 }
 
+std::optional<TransformMessage> transform_of_mount(const Robot& robot,
+                                                   const TransformBuffer& transforms,
+                                                   const FrameTree& frames,
+                                                   const MountOptions& options,
+                                                   const CameraMount& mount) {
+  const std::string& prefix = options.frame_prefix;
+  std::string top = mount.frame;
+  for (const std::string& above : frames.chain(mount.frame)) {
+    if (!link_of(robot, prefix, above).empty() || is_above_robot(robot, options, frames, above))
+      break;
+    top = above;
+  }
+  if (!link_of(robot, prefix, top).empty()) return std::nullopt;
+  TransformAnswer own;
+  if (top != mount.frame) transforms.at(0, mount.frame, top, own);
+  const bool is_fixed = own.status == TransformStatus::ok && own.is_static;
+  return TransformMessage{.header = {0, prefix + mount.parent},
+                          .child_frame_id = is_fixed ? top : mount.frame,
+                          .T_parent_child = is_fixed ? mount.T_parent_camera * own.T_target_source
+                                                     : mount.T_parent_camera};
+}
+
 CameraMount mount_by_root(const Robot& robot, const MountOptions& options,
                           const std::string& frame_of_images) {
   return {mounted_frame(options, frame_of_images), robot.links().front(),

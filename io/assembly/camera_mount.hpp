@@ -7,9 +7,11 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/time/transform_buffer.hpp>
 
 #include <io/assembly/bag_options.hpp>
 #include <io/assembly/frame_tree.hpp>
+#include <io/ros/messages.hpp>
 
 namespace penumbra::io {
 
@@ -58,6 +60,15 @@ struct CameraMount {
 /// above the frame with it; else an empty text.
 [[nodiscard]] std::string likely_prefix(const Robot& robot, const FrameTree& frames,
                                         const std::string& frame);
+
+/// Returns the transform of TF that gives a camera this mount: that of the camera's topmost frame,
+/// whose driver publishes the frames below it. Returns nothing if the camera's frame is a link of
+/// the robot: its URDF has the pose. `transforms`: with the camera's own.
+[[nodiscard]] std::optional<TransformMessage> transform_of_mount(const Robot& robot,
+                                                                 const TransformBuffer& transforms,
+                                                                 const FrameTree& frames,
+                                                                 const MountOptions& options,
+                                                                 const CameraMount& mount);
 
 /// Returns the mount of a camera that is not on the robot: TF must connect it to the root link.
 [[nodiscard]] CameraMount mount_by_root(const Robot& robot, const MountOptions& options,

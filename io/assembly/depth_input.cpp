@@ -64,7 +64,7 @@ std::string DepthInput::bring(const AssembledFrame& from, DepthView& depth) {
     depth = along_z_.view;
   }
   if (!registration_) return {};
-  if (!has_pose(from.pose.status)) {
+  if (!knows_robot(from.pose)) {
     depth = DepthView();  // the depth camera's position is not known
     return {};
   }

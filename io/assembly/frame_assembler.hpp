@@ -95,6 +95,11 @@ class FrameAssembler {
   [[nodiscard]] std::size_t sensor_count() const { return sensors_.size(); }
   [[nodiscard]] const SensorInput& sensor(std::size_t i) const { return *sensors_[i]; }
   [[nodiscard]] const MessageFaults& faults() const { return faults_; }
+  /// Uses this pose of a camera on a link in place of TF's. `source`: for messages.
+  void mount(std::size_t camera, const std::string& parent,
+             const Eigen::Isometry3d& T_parent_camera, const std::string& source) {
+    cameras_[camera]->mount(parent, T_parent_camera, source);
+  }
   /// Returns what is wrong with the robot's messages, one line each.
   [[nodiscard]] std::vector<std::string> notes() const;
   /// Counts a message of a topic with a fault that was found later.

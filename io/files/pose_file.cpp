@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
+#include <iomanip>
 #include <span>
 #include <sstream>
 #include <string>
@@ -19,6 +20,7 @@
 #include <io/files/csv.hpp>
 #include <io/files/disk_file.hpp>
 #include <io/files/frame_values.hpp>
+#include <io/files/names.hpp>
 #include <io/files/npy.hpp>
 #include <io/files/numbers.hpp>
 #include <io/files/pose_file.hpp>
@@ -203,6 +205,18 @@ void write_pose_csv(const std::filesystem::path& file, const Eigen::Isometry3d& 
   std::ostringstream text;
   text << pose.matrix().format(Eigen::IOFormat(17, Eigen::DontAlignCols, ",", "\n")) << '\n';
   write_file(file, text.str().data(), text.str().size());
+}
+
+std::string static_transform_command(const Eigen::Isometry3d& T_parent_child,
+                                     const std::string& parent, const std::string& child) {
+  std::ostringstream text;
+  const Eigen::Quaterniond q(T_parent_child.linear());
+  const Eigen::Vector3d at = T_parent_child.translation();
+  text << std::fixed << std::setprecision(5) << "ros2 run tf2_ros static_transform_publisher --x "
+       << at.x() << " --y " << at.y() << " --z " << at.z() << std::setprecision(6) << " --qx "
+       << q.x() << " --qy " << q.y() << " --qz " << q.z() << " --qw " << q.w() << " --frame-id "
+       << for_shell(parent) << " --child-frame-id " << for_shell(child);
+  return text.str();
 }
 
 }  // namespace penumbra::io

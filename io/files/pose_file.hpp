@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include <Eigen/Geometry>
 
@@ -18,5 +19,10 @@ namespace penumbra::io {
 
 /// Writes a pose that read_pose_csv reads. Throws InputError if the file cannot be written.
 void write_pose_csv(const std::filesystem::path& file, const Eigen::Isometry3d& pose);
+
+/// Returns the command of ROS 2 that publishes a pose in TF.
+[[nodiscard]] std::string static_transform_command(const Eigen::Isometry3d& T_parent_child,
+                                                   const std::string& parent,
+                                                   const std::string& child);
 
 }  // namespace penumbra::io

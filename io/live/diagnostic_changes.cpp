@@ -29,6 +29,14 @@ std::vector<std::string> DiagnosticChanges::update(const DiagnosticArrayMessage&
   std::map<std::string, std::string> now;
   const std::map<std::string, std::string> former = reported_.value_or(now);
   for (const DiagnosticStatusMessage& status : message.status) {
+    std::string poses;
+    for (const auto& [key, value] : status.values) {
+      if (key == calibration_poses_key) poses = value;
+      if (key != calibration_key) continue;
+      const std::string kind = kind_of(value) + poses;
+      if (std::exchange(calibrations_[status.name], kind) != kind)
+        lines.push_back(status.name + ": calibration: " + value);
+    }
     if (status.level == DiagnosticStatusMessage::ok) continue;
     std::string kind = kind_of(status.message);
     const auto found = former.find(status.name);

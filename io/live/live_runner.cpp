@@ -5,6 +5,7 @@
 
 #include <penumbra/base/error.hpp>
 
+#include <io/live/diagnostic_changes.hpp>
 #include <io/live/live_runner.hpp>
 
 namespace penumbra::io {
@@ -49,7 +50,12 @@ LiveRunner::LiveRunner(const LiveOptions& options, const PipelineConfig& config,
                        const std::vector<ResultSink*>& sinks, RobotMaker maker,
                        std::chrono::milliseconds robot_retry)
     : inbox_(options), config_(config), maker_(std::move(maker)), robot_retry_(robot_retry) {
-  for (ResultSink* sink : sinks) sensors_.emplace_back().sink = sink;
+  for (ResultSink* sink : sinks) {
+    SensorThread& sensor = sensors_.emplace_back();
+    sensor.sink = sink;
+    if (sensors_.size() <= inbox_.camera_count())
+      sensor.calibration = std::make_unique<RunningCalibration>();
+  }
 }
 
 void LiveRunner::start() {
@@ -88,6 +94,46 @@ void LiveRunner::receive(std::size_t topic, const ImageMessage& image,
     inbox_.receive(topic, image, std::move(owner), steady_now());
   }
   changed_.notify_all();
+}
+
+std::optional<TransformMessage> LiveRunner::calibrated_transform(std::size_t camera) {
+  const CalibrationProgress of = calibration(camera).progress();
+  if (!of.is_ready()) return std::nullopt;
+  return with_inbox([&](const LiveInbox& inbox) -> std::optional<TransformMessage> {
+    const CameraInput& input = inbox.camera(camera);
+    if (input.setup() == nullptr) return std::nullopt;
+    const PosedRobot& posed = *input.setup()->posed;
+    return transform_of_mount(posed.robot, posed.history.transforms(), inbox.robot().frames(),
+                              input.options().mount,
+                              {.frame = input.setup()->sensor.frame,
+                               .parent = of.camera_parent,
+                               .T_parent_camera = of.found->T_parent_camera,
+                               .source = {}});
+  });
+}
+
+std::string LiveRunner::apply_calibration(std::size_t camera) {
+  const CalibrationProgress of = calibration(camera).progress();
+  if (!of.is_ready())
+    return "there is no pose to apply: " +
+           (of.message.empty() ? "no calibration was begun" : of.message);
+  calibration(camera).end("the pose that was found is in use");
+  {
+    const std::lock_guard lock(mutex_);
+    inbox_.mount(camera, of.camera_parent, of.found->T_parent_camera, "its calibration");
+  }
+  changed_.notify_all();
+  return {};
+}
+
+void LiveRunner::add_calibrations(DiagnosticArrayMessage& message) {
+  for (std::size_t i = 0; i < sensors_.size() && sensors_[i].calibration; ++i) {
+    const CalibrationProgress of = calibration(i).progress();
+    if (of.message.empty()) continue;
+    DiagnosticStatusMessage& status = message.status[1 + i];  // the first is the robot's
+    status.values.push_back({calibration_poses_key, std::to_string(of.poses)});
+    status.values.push_back({calibration_key, of.message});
+  }
 }
 
 void LiveRunner::configure(const PipelineConfig& config) {
@@ -154,8 +200,11 @@ void LiveRunner::wait(const std::optional<std::int64_t>& wake_at,
 
 LiveWorkerOptions LiveRunner::worker_options(std::size_t sensor) {
   const LiveOptions& all = inbox_.options();
-  LiveWorkerOptions options{
-      .config = config_, .limits = all.drift, .points = all.points, .poses = &mutex_};
+  LiveWorkerOptions options{.config = config_,
+                            .limits = all.drift,
+                            .points = all.points,
+                            .poses = &mutex_,
+                            .calibration = sensors_[sensor].calibration.get()};
   if (sensor >= all.cameras.size()) options.clouds = all.clouds[sensor - all.cameras.size()].output;
   return options;
 }

@@ -63,6 +63,18 @@ class LiveRunner {
   /// Receives a decoded image, as FrameAssembler does.
   void receive(std::size_t topic, const ImageMessage& image, std::shared_ptr<const void> owner);
 
+  /// Returns the calibration of a camera, which waits until it is asked to begin.
+  [[nodiscard]] RunningCalibration& calibration(std::size_t camera) {
+    return *sensors_[camera].calibration;
+  }
+  /// Returns the transform of TF that a camera's calibration gives; null: no pose was found.
+  [[nodiscard]] std::optional<TransformMessage> calibrated_transform(std::size_t camera);
+  /// Judges later images with the pose that a camera's calibration found, in place of TF's. Returns
+  /// why not; empty: it does.
+  [[nodiscard]] std::string apply_calibration(std::size_t camera);
+  /// Adds the state of the cameras' calibrations to the statuses of LiveDiagnostics.
+  void add_calibrations(DiagnosticArrayMessage& message);
+
   /// Judges later images by another configuration. Forgets verdicts and tracks.
   void configure(const PipelineConfig& config);
   /// Forgets poses, verdicts and tracks.
@@ -87,6 +99,7 @@ class LiveRunner {
   struct SensorThread {
     ResultSink* sink = nullptr;
     FrameWatcher* watcher = nullptr;
+    std::unique_ptr<RunningCalibration> calibration;  // of a camera
     std::unique_ptr<LiveWorker> worker;
     bool has_config = false;  // whether the worker has config_; guarded by mutex_
     // Earliest times; used by this thread only.

@@ -32,6 +32,7 @@ LiveWorker::Tools LiveWorker::make_tools(const SensorSetup& setup) const {
   }
   const Camera& camera = sensor.cameras->judged;
   Tools tools{Session(robot, camera, config_of(sensor, options_.config), options_.limits)};
+  if (options_.calibration != nullptr) tools.session.calibrate(*options_.calibration, camera);
   tools.depth.emplace(*sensor.cameras);
   tools.encoder.emplace(camera, root, options_.points);
   return tools;

@@ -22,6 +22,7 @@ struct LiveWorkerOptions {
   PointsRule points = {};
   CloudOutput clouds = {};
   std::mutex* poses = nullptr;  ///< guards the robot's poses; null: nobody changes them
+  RunningCalibration* calibration = nullptr;  ///< gets a camera's frames, too
 };
 
 /// Judges the frames of one sensor. Use one thread at a time, without the lock of the poses.

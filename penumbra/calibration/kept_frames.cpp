@@ -153,7 +153,10 @@ KeptFrame KeptFrames::posed_frame(const Frame& frame) const {
   KeptFrame posed{.index = frame.index.value_or(seen_), .stamp = frame.stamp};
   const bool is_partial = std::ranges::any_of(
       pose.uncertain_links, [&](std::size_t link) { return robot_.report()[link].drawn; });
-  if (pose.status != FrameStatus::ok || is_partial) return posed;
+  // Where only the camera's pose is unknown, the robot's is there.
+  const bool may_lack_camera = pose.status == FrameStatus::missing_transform ||
+                               pose.status == FrameStatus::stale_transform;
+  if ((pose.status != FrameStatus::ok && !may_lack_camera) || is_partial) return posed;
   posed.T_root_link = pose.T_root_link;
   if (!posed.T_root_link.empty() || pose.positions.size() != robot_.variables().size())
     return posed;

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <future>
 #include <memory>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -12,6 +14,7 @@
 
 #include <penumbra/calibration/calibration.hpp>
 #include <penumbra/camera/camera.hpp>
+#include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
 namespace penumbra {
@@ -77,6 +80,80 @@ class CalibrationWatch {
  private:
   struct State;
   std::unique_ptr<State> state_;
+};
+
+/// What a RunningCalibration has found so far.
+struct CalibrationProgress {
+  bool is_running = false;   ///< takes frames
+  bool has_moved = false;    ///< it began because the watch saw the camera move
+  std::size_t frames = 0;    ///< since it began
+  std::size_t poses = 0;     ///< different poses of the robot in them
+  std::string message = {};  ///< one line: what is missing, or what was found; empty: not asked
+  std::string camera_parent = {};               ///< link in which the poses are
+  std::optional<Eigen::Isometry3d> given = {};  ///< the camera's pose by TF or its configuration
+  std::shared_ptr<const Calibration> found =
+      {};  ///< of the poses when it was solved; null: not yet
+
+  [[nodiscard]] bool is_ready() const { return found && found->is_good(); }
+};
+
+/// Calibrates a camera while its cell runs: a question that is asked of a session's frames. The
+/// robot is moved by others. Whenever there are new poses, they are solved on a thread of its own.
+/// It begins by itself when the watch sees the camera move, and changes nothing. Any thread may
+/// call all members.
+class RunningCalibration {
+ public:
+  /// Poses after which a good result is final.
+  static constexpr std::size_t enough = 10;
+
+  RunningCalibration() = default;
+  ~RunningCalibration() { wait(); }
+  RunningCalibration(const RunningCalibration&) = delete;
+  RunningCalibration& operator=(const RunningCalibration&) = delete;
+
+  /// Begins, and forgets former results. `search`: without a first guess; else from the pose that
+  /// the camera has.
+  void begin(bool search);
+  /// Ends with this line and forgets the results: they are in use.
+  void end(std::string why);
+  [[nodiscard]] CalibrationProgress progress() const;
+
+  // Session calls these:
+  /// Sets what the next frames are of. If that changes, poses begin anew.
+  void follow(const Robot& robot, const Camera& camera, const std::string& camera_parent,
+              const Eigen::Isometry3d& T_parent_camera);
+  void take(const Frame& frame, const Drift& drift);
+  /// Waits until all poses are solved: no further frame will come.
+  void finish();
+
+ private:
+  struct Setup {
+    Robot robot;
+    Camera camera;
+    std::optional<Rectification> lens;
+    std::string camera_parent;
+    Eigen::Isometry3d T_parent_camera;
+    [[nodiscard]] bool is_same(const Setup& other) const;
+  };
+
+  void restart(bool search, bool has_moved);
+  void look_at(const Frame& frame);
+  [[nodiscard]] bool can_solve() const;
+  void solve();
+  void settle(std::shared_ptr<const Calibration> found, const std::string& fault);
+  void describe();
+  void wait();
+
+  mutable std::mutex mutex_;
+  std::shared_ptr<const Setup> setup_;  // null: no frame came yet
+  std::optional<CalibrationFrames> frames_;
+  CalibrationProgress progress_;
+  bool is_search_ = false, is_solving_ = false, has_moved_ = false;
+  std::optional<std::int64_t> bumped_at_;  // stamp of the last motion that was seen
+  std::uint64_t number_ = 0;               // of the question: results of former ones are dropped
+  std::size_t added_ = 0, solved_ = 0;     // frames
+  std::string fault_;                      // why the poses could not be solved
+  std::future<void> solving_;
 };
 
 }  // namespace penumbra

@@ -98,14 +98,15 @@ void PoseLookup::at(const PoseHistory& history, std::int64_t stamp, RobotPose& p
   const bool by_transforms = options_.source != PoseSource::joints;
   if (by_joints) find_joints(history, stamp, pose);
   if (by_transforms && has_pose(pose.status)) find_links(history.transforms(), stamp, pose);
-  if (!options_.camera_frame.empty() && has_pose(pose.status))
-    find_camera(history.transforms(), stamp, pose);
   if (by_joints && by_transforms && has_pose(pose.status)) compare(pose);
+  const bool is_robot_known = has_pose(pose.status);
+  if (!options_.camera_frame.empty() && is_robot_known)
+    find_camera(history.transforms(), stamp, pose);
   pose.positions.clear();
   pose.T_root_link.clear();
-  if (pose.status != FrameStatus::ok)
-    pose.age.reset();
-  else if (by_joints && follows_from_joints_)
+  if (pose.status != FrameStatus::ok) pose.age.reset();
+  if (!is_robot_known) return;
+  if (by_joints && follows_from_joints_)
     pose.positions = joints_.positions;
   else
     pose.T_root_link = by_joints ? T_root_link_ : T_root_found_;

@@ -55,7 +55,7 @@ struct RobotPose {
   FrameStatus status = FrameStatus::ok;  ///< another one: the pose is unknown
   std::string message = {};              ///< one line that says why; empty if the status is ok
   /// Order of Robot::variables(), rad and m. Another number of them is `missing_joints`. Unused if
-  /// there are poses of links.
+  /// there are poses of links. PoseLookup sets either also if only the camera's pose is unknown.
   std::vector<double> positions = {};
   std::optional<std::int64_t> age = {};  ///< nanoseconds from the stamp to the farthest state used
   /// Poses of all links, if they do not follow from `positions` alone; the root's is the identity.

@@ -34,6 +34,7 @@ const FrameReport& Session::process(const Frame& frame) {
     watch_->add(scan_->report());
   }
   if (watch_ && !scan_) watch_->add(report);
+  if (calibration_ != nullptr) calibration_->take(frame, drift());
   if (!frame.plan || !forecast_) return report;
   targets_.assign(report.targets.begin(), report.targets.end());
   forecast_->add(frame, targets_);
@@ -52,6 +53,11 @@ std::vector<std::string> Session::warnings() const {
   const std::string moved = drift().message();
   if (!moved.empty() && diagnosis().cause == Diagnosis::Cause::none) lines.push_back(moved);
   return lines;
+}
+
+void Session::calibrate(RunningCalibration& calibration, const Camera& camera) {
+  calibration.follow(pipeline_.robot(), camera, config_->camera_parent, config_->T_parent_camera);
+  calibration_ = &calibration;
 }
 
 Warnings Session::take_warnings() { return std::exchange(warnings_, new_warnings()); }

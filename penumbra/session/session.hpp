@@ -45,6 +45,10 @@ class Session {
   /// Returns how far the camera has moved from its calibration.
   [[nodiscard]] const Drift& drift() const;
 
+  /// Gives the frames from now on to `calibration`, too, which must outlive this. `camera`: of the
+  /// frames' images. Not for scans.
+  void calibrate(RunningCalibration& calibration, const Camera& camera);
+
   /// Returns the warnings about the frames since the last call, and begins them anew. For a
   /// stream without an end; their lines can be made on another thread.
   [[nodiscard]] Warnings take_warnings();
@@ -66,6 +70,7 @@ class Session {
   DriftLimits limits_;
   Warnings warnings_;
   std::optional<CalibrationWatch> watch_;
+  RunningCalibration* calibration_ = nullptr;
   std::optional<PlanForecast> forecast_;  // of a camera
   FrameReport report_;                    // with forecasts
   std::vector<TargetReport> targets_;

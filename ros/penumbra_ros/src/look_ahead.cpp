@@ -108,7 +108,8 @@ LookAheadService::Service::Response LookAheadService::answer(const Service::Requ
       throw penumbra::InputError("no targets came in the last 2 seconds");
     if (request.trajectories.empty()) throw penumbra::InputError("no trajectories");
     const penumbra::Robot& robot = seen.setup->posed->robot;
-    if (seen.positions.size() != robot.variables().size() ||
+    if (!penumbra::has_pose(seen.pose.status) ||
+        seen.positions.size() != robot.variables().size() ||
         seen.pose.positions.size() != robot.variables().size())
       throw penumbra::InputError("the robot's joint positions are not known");
     const penumbra::ForecastCamera camera{

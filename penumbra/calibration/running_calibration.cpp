@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <numbers>
+#include <utility>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/calibration/watch.hpp>
+
+namespace penumbra {
+namespace {
+
+std::string mm_and_degrees(double metres, double radians) {
+  constexpr double degrees = 180.0 / std::numbers::pi;
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.1f mm and %.2f degrees", 1e3 * metres,
+                degrees * radians);
+  return text.data();
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "; ") + line;
+  return text;
+}
+
+std::string poses_text(std::size_t poses) {
+  return std::to_string(poses) + (poses == 1 ? " pose" : " poses");
+}
+
+/// Tells what was found, where the given pose is, and what would help.
+std::string result_text(const Calibration& found, const std::optional<Eigen::Isometry3d>& given) {
+  if (!found.is_good()) return "no good pose yet: " + joined(found.faults);
+  std::string text = "a good pose is found, within " +
+                     mm_and_degrees(found.position_error(), found.rotation_error()) + " (95 %)";
+  if (given) {
+    const Eigen::Isometry3d between = given->inverse() * found.T_parent_camera;
+    const double moved = between.translation().norm();
+    const double turned = std::abs(Eigen::AngleAxisd(between.linear()).angle());
+    const bool is_beyond = moved > found.position_error() || turned > found.rotation_error();
+    text += "; the pose in use is " + mm_and_degrees(moved, turned) + " from it, " +
+            (is_beyond ? "which is beyond that" : "which is within that");
+  }
+  return text + (found.notes.empty() ? "" : "; " + joined(found.notes));
+}
+
+}  // namespace
+
+void RunningCalibration::begin(bool search) {
+  const std::lock_guard lock(mutex_);
+  restart(search, false);
+}
+
+void RunningCalibration::end(std::string why) {
+  const std::lock_guard lock(mutex_);
+  ++number_;
+  frames_.reset();
+  progress_ = {.message = std::move(why)};
+}
+
+CalibrationProgress RunningCalibration::progress() const {
+  const std::lock_guard lock(mutex_);
+  return progress_;
+}
+
+void RunningCalibration::restart(bool search, bool has_moved) {
+  ++number_;
+  is_search_ = search;
+  progress_ = {.is_running = true, .has_moved = has_moved};
+  frames_.reset();
+  added_ = solved_ = 0;
+  fault_.clear();
+  describe();
+}
+
+void RunningCalibration::follow(const Robot& robot, const Camera& camera,
+                                const std::string& camera_parent,
+                                const Eigen::Isometry3d& T_parent_camera) {
+  auto setup = std::make_shared<Setup>(
+      Setup{robot, camera, {}, camera_parent, T_parent_camera});
+  if (setup->camera_parent.empty()) setup->camera_parent = robot.links().front();
+  if (!camera.distortion.is_none()) setup->lens.emplace(camera);
+  const std::lock_guard lock(mutex_);
+  has_moved_ = false;
+  bumped_at_.reset();
+  if (setup_ && setup_->is_same(*setup)) return;
+  setup_ = std::move(setup);
+  if (progress_.is_running)
+    restart(is_search_, progress_.has_moved);
+  else if (std::exchange(progress_.found, nullptr))
+    progress_.message = "the robot, the camera or its link changed since: begin again";
+}
+
+bool RunningCalibration::Setup::is_same(const Setup& other) const {
+  return robot.links().data() == other.robot.links().data() &&
+         camera.intrinsics == other.camera.intrinsics &&
+         camera.distortion == other.camera.distortion &&
+         camera_parent == other.camera_parent &&
+         T_parent_camera.matrix() == other.T_parent_camera.matrix();
+}
+
+void RunningCalibration::take(const Frame& frame, const Drift& drift) {
+  const std::lock_guard lock(mutex_);
+  const bool moves_again = has_moved_ && drift.bumped_at_stamp != bumped_at_;
+  if (drift.has_moved && (!has_moved_ || moves_again)) restart(false, true);
+  has_moved_ = drift.has_moved;
+  bumped_at_ = drift.bumped_at_stamp;
+  if (!setup_ || !progress_.is_running) return;
+  try {
+    look_at(frame);
+  } catch (const InputError& error) {
+    ++number_;
+    frames_.reset();
+    progress_.is_running = false;
+    progress_.message = error.what();
+    return;
+  }
+  describe();
+  if (!is_solving_ && can_solve()) solve();
+}
+
+void RunningCalibration::look_at(const Frame& frame) {
+  if (!frames_) frames_.emplace(setup_->robot, true);
+  std::optional<CalibrationFrame> kept = frames_->pass(frame);
+  progress_.frames = frames_->seen();
+  progress_.camera_parent = setup_->camera_parent;
+  if (has_pose(frame.pose.status))
+    progress_.given = frame.pose.T_parent_camera.value_or(setup_->T_parent_camera);
+  if (!kept) return;
+  const auto& range = setup_->camera.range;
+  kept->depth = metres_of(frame.depth.view, {range.near, range.far});
+  if (setup_->lens) {
+    const Intrinsics& pinhole = setup_->lens->pinhole();
+    Image<float> image(pinhole.width(), pinhole.height());
+    remap(setup_->lens->pinhole_to_raw(), std::as_const(kept->depth).view(), 0.0F, image.view());
+    kept->depth = std::move(image);
+  }
+  frames_->add(*std::move(kept));
+  ++added_;
+  progress_.poses = frames_->poses();
+}
+
+bool RunningCalibration::can_solve() const {
+  return frames_ && added_ > solved_ && frames_->poses() >= CalibrationFrames::least &&
+         (is_search_ || progress_.given);
+}
+
+/// Solves the poses so far on another thread.
+void RunningCalibration::solve() {
+  solved_ = added_;
+  is_solving_ = true;
+  CalibrationOptions options;
+  options.camera_parent = setup_->camera_parent;
+  if (!is_search_) options.initial = progress_.given;
+  solving_ = std::async(
+      std::launch::async, [this, number = number_, setup = setup_, frames = frames_->chosen(),
+                           options = std::move(options)] {
+        std::shared_ptr<const Calibration> found;
+        std::string fault;
+        try {
+          const Intrinsics camera =
+              setup->lens ? setup->lens->pinhole() : setup->camera.intrinsics;
+          found = std::make_shared<const Calibration>(
+              calibrate(frames, camera, setup->robot, options));
+        } catch (const std::exception& error) {
+          fault = error.what();
+        }
+        const std::lock_guard lock(mutex_);
+        is_solving_ = false;
+        if (number == number_) settle(std::move(found), fault);
+      });
+}
+
+void RunningCalibration::settle(std::shared_ptr<const Calibration> found,
+                                const std::string& fault) {
+  fault_ = fault;
+  if (found) progress_.found = std::move(found);
+  if (progress_.is_ready() && progress_.found->frames.size() >= enough) {
+    frames_.reset();
+    progress_.is_running = false;
+  }
+  describe();
+}
+
+void RunningCalibration::finish() {
+  wait();
+  {
+    const std::lock_guard lock(mutex_);
+    if (can_solve()) solve();
+  }
+  wait();
+  const std::lock_guard lock(mutex_);
+  frames_.reset();
+  progress_.is_running = false;
+}
+
+void RunningCalibration::wait() {
+  std::future<void> solving;
+  {
+    const std::lock_guard lock(mutex_);
+    solving = std::move(solving_);
+  }
+  if (solving.valid()) solving.wait();
+}
+
+/// Says in one line what is missing or found.
+void RunningCalibration::describe() {
+  std::string& line = progress_.message;
+  line = progress_.has_moved ? "the camera has moved: " : "";
+  const std::size_t poses = progress_.poses;
+  if (progress_.found) {
+    line += result_text(*progress_.found, progress_.given);
+  } else if (!fault_.empty()) {
+    line += fault_;
+  } else if (progress_.frames == 0) {
+    line += "no frame was judged since the calibration began";
+  } else if (poses == 0) {
+    line += "no frame can be used yet (" + frames_->last_fault() + ")";
+  } else if (!is_search_ && !progress_.given) {
+    line += "the camera's pose is not known, so that there is none to begin from: search for it";
+  } else if (poses < CalibrationFrames::least) {
+    line += "move the robot to more poses, and let it stand still for a second in each";
+  } else {
+    line += "the pose is sought";
+  }
+  line += "; " + poses_text(poses) + " so far";
+  if (progress_.is_running && poses < CalibrationFrames::least)
+    line += " of at least " + std::to_string(CalibrationFrames::least);
+  else if (progress_.is_ready() && progress_.is_running)
+    line += "; " + progress_.found->advice;
+}
+
+}  // namespace penumbra
