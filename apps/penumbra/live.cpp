@@ -196,7 +196,7 @@ class Live {
     graph.wake();
     receiving.join();
     runner_->stop();
-    print_calibrations(true);
+    print_calibrations();
     if (!fault_) fault_ = runner_->fault();
     return stopped;
   }
@@ -250,7 +250,7 @@ class Live {
       if (fusion_) fusion_->add_contradictions(message);
       runner_->add_calibrations(message);
       diagnostics.publish(message);
-      print_calibrations(false);
+      print_calibrations();
       next += report_period;
       auto until = next;
       if (arguments_.duration)
@@ -261,13 +261,12 @@ class Live {
     return stopped;
   }
 
-  /// Prints the poses that were found: those that are final, or at the end.
-  void print_calibrations(bool is_end) {
+  /// Prints the good poses that were found since the last call.
+  void print_calibrations() {
     printed_.resize(results_.size());
     for (std::size_t i = 0; i < results_.size(); ++i) {
       const CalibrationProgress of = runner_->calibration(i).progress();
-      if (of.message.empty() || (of.is_running && !is_end) || printed_[i] == of.found) continue;
-      if (!of.is_ready()) continue;
+      if (!of.is_ready() || printed_[i] == of.found) continue;
       printed_[i] = of.found;
       std::cout << (cameras_[i].empty() ? "" : cameras_[i] + ": ") << "calibrated: " << of.message
                 << '\n';

@@ -11,6 +11,10 @@
 namespace penumbra {
 namespace {
 
+// Once a good pose is found, so many new frames are solved together, or those that are there after
+// so many frames without a new pose: the robot rests, or repeats its motion.
+constexpr std::size_t new_frames = 3, patience = 30;
+
 std::string mm_and_degrees(double metres, double radians) {
   constexpr double degrees = 180.0 / std::numbers::pi;
   std::array<char, 64> text{};
@@ -66,10 +70,10 @@ CalibrationProgress RunningCalibration::progress() const {
 
 void RunningCalibration::restart(bool search, bool has_moved) {
   ++number_;
-  is_search_ = search;
-  progress_ = {.is_running = true, .has_moved = has_moved};
+  progress_ = {.is_running = true, .is_search = search, .has_moved = has_moved};
   frames_.reset();
-  added_ = solved_ = 0;
+  begun_at_.reset();
+  added_ = solved_ = last_added_ = 0;
   fault_.clear();
   describe();
 }
@@ -77,17 +81,15 @@ void RunningCalibration::restart(bool search, bool has_moved) {
 void RunningCalibration::follow(const Robot& robot, const Camera& camera,
                                 const std::string& camera_parent,
                                 const Eigen::Isometry3d& T_parent_camera) {
-  auto setup = std::make_shared<Setup>(
-      Setup{robot, camera, {}, camera_parent, T_parent_camera});
+  auto setup = std::make_shared<Setup>(Setup{robot, camera, {}, camera_parent, T_parent_camera});
   if (setup->camera_parent.empty()) setup->camera_parent = robot.links().front();
   if (!camera.distortion.is_none()) setup->lens.emplace(camera);
   const std::lock_guard lock(mutex_);
   has_moved_ = false;
-  bumped_at_.reset();
   if (setup_ && setup_->is_same(*setup)) return;
   setup_ = std::move(setup);
   if (progress_.is_running)
-    restart(is_search_, progress_.has_moved);
+    restart(progress_.is_search, progress_.has_moved);
   else if (std::exchange(progress_.found, nullptr))
     progress_.message = "the robot, the camera or its link changed since: begin again";
 }
@@ -95,17 +97,20 @@ void RunningCalibration::follow(const Robot& robot, const Camera& camera,
 bool RunningCalibration::Setup::is_same(const Setup& other) const {
   return robot.links().data() == other.robot.links().data() &&
          camera.intrinsics == other.camera.intrinsics &&
-         camera.distortion == other.camera.distortion &&
-         camera_parent == other.camera_parent &&
+         camera.distortion == other.camera.distortion && camera_parent == other.camera_parent &&
          T_parent_camera.matrix() == other.T_parent_camera.matrix();
 }
 
 void RunningCalibration::take(const Frame& frame, const Drift& drift) {
   const std::lock_guard lock(mutex_);
-  const bool moves_again = has_moved_ && drift.bumped_at_stamp != bumped_at_;
-  if (drift.has_moved && (!has_moved_ || moves_again)) restart(false, true);
+  const bool begins_to_move = drift.has_moved && !has_moved_;
   has_moved_ = drift.has_moved;
-  bumped_at_ = drift.bumped_at_stamp;
+  if (!progress_.is_running) {
+    if (begins_to_move) restart(false, true);
+  } else if (begun_at_ && drift.bumped_at_stamp > begun_at_) {
+    restart(progress_.is_search, true);  // not with poses before and after
+  }
+  if (!begun_at_) begun_at_ = frame.stamp;
   if (!setup_ || !progress_.is_running) return;
   try {
     look_at(frame);
@@ -117,7 +122,9 @@ void RunningCalibration::take(const Frame& frame, const Drift& drift) {
     return;
   }
   describe();
-  if (!is_solving_ && can_solve()) solve();
+  const bool is_time = !progress_.is_ready() || added_ >= solved_ + new_frames ||
+                       progress_.frames >= last_added_ + patience;
+  if (!is_solving_ && is_time && can_solve()) solve();
 }
 
 void RunningCalibration::look_at(const Frame& frame) {
@@ -138,12 +145,13 @@ void RunningCalibration::look_at(const Frame& frame) {
   }
   frames_->add(*std::move(kept));
   ++added_;
+  last_added_ = progress_.frames;
   progress_.poses = frames_->poses();
 }
 
 bool RunningCalibration::can_solve() const {
   return frames_ && added_ > solved_ && frames_->poses() >= CalibrationFrames::least &&
-         (is_search_ || progress_.given);
+         (progress_.is_search || progress_.given);
 }
 
 /// Solves the poses so far on another thread.
@@ -152,34 +160,28 @@ void RunningCalibration::solve() {
   is_solving_ = true;
   CalibrationOptions options;
   options.camera_parent = setup_->camera_parent;
-  if (!is_search_) options.initial = progress_.given;
-  solving_ = std::async(
-      std::launch::async, [this, number = number_, setup = setup_, frames = frames_->chosen(),
-                           options = std::move(options)] {
-        std::shared_ptr<const Calibration> found;
-        std::string fault;
-        try {
-          const Intrinsics camera =
-              setup->lens ? setup->lens->pinhole() : setup->camera.intrinsics;
-          found = std::make_shared<const Calibration>(
-              calibrate(frames, camera, setup->robot, options));
-        } catch (const std::exception& error) {
-          fault = error.what();
-        }
-        const std::lock_guard lock(mutex_);
-        is_solving_ = false;
-        if (number == number_) settle(std::move(found), fault);
-      });
+  if (!progress_.is_search) options.initial = progress_.given;
+  solving_ = std::async(std::launch::async, [this, number = number_, setup = setup_,
+                                             frames = frames_->chosen(),
+                                             options = std::move(options)] {
+    std::shared_ptr<const Calibration> found;
+    std::string fault;
+    try {
+      const Intrinsics camera = setup->lens ? setup->lens->pinhole() : setup->camera.intrinsics;
+      found = std::make_shared<const Calibration>(calibrate(frames, camera, setup->robot, options));
+    } catch (const std::exception& error) {
+      fault = error.what();
+    }
+    const std::lock_guard lock(mutex_);
+    is_solving_ = false;
+    if (number == number_) settle(std::move(found), fault);
+  });
 }
 
 void RunningCalibration::settle(std::shared_ptr<const Calibration> found,
                                 const std::string& fault) {
   fault_ = fault;
   if (found) progress_.found = std::move(found);
-  if (progress_.is_ready() && progress_.found->frames.size() >= enough) {
-    frames_.reset();
-    progress_.is_running = false;
-  }
   describe();
 }
 
@@ -217,7 +219,7 @@ void RunningCalibration::describe() {
     line += "no frame was judged since the calibration began";
   } else if (poses == 0) {
     line += "no frame can be used yet (" + frames_->last_fault() + ")";
-  } else if (!is_search_ && !progress_.given) {
+  } else if (!progress_.is_search && !progress_.given) {
     line += "the camera's pose is not known, so that there is none to begin from: search for it";
   } else if (poses < CalibrationFrames::least) {
     line += "move the robot to more poses, and let it stand still for a second in each";

@@ -85,6 +85,7 @@ class CalibrationWatch {
 /// What a RunningCalibration has found so far.
 struct CalibrationProgress {
   bool is_running = false;   ///< takes frames
+  bool is_search = false;    ///< without a first guess
   bool has_moved = false;    ///< it began because the watch saw the camera move
   std::size_t frames = 0;    ///< since it began
   std::size_t poses = 0;     ///< different poses of the robot in them
@@ -98,14 +99,12 @@ struct CalibrationProgress {
 };
 
 /// Calibrates a camera while its cell runs: a question that is asked of a session's frames. The
-/// robot is moved by others. Whenever there are new poses, they are solved on a thread of its own.
-/// It begins by itself when the watch sees the camera move, and changes nothing. Any thread may
-/// call all members.
+/// robot is moved by others. New poses are solved on a thread of its own, at first all, once a good
+/// pose is found a few at a time. It begins by itself when the watch sees the camera move, and
+/// changes nothing. It keeps at most 2 CalibrationFrames::most images, and as many while it solves.
+/// Any thread may call all members.
 class RunningCalibration {
  public:
-  /// Poses after which a good result is final.
-  static constexpr std::size_t enough = 10;
-
   RunningCalibration() = default;
   ~RunningCalibration() { wait(); }
   RunningCalibration(const RunningCalibration&) = delete;
@@ -148,11 +147,12 @@ class RunningCalibration {
   std::shared_ptr<const Setup> setup_;  // null: no frame came yet
   std::optional<CalibrationFrames> frames_;
   CalibrationProgress progress_;
-  bool is_search_ = false, is_solving_ = false, has_moved_ = false;
-  std::optional<std::int64_t> bumped_at_;  // stamp of the last motion that was seen
-  std::uint64_t number_ = 0;               // of the question: results of former ones are dropped
-  std::size_t added_ = 0, solved_ = 0;     // frames
-  std::string fault_;                      // why the poses could not be solved
+  bool is_solving_ = false, has_moved_ = false;
+  std::optional<std::int64_t> begun_at_;  // stamp of the first frame, ns
+  std::uint64_t number_ = 0;              // of the question: results of former ones are dropped
+  // Frames that were added, of these solved, and seen when the last one was added.
+  std::size_t added_ = 0, solved_ = 0, last_added_ = 0;
+  std::string fault_;  // why the poses could not be solved
   std::future<void> solving_;
 };
 

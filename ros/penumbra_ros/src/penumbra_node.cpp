@@ -21,6 +21,11 @@ using std_srvs::srv::Trigger;
 
 constexpr std::chrono::seconds check_period{1};
 
+/// Returns what the names of a camera's topics and services begin with.
+std::string names_below(const penumbra::io::CameraInputOptions& camera) {
+  return camera.name.empty() ? "~/" : "~/" + camera.name + "/";
+}
+
 /// Returns the status that a line of DiagnosticChanges is about, or null.
 const DiagnosticStatusMessage* subject_of(const penumbra::io::DiagnosticArrayMessage& statuses,
                                           std::string_view line) {
@@ -99,9 +104,8 @@ void PenumbraNode::make_outputs() {
                                      options.context(get_node_base_interface()->get_context()));
   std::vector<penumbra::io::ResultSink*> sinks;
   for (const penumbra::io::CameraInputOptions& camera : settings_.live.cameras) {
-    const std::string below = camera.name.empty() ? "~/" : "~/" + camera.name + "/";
-    outputs_.push_back(std::make_unique<Outputs>(*this, *images_, below, settings_.target_frames,
-                                                 camera.mount.frame_prefix));
+    outputs_.push_back(std::make_unique<Outputs>(
+        *this, *images_, names_below(camera), settings_.target_frames, camera.mount.frame_prefix));
     outputs_.back()->select(settings_.publish);
     outputs_.back()->set_rule(settings_.pipeline.rule);
     sinks.push_back(outputs_.back().get());
@@ -111,7 +115,11 @@ void PenumbraNode::make_outputs() {
     sinks.push_back(clouds_.back().get());
   }
   runner_ = std::make_unique<LiveRunner>(settings_.live, settings_.pipeline, sinks);
-  for (std::size_t i = 0; i < outputs_.size(); ++i) runner_->watch(i, *outputs_[i]);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    runner_->watch(i, *outputs_[i]);
+    calibrations_.push_back(std::make_unique<CalibrationServices>(
+        *this, names_below(settings_.live.cameras[i]), *runner_, i));
+  }
   if (outputs_.size() > 1) fuse();
 }
 
@@ -144,6 +152,7 @@ void PenumbraNode::clean_up() {
   timer_.reset();
   reset_.reset();
   inputs_.reset();
+  calibrations_.clear();
   runner_.reset();
   fusion_.reset();
   target_views_.reset();
@@ -236,6 +245,7 @@ void PenumbraNode::check() {
     return diagnostics_->report(inbox, links, {LiveRunner::steady_now(), now().nanoseconds()});
   });
   if (fusion_) fusion_->add_contradictions(statuses_);
+  runner_->add_calibrations(statuses_);
   for (std::size_t i = 1; i < statuses_.status.size(); ++i) {  // the first is the robot's
     DiagnosticStatusMessage& sensor = statuses_.status[i];
     if (!active_) {

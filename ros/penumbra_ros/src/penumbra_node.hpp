@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "calibration.hpp"
 #include "inputs.hpp"
 #include "outputs.hpp"
 #include "settings.hpp"
@@ -62,6 +63,7 @@ class PenumbraNode final : public rclcpp_lifecycle::LifecycleNode {
       target_views_;                                // of several cameras
   std::optional<penumbra::io::LiveFusion> fusion_;  // likewise
   std::unique_ptr<penumbra::io::LiveRunner> runner_;
+  std::vector<std::unique_ptr<CalibrationServices>> calibrations_;  // of each camera
   std::unique_ptr<Inputs> inputs_;
   std::optional<penumbra::io::LiveDiagnostics> diagnostics_;
   penumbra::io::DiagnosticArrayMessage statuses_;  // of the last check
