@@ -35,19 +35,16 @@ struct TuneArguments {
 namespace fs = std::filesystem;
 
 /// Keeps frames to measure, and their colour images by index.
-class KeptFrames final : public io::RunOutput {
+class KeptFrames final : public io::Sink {
  public:
   explicit KeptFrames(const DepthRange& range) : frames(range) {}
 
-  void begin(const io::ReportHead& /*head*/) override {}
-  void save(const FrameReport& report, const Frame& frame,
-            const io::ShownTargets& /*targets*/) override {
+  void take(const Frame& frame, const FrameReport& report) override {
     frames.add(report);
     if (!frame.color.view.empty() && frames.holds(report.index))
       colors[report.index] = io::copy_of(frame.color.view);
     std::erase_if(colors, [&](const auto& color) { return !frames.holds(color.first); });
   }
-  void finish(const io::Statistics& /*all*/, std::span<const std::string> /*notes*/) override {}
 
   TuningFrames frames;
   std::map<std::size_t, Image<Rgb8>> colors;
@@ -141,7 +138,7 @@ int execute(const TuneArguments& arguments) {
   KeptFrames kept(pipeline.rule().range);
   {
     Progress progress(session.size().value_or(0));
-    const io::RunResult result = session.run(kept, [&] {
+    const io::RunResult result = session.run({&kept}, [&] {
       progress.step();
       return true;
     });

@@ -27,8 +27,8 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
                                         const LineSink& print, const std::function<void()>& step) {
   RunInput input = open_input(options.input, print);
   std::optional<Rectification> lens;
-  if (!input.camera.distortion.is_none()) lens.emplace(input.camera);
-  const Intrinsics camera = lens ? lens->pinhole() : input.camera.intrinsics;
+  if (!input.camera->distortion.is_none()) lens.emplace(*input.camera);
+  const Intrinsics camera = lens ? lens->pinhole() : input.camera->intrinsics;
   std::optional<FramePattern> masks;
   const auto& path = options.input.path;
   if (options.masks)
@@ -37,7 +37,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
 
   const bool has_depth = input.config.has_depth;
   if (!has_depth && !masks) throw InputError(path.string() + ": has no depth: give --masks");
-  const auto source = input.frames(input.robot);
+  const auto source = input.frames();
   Frame frame;
   CalibrationFrames frames(input.robot, has_depth, options.time_offset);
   std::size_t unmasked = 0;
@@ -62,14 +62,14 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
       }
       if (const FileResult read = read_png(
               file, mask,
-              ImageSize{input.camera.intrinsics.width(), input.camera.intrinsics.height()});
+              ImageSize{input.camera->intrinsics.width(), input.camera->intrinsics.height()});
           !read.ok())
         throw InputError("--masks: " + read.message);
       kept->mask = rectified_copy(lens, mask);
     }
     if (has_depth)
       kept->depth = rectified_copy(
-          lens, metres_of(frame.depth.view, {input.camera.range.near, input.camera.range.far}));
+          lens, metres_of(frame.depth.view, {input.camera->range.near, input.camera->range.far}));
     frames.add(*std::move(kept));
   }
 
