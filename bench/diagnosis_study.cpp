@@ -72,10 +72,10 @@ Sequence recorded(const std::filesystem::path& path) {
   Sequence sequence;
   sequence.name = path.stem().string();
   sequence.robot = std::make_shared<Robot>(std::move(input.robot));
-  sequence.camera = input.camera.intrinsics;
+  sequence.camera = input.camera->intrinsics;
   sequence.parent = find_camera_parent(*sequence.robot, input.config.camera_parent);
   sequence.T_parent_camera = input.config.T_parent_camera;
-  const auto source = input.frames(*sequence.robot);
+  const auto source = input.frames();
   Frame frame;
   while (source->next(frame)) {
     auto depth = std::make_shared<Image<float>>(sequence.camera.width(), sequence.camera.height());

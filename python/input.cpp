@@ -6,7 +6,6 @@
 #include <python/fields.hpp>
 #include <python/frame.hpp>
 
-#include <io/files/image_size.hpp>
 #include <io/inputs/clouds.hpp>
 #include <io/inputs/run_input.hpp>
 
@@ -21,20 +20,12 @@ struct Input : io::RunInput {
 
 /// The frames of an input, one after the other.
 struct Frames {
-  explicit Frames(std::shared_ptr<Input> of)
-      : input(std::move(of)), source(input->frames(input->robot)) {}
+  explicit Frames(std::shared_ptr<Input> of) : input(std::move(of)), source(input->frames()) {}
   std::shared_ptr<Input> input;
   std::unique_ptr<io::FrameSource> source;
   std::mutex reading;  ///< frames' pose_at read what the source reads
   OneThread thread;
 };
-
-/// Copies an image that the next frame would overwrite.
-template <typename View, typename T>
-void keep(Shared<View>& image, ImageView<const T> view) {
-  if (!image.owner && !view.empty())
-    image = Shared<View>(std::make_shared<const Image<T>>(io::copy_of(view)));
-}
 
 /// Reads the next frame, or that with a number. Returns false at the end.
 bool read(const std::shared_ptr<Frames>& self, Frame& frame, std::optional<std::size_t> i = {}) {
@@ -42,9 +33,6 @@ bool read(const std::shared_ptr<Frames>& self, Frame& frame, std::optional<std::
     const py::gil_scoped_release others;
     const std::lock_guard lock(self->reading);
     if (!(i ? self->source->read(*i, frame) : self->source->next(frame))) return false;
-    std::visit([&](const auto& view) { keep(frame.depth, view); }, frame.depth.view);
-    keep(frame.color, frame.color.view);
-    if (frame.scan) frame.scan = copy_of(*frame.scan);
   }
   if (frame.pose_at)
     frame.pose_at = PoseFunction{
@@ -102,7 +90,7 @@ io::RunInput open_one(const io::InputOptions& options, const io::LineSink& print
 template <typename T>
 auto of_camera(T io::RunInput::*member) {
   return [member](const Input& self) {
-    if (self.cloud)
+    if (!self.camera)
       throw py::value_error(
           "the input is of a sensor of points and has no camera: Session(robot, cloud)");
     return self.*member;
@@ -190,8 +178,8 @@ void bind_input_classes(py::module_& m) {
   py::class_<Input, std::shared_ptr<Input>> input(
       m, "Input",
       "What `penumbra run` or `penumbra cloud` takes: a recording folder or a ROS 2 bag (*.mcap, "
-      "*.db3 or a folder). Iterating reads its frames; each keeps its images, or its scan. A bag's "
-      "depth image, and every scan, is copied once. The poses during a bag's scan are known as "
+      "*.db3 or a folder). Iterating reads its frames; each keeps its images, or its scan. The "
+      "poses during a bag's scan are known as "
       "long "
       "as it is read in step: judge each frame before you read many more.");
   input
@@ -207,7 +195,10 @@ void bind_input_classes(py::module_& m) {
       Field{"camera", of_camera(&I::camera), "Of the judged images."},
       Field{"config", of_camera(&I::config),
             "Defaults of a session with the input's own settings."},
-      Field{"cloud", &I::cloud, "Of a sensor of points, in place of camera and config; else None."},
+      Field{
+          "cloud",
+          [](const Input& self) { return self.camera ? std::nullopt : std::optional(self.cloud); },
+          "Of a sensor of points, in place of camera and config; else None."},
       Field{"targets", &I::targets, "The input's own targets.yaml, or None."},
       Field{"target_history", &I::target_history,
             "PipelineConfig.target_history for targets that come with the frames, s."},

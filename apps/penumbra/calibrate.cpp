@@ -219,8 +219,8 @@ int execute(const CalibrateArguments& arguments) {
   const std::string parent =
       options.camera_parent.empty() ? robot.links().front() : options.camera_parent;
   if (found.is_good() || found.is_wide) {
-    print_fit(found, robot, input.input.camera.intrinsics);
-    print_pose(found, parent, input.input.camera.frame_id);
+    print_fit(found, robot, input.input.camera->intrinsics);
+    print_pose(found, parent, input.input.camera->frame_id);
   }
   if (!found.is_good()) {
     std::string why;

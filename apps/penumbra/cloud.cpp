@@ -155,45 +155,22 @@ int tune(const std::vector<io::RunInput>& inputs) {
 /// The viewer's page of a sensor.
 class CloudPage {
  public:
-  CloudPage(const Robot& robot, const std::string& input, const io::WebOptions& options)
-      : view_({.input = input,
-               .links = {robot.links().begin(), robot.links().end()},
+  CloudPage(const io::InputSession& session, const std::string& input,
+            const io::WebOptions& options)
+      : store(session.pipeline(), session.head()),
+        view_({.input = input,
+               .links = {session.head().links.begin(), session.head().links.end()},
                .parts = {io::Part::cloud}},
-              io::make_scene(robot), store, std::nullopt) {
-    io::ReportHead head;  // until the sensor's turn comes
-    head.input = input;
-    head.links = robot.links();
-    store.begin(head);
-    server_.emplace(options, view_);
-  }
+              io::make_scene(session.pipeline().robot()), store, std::nullopt),
+        server_(options, view_) {}
 
-  [[nodiscard]] std::string url() const { return server_->url(); }
+  [[nodiscard]] std::string url() const { return server_.url(); }
 
-  io::FrameStore store{nullptr};
+  io::FrameStore store;
 
  private:
   io::StoredView view_;
-  std::optional<io::WebServer> server_;
-};
-
-/// Several outputs of one run.
-class Outputs final : public io::RunOutput {
- public:
-  void add(io::RunOutput& output) { all_.push_back(&output); }
-
-  void begin(const io::ReportHead& head) override {
-    for (io::RunOutput* const one : all_) one->begin(head);
-  }
-  void save(const FrameReport& report, const Frame& frame,
-            const io::ShownTargets& targets) override {
-    for (io::RunOutput* const one : all_) one->save(report, frame, targets);
-  }
-  void finish(const io::Statistics& statistics, std::span<const std::string> notes) override {
-    for (io::RunOutput* const one : all_) one->finish(statistics, notes);
-  }
-
- private:
-  std::vector<io::RunOutput*> all_;
+  io::WebServer server_;
 };
 
 std::vector<std::string> table_row(const std::string& sensor, const io::Statistics& of) {
@@ -240,7 +217,7 @@ int execute(const CloudArguments& arguments) {
   }
   for (std::size_t i = 0; i < sensors.size() && arguments.server.port; ++i) {
     pages.push_back(std::make_unique<CloudPage>(
-        sessions[i]->pipeline().robot(), options.input.path.string() + ", " + sensors[i], web));
+        *sessions[i], options.input.path.string() + ", " + sensors[i], web));
     print_line(sensors[i] + ": " + pages.back()->url());
     std::cout.flush();
     if (web.port > 0) ++web.port;
@@ -251,14 +228,13 @@ int execute(const CloudArguments& arguments) {
   std::set<std::string> said;  // notes of the whole bag, once
   for (std::size_t i = 0; i < sessions.size() && !was_interrupted(); ++i) {
     io::InputSession& session = *sessions[i];
-    Outputs outputs;
-    std::unique_ptr<io::RunOutput> files;
-    if (folder) files = io::open_cloud_folder(*folder, session.source(), arguments.how);
-    if (bag) files = bag->sensor(sensors[i], session.source(), arguments.how);
-    if (files) outputs.add(*files);
-    if (!pages.empty()) outputs.add(pages[i]->store);
-    outputs.begin(session.head());
-    const io::RunResult result = judge_all(session, outputs);
+    std::unique_ptr<io::Sink> files;
+    if (folder) files = io::open_cloud_folder(*folder, arguments.how);
+    if (bag) files = bag->sensor(sensors[i], session.pipeline().robot(), arguments.how);
+    io::Sinks sinks;
+    if (files) sinks.push_back(files.get());
+    if (!pages.empty()) sinks.push_back(&pages[i]->store);
+    const io::RunResult result = judge_all(session, sinks);
     rows.push_back(table_row(sensors[i], result.statistics));
     labelled += result.statistics.usable_frames();
     if (result.statistics.parts() > 1)

@@ -36,8 +36,8 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& /*print*/) 
   refuse(options.path);
 }
 
-std::unique_ptr<RunOutput> open_output_bag(const std::filesystem::path& file,
-                                           const Camera& /*camera*/, std::string /*root*/) {
+std::unique_ptr<Sink> open_output_bag(const std::filesystem::path& file,
+                                      const Pipeline& /*pipeline*/) {
   refuse(file);
 }
 

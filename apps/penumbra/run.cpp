@@ -130,14 +130,12 @@ int execute(const RunArguments& arguments) {
   std::optional<io::ResultFolder> folder;
   if (!io::is_output_bag(path)) folder.emplace(io::run_results(arguments.output));
   io::InputSession session(arguments.session, print_line);
-  const std::unique_ptr<io::RunOutput> output =
-      folder
-          ? open_output(arguments.output, *folder, session)
-          : io::open_output_bag(path, session.camera(), session.pipeline().robot().links().front());
+  const Pipeline& pipeline = session.pipeline();
+  const std::unique_ptr<io::Sink> output = folder ? open_output(arguments.output, *folder, pipeline)
+                                                  : io::open_output_bag(path, pipeline);
   catch_interrupts();
-  output->begin(session.head());
-  const io::RunResult result = judge_all(session, *output);
-  print_result(result, session.pipeline().robot(),
+  const io::RunResult result = judge_all(session, {output.get()});
+  print_result(result, pipeline.robot(),
                io::is_output_bag(path) ? "results: " + path.string()
                                        : "report: " + (path / "report.json").string());
   return status_of(result, arguments.output.force);
@@ -145,20 +143,18 @@ int execute(const RunArguments& arguments) {
 
 }  // namespace
 
-std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
-                                           io::ResultFolder& folder,
-                                           const io::InputSession& session) {
-  const Pipeline& pipeline = session.pipeline();
+std::unique_ptr<io::Sink> open_output(const io::OutputOptions& options, io::ResultFolder& folder,
+                                      const Pipeline& pipeline) {
   const std::string& root = pipeline.robot().links().front();
   if (!options.points_frame.empty() && !pipeline.robot().find_link(options.points_frame))
     throw InputError("--points-frame: no link '" + options.points_frame + "'; the root is '" +
                      root + "', and `penumbra inspect URDF` lists the others");
-  return std::make_unique<io::OutputFolder>(options, folder, pipeline.rectification());
+  return std::make_unique<io::OutputFolder>(options, folder, pipeline);
 }
 
-io::RunResult judge_all(io::InputSession& session, io::RunOutput& output) {
+io::RunResult judge_all(io::InputSession& session, const io::Sinks& sinks) {
   Progress progress(session.size().value_or(0));
-  return session.run(output, [&] {
+  return session.run(sinks, [&] {
     progress.step();
     return !was_interrupted();
   });

@@ -51,10 +51,10 @@ void open(CameraTask& task) {
 }
 
 void judge(CameraTask& task, const std::function<bool()>& go_on) {
-  const auto output = open_output(task.arguments.output, *task.folder, *task.session);
-  io::ViewRecorder recorder(task.name, task.session->pipeline(), *output);
-  recorder.begin(task.session->head());
-  task.result = task.session->run(recorder, go_on);
+  const Pipeline& pipeline = task.session->pipeline();
+  const auto output = open_output(task.arguments.output, *task.folder, pipeline);
+  io::ViewRecorder recorder(task.name, pipeline);
+  task.result = task.session->run({&recorder, output.get()}, go_on);
   task.views = recorder.run();
 }
 

@@ -29,12 +29,12 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
 // Parts of every run, in run.cpp.
 
 /// Judges all frames, with a bar on the terminal.
-[[nodiscard]] io::RunResult judge_all(io::InputSession& session, io::RunOutput& output);
+[[nodiscard]] io::RunResult judge_all(io::InputSession& session, const io::Sinks& sinks);
 
 /// Removes earlier results.
-[[nodiscard]] std::unique_ptr<io::RunOutput> open_output(const io::OutputOptions& options,
-                                                         io::ResultFolder& folder,
-                                                         const io::InputSession& session);
+[[nodiscard]] std::unique_ptr<io::Sink> open_output(const io::OutputOptions& options,
+                                                    io::ResultFolder& folder,
+                                                    const Pipeline& pipeline);
 
 /// From now on the first Ctrl-C or SIGTERM only makes was_interrupted() true; a second one ends the
 /// program.

@@ -35,16 +35,14 @@ struct TuneArguments {
 namespace fs = std::filesystem;
 
 /// Keeps frames to measure.
-class TuneOutput final : public io::RunOutput {
+class TuneOutput final : public io::Sink {
  public:
   explicit TuneOutput(const Pipeline& pipeline)
       : frames(pipeline.robot(), pipeline.report_camera(),
                {.most = most_tuning_frames, .motion = 0.02}),
         range_{pipeline.rule().range.near, std::min(pipeline.rule().range.far, 1e3)} {}
 
-  void begin(const io::ReportHead& /*head*/) override {}
-  void save(const FrameReport& report, const Frame& frame,
-            const io::ShownTargets& /*targets*/) override {
+  void take(const Frame& frame, const FrameReport& report) override {
     std::optional<KeptFrame> kept = frames.pass(report, frame.pose.positions);
     if (!kept || report.nothing_measured) return;
     kept->depth = frames.depth_of(report.depth, range_);
@@ -53,7 +51,6 @@ class TuneOutput final : public io::RunOutput {
     kept->color = io::copy_of(frame.color.view);
     frames.add(*std::move(kept));
   }
-  void finish(const io::Statistics& /*all*/, std::span<const std::string> /*notes*/) override {}
 
   KeptFrames frames;
 
@@ -149,7 +146,7 @@ int execute(const TuneArguments& arguments) {
   TuneOutput kept(pipeline);
   {
     Progress progress(session.size().value_or(0));
-    const io::RunResult result = session.run(kept, [&] {
+    const io::RunResult result = session.run({&kept}, [&] {
       progress.step();
       return true;
     });

@@ -135,15 +135,14 @@ ViewSource::~ViewSource() {
 void ViewSource::open_input(const io::SessionOptions& options, const std::string& camera) {
   judging_.emplace(options, print_line);
   const Pipeline& pipeline = judging_->pipeline();
-  store_.emplace(pipeline.rectification());
-  store_->begin(judging_->head());
-  if (!cameras_.empty()) recorder_.emplace(camera, pipeline, *store_);
+  store_.emplace(pipeline, judging_->head());
+  if (!cameras_.empty()) recorder_.emplace(camera, pipeline);
   const auto links = pipeline.robot().links();
   std::vector<io::Part> parts{io::Part::color, io::Part::labels, io::Part::links, io::Part::vdi};
   if (judging_->has_depth()) parts.insert(parts.end(), {io::Part::depth, io::Part::cloud});
   view_.emplace(io::SessionInfo{.input = options.input.path.string(),
                                 .links = {links.begin(), links.end()},
-                                .camera = judging_->camera(),
+                                .camera = pipeline.report_camera(),
                                 .image = options.image,
                                 .parts = std::move(parts),
                                 .cameras = cameras_},
@@ -176,8 +175,9 @@ void ViewSource::start() {
 
 void ViewSource::judge() {
   try {
-    io::RunOutput& output = recorder_ ? static_cast<io::RunOutput&>(*recorder_) : *store_;
-    result_ = judging_->run(output, [this] { return !stop_; });
+    io::Sinks sinks{&*store_};
+    if (recorder_) sinks.insert(sinks.begin(), &*recorder_);
+    result_ = judging_->run(sinks, [this] { return !stop_; });
   } catch (...) {
     error_ = std::current_exception();
   }

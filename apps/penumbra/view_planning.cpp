@@ -116,7 +116,7 @@ int execute(const ViewPlanningArguments& arguments) {
   const CandidateViews views = [&] {
     Progress progress(renders);
     try {
-      return judge_candidates(input.input.robot, {input.input.camera, input.input.config.rule},
+      return judge_candidates(input.input.robot, {*input.input.camera, input.input.config.rule},
                               input.candidates, input.motion, threads, [&] { progress.step(); });
     } catch (const LensError& error) {
       throw InputError(input.input.camera_info.string() + ": " + error.what());

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -16,38 +16,36 @@
 #include <io/assembly/color_images.hpp>
 #include <io/assembly/judged_cameras.hpp>
 #include <io/assembly/robot_input.hpp>
-#include <io/cloud/cloud_points.hpp>
 #include <io/ros/target_inbox.hpp>
 
 namespace penumbra::io {
-
-/// What judges a sensor's frames.
-struct JudgedSensor {
-  std::optional<JudgedCameras> cameras = {};
-  std::optional<CloudConfig> cloud = {};  ///< of a sensor of points, in place of cameras
-  std::string frame = {};                 ///< of the judged images or the clouds
-  CameraMount mount = {};
-};
 
 /// The robot and the sensor that frames are judged with, and the frames that wait for their pose.
 /// Another robot, camera_info, frame or mount gives another setup. Constant members may be read at
 /// any time; see FrameAssembler for the others.
 struct SensorSetup {
-  SensorSetup(std::shared_ptr<PosedRobot> of, JudgedSensor sensor_,
+  using Sensor = std::variant<JudgedCameras, CloudConfig>;
+
+  /// `frame`: of the judged images or the clouds.
+  SensorSetup(std::shared_ptr<PosedRobot> of, Sensor with, CameraMount on, std::string_view frame,
               const FrameQueueOptions& options, HiddenTargets hidden, FrameQueue::OnDrop on_drop,
               FrameQueue::Check check)
       : posed(std::move(of)),
-        sensor(std::move(sensor_)),
+        sensor(std::move(with)),
+        mount(std::move(on)),
         queue(posed->robot, posed->history, options, std::move(on_drop), std::move(check)),
-        targets(posed->robot, sensor.frame, options.poses.frame_prefix, hidden) {}
+        targets(posed->robot, frame, options.poses.frame_prefix, hidden) {}
+
+  /// Return null for the other kind of sensor.
+  [[nodiscard]] const JudgedCameras* cameras() const { return std::get_if<JudgedCameras>(&sensor); }
+  [[nodiscard]] const CloudConfig* cloud() const { return std::get_if<CloudConfig>(&sensor); }
 
   const std::shared_ptr<PosedRobot> posed;
-  const JudgedSensor sensor;
+  const Sensor sensor;
+  const CameraMount mount;
   FrameQueue queue;
   TargetInbox targets;
 };
-
-using CloudMessage = std::variant<PointCloud2Message, LaserScanMessage, LivoxMessage>;
 
 /// Returns whether the robot's pose is known, also if the camera's is not.
 [[nodiscard]] inline bool knows_robot(const RobotPose& pose) {
@@ -59,15 +57,10 @@ using CloudMessage = std::variant<PointCloud2Message, LaserScanMessage, LivoxMes
 struct AssembledFrame : Frame {
   std::shared_ptr<SensorSetup> setup;
   std::int64_t arrived = 0;  ///< on the caller's clock
-  // Of a camera:
+  // Of a camera, whose image is not decoded yet:
   KeptImage image;
   std::optional<KeptImage> color_image;  ///< if it was requested and received
   TransformAnswer T_judged_depth;        ///< if the setup has a separate depth camera
-  // Of a sensor of points:
-  CloudMessage message;
-  std::shared_ptr<const void> owner;  ///< of the bytes that the message refers to
-  CloudPoints points;                 ///< of the scan
-  std::string frame_id;
 };
 
 }  // namespace penumbra::io

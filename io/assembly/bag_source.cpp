@@ -55,8 +55,7 @@ BagSource::BagSource(const std::filesystem::path& bag, const Robot& robot, BagSo
                   .compare_sources = options_.compare_sources,
                   .static_transforms = options_.static_transforms},
                  cameras_of(options_), clouds_of(options_)) {
-  if (options_.camera)
-    for (Decoder& decoder : decoders_) decoder.depth.emplace(options_.camera->cameras);
+  if (options_.camera) depth_.emplace(options_.camera->cameras);
   check_range();
 }
 
@@ -84,9 +83,7 @@ bool BagSource::is_in_range(std::int64_t image) const {
 }
 
 bool BagSource::read(std::size_t /*number*/, Frame& frame) {
-  turn_ = 1 - turn_;
-  auto& [depth, current, color] = decoders_[turn_];
-  current = {};
+  AssembledFrame current;
   while (!assembler_.next(0, now_, options_.with_color, current)) {
     if (!ended_) {
       read_message();
@@ -98,17 +95,19 @@ bool BagSource::read(std::size_t /*number*/, Frame& frame) {
                      options_.range_option);
   }
   given_ = true;
-  if (depth)
-    if (const auto fault = depth->read(current); !fault.empty())
+  if (depth_)
+    if (const auto fault = depth_->read(current); !fault.empty())
       assembler_.add_fault(options_.topics.depth.name, current.arrived, fault);
-  if (time_note_.empty()) time_note_ = current.points.time_note;
+  if (current.scan && time_note_.empty()) time_note_ = current.scan->received->points.time_note;
   frame = std::move(static_cast<Frame&>(current));
   *frame.index += static_cast<std::size_t>(options_.first.value_or(0));
   if ((options_.topics.color || !options_.topics.has_depth) && options_.with_color) {
+    Image<Rgb8> color;
     frame.color_message = current.color_image ? decode_color(*current.color_image,
                                                              options_.camera->cameras.judged, color)
                                               : ColorImages::none_near;
-    if (frame.color_message.empty()) frame.color = std::as_const(color).view();
+    if (frame.color_message.empty())
+      frame.color = SharedColor(std::make_shared<const Image<Rgb8>>(std::move(color)));
   }
   assembler_.done(0, true);
   return true;

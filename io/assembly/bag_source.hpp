@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -46,19 +45,9 @@ class BagSource final : public FrameSource {
   /// frames.
   bool read(std::size_t number, Frame& frame) override;
   [[nodiscard]] std::optional<std::size_t> size() const override { return size_; }
-  [[nodiscard]] const AssembledFrame* assembled() const override {
-    return options_.cloud ? &decoders_[turn_].current : nullptr;
-  }
   [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:
-  /// What the images of a frame refer to.
-  struct Decoder {
-    std::optional<DepthInput> depth = {};
-    AssembledFrame current = {};
-    Image<Rgb8> color = {};
-  };
-
   void check_range();
   [[nodiscard]] const TopicUse& sensor() const;
   void read_message();
@@ -70,8 +59,7 @@ class BagSource final : public FrameSource {
   std::string name_;
   FrameAssembler assembler_;
   std::vector<std::optional<std::size_t>> inputs_;  // the assembler's topic of each of the bag's
-  std::array<Decoder, 2> decoders_;                 // in turns
-  std::size_t turn_ = 0;
+  std::optional<DepthInput> depth_;                 // of a camera
   std::optional<std::size_t> size_;
   std::int64_t images_ = 0;  // number of images or clouds read so far
   std::int64_t now_ = 0;     // current log time

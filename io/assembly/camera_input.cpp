@@ -125,10 +125,8 @@ std::shared_ptr<SensorSetup> CameraInput::find_setup() {
 
 std::shared_ptr<SensorSetup> CameraInput::make_setup(JudgedCameras cameras, CameraMount mount) {
   const std::string frame = cameras.judged.frame_id;
-  return SensorInput::make_setup(
-      options_,
-      {.cameras = std::move(cameras), .cloud = {}, .frame = frame, .mount = std::move(mount)},
-      is_lossless() ? every_companion_wait : newest_companion_wait);
+  return SensorInput::make_setup(options_, std::move(cameras), std::move(mount), frame,
+                                 is_lossless() ? every_companion_wait : newest_companion_wait);
 }
 
 JudgedCameras CameraInput::find_cameras() const {
@@ -183,7 +181,7 @@ void CameraInput::complete(AssembledFrame& frame) {
   frame.source_message = fault_of(frame);
   frame.plan = robot_.plan();
   const std::int64_t stamp = frame.stamp.value_or(0);
-  const JudgedCameras& cameras = *frame.setup->sensor.cameras;
+  const JudgedCameras& cameras = *frame.setup->cameras();
   if (cameras.depth && knows_robot(frame.pose))
     frame.setup->posed->history.transforms().at(frame.setup->queue.pose_stamp(stamp),
                                                 cameras.judged.frame_id, frame_,

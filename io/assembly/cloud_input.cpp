@@ -20,27 +20,26 @@ CloudInput::CloudInput(CloudInputOptions options, const RobotInput& robot)
 
 template <typename M>
 std::string CloudInput::take(M message, const SerializedMessage& bytes, std::int64_t now) {
-  const auto cloud = begin(now);
-  if constexpr (requires { message.data; }) {  // the others own their points
-    if (bytes.owner) {
-      cloud->owner = bytes.owner;
-    } else {
+  const auto frame = begin(now);
+  const auto cloud = std::make_shared<ReceivedCloud>();
+  cloud->owner = bytes.owner;
+  if constexpr (requires { message.data; })  // the others own their points
+    if (!cloud->owner) {
       const auto copy =
           std::make_shared<std::vector<std::byte>>(message.data.begin(), message.data.end());
       message.data = *copy;
       cloud->owner = copy;
     }
-  }
-  if (message.header.stamp > 0) cloud->stamp = message.header.stamp;
+  if (message.header.stamp > 0) frame->stamp = message.header.stamp;
   cloud->frame_id = frame_name(message.header.frame_id);
+  cloud->arrived = now;
   cloud->message = std::move(message);
-  cloud->source_message =
+  frame->source_message =
       read_points(std::get<M>(cloud->message), options_.use_times, cloud->points);
-  if (!cloud->source_message.empty()) cloud->source_status = FrameStatus::bad_depth;
-  cloud->scan = Scan{.points = cloud->points.points, .times = cloud->points.times};
-  if (!options_.has_rays) cloud->scan->origin.reset();
+  if (!frame->source_message.empty()) frame->source_status = FrameStatus::bad_depth;
+  frame->scan = scan_of(cloud, options_.has_rays);
 
-  const std::string& fault = cloud->source_message;
+  const std::string& fault = frame->source_message;
   if (!is_lossless()) {
     frame_ = cloud->frame_id;
     refresh();
@@ -49,15 +48,15 @@ std::string CloudInput::take(M message, const SerializedMessage& bytes, std::int
     else if (!fault.empty())
       counts_.drop(DropReason::unreadable);
     else
-      push(cloud, now);
+      push(frame, now);
     return fault;
   }
   if (fault.empty() && !frame_.empty() && cloud->frame_id != frame_) {
-    cloud->source_status = FrameStatus::missing_transform;
-    cloud->source_message = "the cloud is of the frame '" + printable(cloud->frame_id) +
+    frame->source_status = FrameStatus::missing_transform;
+    frame->source_message = "the cloud is of the frame '" + printable(cloud->frame_id) +
                             "', expected '" + printable(frame_) + "'";
   }
-  push(cloud, now);
+  push(frame, now);
   return {};
 }
 template std::string CloudInput::take(PointCloud2Message, const SerializedMessage&, std::int64_t);
@@ -82,23 +81,22 @@ std::shared_ptr<SensorSetup> CloudInput::make_setup(CameraMount mount) {
                      .sensor_parent = mount.parent,
                      .T_parent_sensor = mount.T_parent_camera,
                      .target_history = options_.has_targets ? topic_target_history : 0.0};
-  return SensorInput::make_setup(
-      options_,
-      {.cameras = {}, .cloud = std::move(config), .frame = frame_, .mount = std::move(mount)}, 0.0);
+  return SensorInput::make_setup(options_, std::move(config), std::move(mount), frame_, 0.0);
 }
 
 /// Adds where a scan's rays start if that is not the points' frame.
-void CloudInput::complete(AssembledFrame& cloud) {
-  SensorSetup& setup = *cloud.setup;
-  if (options_.sensor_frame.empty() || cloud.source_status != FrameStatus::ok) return;
+void CloudInput::complete(AssembledFrame& frame) {
+  SensorSetup& setup = *frame.setup;
+  if (options_.sensor_frame.empty() || frame.source_status != FrameStatus::ok) return;
   TransformAnswer sensor;
-  setup.posed->history.transforms().at(setup.queue.pose_stamp(cloud.stamp.value_or(0)),
-                                       cloud.frame_id, options_.sensor_frame, sensor);
+  setup.posed->history.transforms().at(setup.queue.pose_stamp(frame.stamp.value_or(0)),
+                                       frame.scan->received->frame_id, options_.sensor_frame,
+                                       sensor);
   if (sensor.status == TransformStatus::ok) {
-    cloud.scan->origin = sensor.T_target_source.translation();
+    frame.scan->origin = sensor.T_target_source.translation();
   } else {
-    cloud.source_status = FrameStatus::missing_transform;
-    cloud.source_message = sensor.message;
+    frame.source_status = FrameStatus::missing_transform;
+    frame.source_message = sensor.message;
   }
 }
 

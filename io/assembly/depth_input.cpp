@@ -31,46 +31,41 @@ std::string DepthInput::read(AssembledFrame& job) {
     if (!fault.empty()) job.source_status = FrameStatus::bad_depth;
     return undecoded;
   }
-  if (fault.empty()) fault = undecoded = decode(job.image, job.depth.view);
-  if (fault.empty()) fault = bring(job, job.depth.view);
+  if (fault.empty()) fault = undecoded = decode(job.image, job.depth);
+  if (fault.empty()) fault = bring(job, job.depth);
   if (!fault.empty()) {
     job.source_status = FrameStatus::bad_depth;
-    job.depth = DepthView();
+    job.depth = {};
   }
   return undecoded;
 }
 
-std::string DepthInput::decode(const KeptImage& image, DepthView& depth) {
-  const auto fault = image.image ? decode_depth(*image.image, decoded_)
-                                 : decode_depth(*image.compressed, decoded_);
+std::string DepthInput::decode(const KeptImage& image, SharedDepth& depth) const {
+  const auto fault = image.image ? decode_depth(*image.image, depth, image.owner)
+                                 : decode_depth(*image.compressed, depth);
   if (fault) return *fault;
-  depth = decoded_.view;
-  if (scale_) {
-    scaled_ = std::visit(
-        [this](const auto& view) { return shared_depth_of(copy_of(view), scale_); }, depth);
-    depth = scaled_.view;
-  }
+  if (scale_)
+    depth = std::visit([this](const auto& view) { return shared_depth_of(copy_of(view), scale_); },
+                       depth.view);
   return {};
 }
 
-std::string DepthInput::bring(const AssembledFrame& from, DepthView& depth) {
+std::string DepthInput::bring(const AssembledFrame& from, SharedDepth& depth) {
   const auto [width, height] =
-      std::visit([](const auto& view) { return std::pair(view.width, view.height); }, depth);
+      std::visit([](const auto& view) { return std::pair(view.width, view.height); }, depth.view);
   if (width != width_ || height != height_)
     return "the depth image is " + size_text(width, height) + ", the camera " +
            size_text(width_, height_);
-  if (z_of_ray_.width() > 0) {
-    along_z_ = along_z(depth, z_of_ray_);
-    depth = along_z_.view;
-  }
+  if (z_of_ray_.width() > 0) depth = along_z(depth.view, z_of_ray_);
   if (!registration_) return {};
   if (!knows_robot(from.pose)) {
-    depth = DepthView();  // the depth camera's position is not known
+    depth = {};  // the depth camera's position is not known
     return {};
   }
   if (from.T_judged_depth.status != TransformStatus::ok)
     return "depth cannot be registered to the color camera: " + from.T_judged_depth.message;
-  depth = registration_->warp(depth, from.T_judged_depth.T_target_source);
+  depth = std::visit([](const auto& view) { return shared_depth_of(copy_of(view), {}); },
+                     registration_->warp(depth.view, from.T_judged_depth.T_target_source));
   return {};
 }
 

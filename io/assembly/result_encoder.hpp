@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,7 +13,7 @@
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
-#include <io/assembly/assembled_frame.hpp>
+#include <io/cloud/cloud_points.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/ros/result_messages.hpp>
 
@@ -65,44 +66,33 @@ class ResultSink {
   virtual void write(Result result, std::int64_t stamp, std::span<const std::byte> payload) = 0;
 };
 
-/// Encodes the results of labelled scans that a sink wants.
-class CloudEncoder {
- public:
-  /// `root`: the robot's root link.
-  CloudEncoder(CloudOutput how, std::string root) : how_(how), root_(std::move(root)) {}
-
-  /// Encodes and writes the results of a scan; of a cloud that was not read, its targets. `cloud`:
-  /// its message, whose Frame part may have been moved away.
-  void encode(const FrameReport& report, const Frame& frame, const AssembledFrame& cloud,
-              ResultSink& sink);
-
- private:
-  CloudOutput how_;
-  std::string root_;
-  bool has_type_ = false;
-  std::vector<std::byte> data_, payload_;
-};
-
-/// Encodes the results of judged images that a sink wants.
+/// Encodes the results of a sensor's judged frames that a sink wants.
 class ResultEncoder {
  public:
-  /// `camera`: of the judged images as received; `root`: the robot's root link.
-  ResultEncoder(const Camera& camera, std::string root, const PointsRule& points = {})
-      : results_(camera, points), root_(std::move(root)) {}
+  /// Of images. `camera`: that of the judged images as received.
+  ResultEncoder(const Robot& robot, const Camera& camera, const PointsRule& points = {})
+      : root_(robot.links().front()),
+        images_(std::in_place, camera, points),
+        painter_(std::in_place, robot, camera, nullptr) {}
+  /// Of scans.
+  ResultEncoder(const Robot& robot, CloudOutput how) : root_(robot.links().front()), how_(how) {}
 
-  /// Encodes and writes the results of a frame. The report must have a stamp. `images.depth`: the
-  /// judged image.
-  void encode(const FrameReport& report, const ShownImages& images, const ShownTargets& targets,
-              ResultSink& sink);
+  /// Encodes and writes the results of a frame; of a cloud that was not read, its targets. The
+  /// report of an image must have a stamp.
+  void encode(const Frame& frame, const FrameReport& report, ResultSink& sink);
 
  private:
+  void encode_images(const Frame& frame, const FrameReport& report, ResultSink& sink);
+  void encode_cloud(const Frame& frame, const FrameReport& report, ResultSink& sink);
   template <typename M>
-  void write(Result result, const M& message, ResultSink& sink);
+  void write(Result result, std::int64_t stamp, const M& message, ResultSink& sink);
 
-  ResultMessages results_;
   std::string root_;
-  OverlayPainter painter_{nullptr};
-  std::vector<std::byte> png_, payload_;
+  std::optional<ResultMessages> images_;  // null: of scans
+  std::optional<OverlayPainter> painter_;
+  CloudOutput how_;
+  bool has_type_ = false;  // of clouds
+  std::vector<std::byte> data_, payload_;
 };
 
 }  // namespace penumbra::io

@@ -36,22 +36,13 @@ void SensorInput::refresh() {
   } catch (const InputError& error) {
     setup_fault_ = error.what();
   }
-  if (only_frames_are_new && made && made->sensor.mount == setup_->sensor.mount) return;
+  if (only_frames_are_new && made && made->mount == setup_->mount) return;
   if (setup_) {
     counts_.drop(DropReason::changed, setup_->queue.waiting());
     targets_.replaced += setup_->targets.replaced();
     targets_.discarded += setup_->targets.discarded() + setup_->targets.waiting();
   }
   setup_ = std::move(made);
-}
-
-std::shared_ptr<SensorSetup> SensorInput::make_setup(JudgedSensor sensor,
-                                                     const FrameQueueOptions& options,
-                                                     HiddenTargets hidden) {
-  return std::make_shared<SensorSetup>(
-      robot_.posed(), std::move(sensor), options, hidden,
-      [this](std::shared_ptr<Frame> frame, DropReason reason) { drop(std::move(frame), reason); },
-      [this](const Frame& frame, bool over) { return check(frame, over); });
 }
 
 void SensorInput::drop(std::shared_ptr<Frame> frame, DropReason reason) {

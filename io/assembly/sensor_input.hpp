@@ -7,6 +7,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include <io/assembly/arrivals.hpp>
 #include <io/assembly/assembled_frame.hpp>
@@ -78,7 +80,8 @@ class SensorInput {
   [[nodiscard]] bool is_lossless() const { return is_lossless_; }
   /// `options`: CameraInputOptions or CloudInputOptions.
   template <typename Options>
-  std::shared_ptr<SensorSetup> make_setup(const Options& options, JudgedSensor sensor,
+  std::shared_ptr<SensorSetup> make_setup(const Options& options, SensorSetup::Sensor sensor,
+                                          CameraMount mount, std::string_view frame,
                                           double companion_wait) {
     awaits_targets_ = is_lossless() && options.has_targets;
     const FrameQueueOptions queue{
@@ -89,9 +92,12 @@ class SensorInput {
         .max_frames = options.max_frames,
         .poses = {.source = options.poses,
                   .frame_prefix = options.mount.frame_prefix,
-                  .camera_parent = sensor.mount.parent,
-                  .camera_frame = sensor.mount.frame}};
-    return make_setup(std::move(sensor), queue, options.hidden_targets);
+                  .camera_parent = mount.parent,
+                  .camera_frame = mount.frame}};
+    return std::make_shared<SensorSetup>(
+        robot_.posed(), std::move(sensor), std::move(mount), frame, queue, options.hidden_targets,
+        [this](std::shared_ptr<Frame> of, DropReason reason) { drop(std::move(of), reason); },
+        [this](const Frame& of, bool over) { return check(of, over); });
   }
   /// Counts a message, and returns its frame.
   std::shared_ptr<AssembledFrame> begin(std::int64_t now);
@@ -118,8 +124,6 @@ class SensorInput {
     bool operator==(const Basis&) const = default;
   };
 
-  std::shared_ptr<SensorSetup> make_setup(JudgedSensor sensor, const FrameQueueOptions& options,
-                                          HiddenTargets hidden);
   void drop(std::shared_ptr<Frame> frame, DropReason reason);
 
   std::string name_;

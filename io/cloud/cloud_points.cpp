@@ -268,6 +268,15 @@ std::string read_points(const LivoxMessage& cloud, bool use_times, CloudPoints& 
   return {};
 }
 
+Scan scan_of(const std::shared_ptr<const ReceivedCloud>& cloud, bool has_rays) {
+  Scan scan{.points = cloud->points.points,
+            .times = cloud->points.times,
+            .owner = cloud,
+            .received = cloud};
+  if (!has_rays) scan.origin.reset();
+  return scan;
+}
+
 PointCloud2Message cloud_output(const PointCloud2Message& cloud, const FrameReport& report,
                                 const CloudOutput& how, std::vector<std::byte>& data) {
   const PointTable table(cloud);

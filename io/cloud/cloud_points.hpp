@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <penumbra/pipeline/frame.hpp>
@@ -43,6 +45,26 @@ struct CloudPoints {
 [[nodiscard]] std::string read_points(const LaserScanMessage& scan, bool use_times,
                                       CloudPoints& out);
 [[nodiscard]] std::string read_points(const LivoxMessage& cloud, bool use_times, CloudPoints& out);
+
+}  // namespace penumbra::io
+
+namespace penumbra {
+
+/// A cloud of a topic or a file, and its points.
+struct ReceivedCloud {
+  std::variant<io::PointCloud2Message, io::LaserScanMessage, io::LivoxMessage> message;
+  std::shared_ptr<const void> owner;  ///< of the bytes that the message refers to
+  io::CloudPoints points;
+  std::string frame_id;      ///< without a leading "/"
+  std::int64_t arrived = 0;  ///< on the clock of whoever received it
+};
+
+}  // namespace penumbra
+
+namespace penumbra::io {
+
+/// Returns the scan of a cloud, which it keeps. `has_rays`: false: merged clouds, see Scan::origin.
+[[nodiscard]] Scan scan_of(const std::shared_ptr<const ReceivedCloud>& cloud, bool has_rays);
 
 /// What is written of a labelled cloud.
 struct CloudOutput {

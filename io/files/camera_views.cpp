@@ -72,14 +72,12 @@ TargetFusion fusion_of(std::span<const CameraRun> runs) {
 
 }  // namespace
 
-void ViewRecorder::save(const FrameReport& report, const Frame& frame,
-                        const ShownTargets& targets) {
+void ViewRecorder::take(const Frame& /*frame*/, const FrameReport& report) {
   if (!report.stamp && has_pose(report.status))
     throw InputError("camera '" + run_.camera.name + "': frame " + std::to_string(report.index) +
                      " has no stamp, which matches the cameras' frames; add a column stamp to the "
                      "joint file, or --fps");
   if (report.stamp) run_.frames.push_back(views_of(run_.camera, report));
-  to_.save(report, frame, targets);
 }
 
 CameraViews fuse_views(const std::string& input, std::span<const CameraRun> runs) {

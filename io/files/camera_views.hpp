@@ -12,7 +12,7 @@
 #include <penumbra/fusion/target_fusion.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
-#include <io/files/run_output.hpp>
+#include <io/files/sink.hpp>
 
 namespace penumbra::io {
 
@@ -22,26 +22,19 @@ struct CameraRun {
   std::vector<CameraFrame> frames;
 };
 
-/// Takes the results of one camera's run, keeps its targets' views and passes everything on.
-class ViewRecorder final : public RunOutput {
+/// Keeps the views of the targets of one camera's run.
+class ViewRecorder final : public Sink {
  public:
-  /// `to` must outlive this.
-  ViewRecorder(std::string name, const Pipeline& pipeline, RunOutput& to)
-      : run_{{std::move(name), pipeline.intrinsics(), pipeline.rule().tolerance}, {}}, to_(to) {}
+  ViewRecorder(std::string name, const Pipeline& pipeline)
+      : run_{{std::move(name), pipeline.intrinsics(), pipeline.rule().tolerance}, {}} {}
 
-  void begin(const ReportHead& head) override { to_.begin(head); }
   /// A faulty frame may lack a stamp: it is not fused. Throws InputError for a good one without.
-  void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
-  void finish(const Statistics& statistics, std::span<const std::string> notes) override {
-    to_.finish(statistics, notes);
-  }
-  [[nodiscard]] std::vector<std::string> notes() const override { return to_.notes(); }
+  void take(const Frame& frame, const FrameReport& report) override;
 
   [[nodiscard]] const CameraRun& run() const { return run_; }
 
  private:
   CameraRun run_;
-  RunOutput& to_;
 };
 
 /// How often a target got each verdict over all cameras.

@@ -93,12 +93,9 @@ class FrameReader::DepthCamera {
       }
     }
     if (!registration) registration = std::make_unique<DepthRegistration>(depth_, camera_);
-    const SharedDepth warped = std::visit(
-        [](const auto& view) {
-          using Pixel = std::remove_const_t<std::remove_pointer_t<decltype(view.data)>>;
-          return SharedDepth(std::make_shared<const Image<Pixel>>(copy_of(view)));
-        },
-        registration->warp(depth.view, T_camera_depth_));
+    SharedDepth warped =
+        std::visit([](const auto& view) { return shared_depth_of(copy_of(view), {}); },
+                   registration->warp(depth.view, T_camera_depth_));
     const std::lock_guard lock(mutex_);
     idle_.push_back(std::move(registration));
     return warped;

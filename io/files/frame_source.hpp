@@ -10,8 +10,6 @@
 
 namespace penumbra::io {
 
-struct AssembledFrame;
-
 /// A sequence of frames: a recording folder or a bag.
 class FrameSource {
  public:
@@ -23,18 +21,13 @@ class FrameSource {
   /// Reads the next frame. Returns false at the end.
   virtual bool next(Frame& frame) { return read(next_++, frame); }
 
-  /// Reads the frame with a number, from 0. Returns false after the last. At most at_once() frames
-  /// may be read at the same time, and have owners of their images; if that is 1, in order. Then
-  /// images without an owner are valid until the call after the next one.
+  /// Reads the frame with a number, from 0, which owns its images. Returns false after the last. At
+  /// most at_once() frames may be read at the same time; if that is 1, in order.
   virtual bool read(std::size_t number, Frame& frame) = 0;
   [[nodiscard]] virtual std::size_t at_once() const { return 1; }
 
   /// Returns the number of frames, if it is known before the end.
   [[nodiscard]] virtual std::optional<std::size_t> size() const = 0;
-
-  /// Returns the message of the last frame and its points, of a sensor of points; else null. The
-  /// Frame part was moved away.
-  [[nodiscard]] virtual const AssembledFrame* assembled() const { return nullptr; }
 
   /// Returns faults of the source, a line each. They are complete at the end.
   [[nodiscard]] virtual std::vector<std::string> notes() const = 0;

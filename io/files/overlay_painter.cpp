@@ -234,17 +234,16 @@ void draw_overlay(const FrameReport& report, const ShownImages& images, Image<Rg
   draw_legend(report, scale, bottom, out);
 }
 
-ImageView<const Rgb8> OverlayPainter::draw(const FrameReport& report, const ShownImages& images,
-                                           const ShownTargets& targets) {
+ImageView<const Rgb8> OverlayPainter::draw(const Frame& frame, const FrameReport& report) {
   ShownImages seen;
-  if (!images.color.empty())
-    seen.color = seen_color(images.color);
+  if (!frame.color.view.empty())
+    seen.color = seen_color(frame.color.view);
   else
     std::visit(
         [&](const auto& depth) { seen.depth = rectified(rectification_, depth, depth_of(depth)); },
-        images.depth);
+        frame.depth.view);
   draw_overlay(report, seen, overlay_);
-  target_overlay_.draw(targets.targets, report, targets.robot, targets.camera, overlay_);
+  target_overlay_.draw(frame.targets, report, robot_, camera_, overlay_);
   return std::as_const(overlay_).view();
 }
 

@@ -16,13 +16,6 @@
 
 namespace penumbra::io {
 
-/// A frame's targets as overlays need them.
-struct ShownTargets {
-  std::span<const Target> targets;
-  const Robot& robot;
-  const Camera& camera;  ///< of the report's images
-};
-
 /// The camera's images, which overlays are drawn on.
 struct ShownImages {
   DepthView depth;              ///< may be empty
@@ -44,13 +37,13 @@ void draw_overlay(const FrameReport& report, const ShownImages& images, Image<Rg
 /// Draws the augmented view of a frame: labels and targets over the colour image, or over depth.
 class OverlayPainter {
  public:
-  /// `rectification` converts recorded images to the geometry of the report's; null if they have it
-  /// already. It must outlive this.
-  explicit OverlayPainter(const Rectification* rectification) : rectification_(rectification) {}
+  /// `camera`: of the report's images; `rectification` converts recorded images to their geometry,
+  /// null if they have it already. It must outlive this.
+  OverlayPainter(Robot robot, Camera camera, const Rectification* rectification)
+      : robot_(std::move(robot)), camera_(std::move(camera)), rectification_(rectification) {}
 
   /// The result is valid until the next call.
-  ImageView<const Rgb8> draw(const FrameReport& report, const ShownImages& images,
-                             const ShownTargets& targets);
+  ImageView<const Rgb8> draw(const Frame& frame, const FrameReport& report);
 
   /// Returns the colour image in the geometry of the report's images; valid until the next call.
   ImageView<const Rgb8> seen_color(ImageView<const Rgb8> raw);
@@ -59,6 +52,8 @@ class OverlayPainter {
   Image<std::uint16_t>& depth_of(const ImageView<const std::uint16_t>&) { return millimetres_; }
   Image<float>& depth_of(const ImageView<const float>&) { return metres_; }
 
+  Robot robot_;
+  Camera camera_;
   const Rectification* rectification_;
   Image<Rgb8> color_;
   Image<std::uint16_t> millimetres_;

@@ -130,9 +130,10 @@ BagSourceOptions source_options(const InputOptions& options, const BagSceneReade
           .with_color = options.with_color};
 }
 
-std::function<std::unique_ptr<FrameSource>(const Robot&)> source_of(
-    const std::filesystem::path& bag, BagSourceOptions options) {
-  return [bag, options = std::move(options)](const Robot& robot) {
+std::function<std::unique_ptr<FrameSource>()> source_of(const std::filesystem::path& bag,
+                                                        const Robot& robot,
+                                                        BagSourceOptions options) {
+  return [bag, robot, options = std::move(options)] {
     return std::make_unique<BagSource>(bag, robot, options);
   };
 }
@@ -174,7 +175,6 @@ std::vector<RunInput> open_bag_clouds(const InputOptions& options, const CloudIn
     inputs.push_back(
         {.robot_options = robot_options,
          .robot = robot,
-         .camera = no_camera(),
          .camera_info = {},
          .config = {},
          .beyond = {},
@@ -182,12 +182,12 @@ std::vector<RunInput> open_bag_clouds(const InputOptions& options, const CloudIn
          .target_history = history,
          .bag = used_bag(options, reader.topics(), mount, frame),
          .made_files = {},
-         .frames = source_of(options.path, std::move(source)),
-         .cloud = CloudConfig{.rule = clouds.rule,
-                              .threads = clouds.threads,
-                              .sensor_parent = mount.parent,
-                              .T_parent_sensor = mount.T_parent_camera,
-                              .target_history = history},
+         .frames = source_of(options.path, robot, std::move(source)),
+         .cloud = {.rule = clouds.rule,
+                   .threads = clouds.threads,
+                   .sensor_parent = mount.parent,
+                   .T_parent_sensor = mount.T_parent_camera,
+                   .target_history = history},
          .used_clouds = {.rule = {}, .merged = !clouds.has_rays, .times = clouds.use_times},
          .sensor = use.name});
   }
@@ -204,7 +204,7 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
   RobotOptions robot_options;
   robot_options.packages = options.bag.packages;
   options.apply_to(robot_options);
-  Robot robot = load_robot(options, reader, robot_options);
+  const Robot robot = load_robot(options, reader, robot_options);
   const CameraMount mount = mount_in_bag(options, reader, robot, cameras.judged.frame_id);
   print("camera: frame '" + printable(cameras.judged.frame_id) + "' on link '" + mount.parent +
         "', by " + mount.source);
@@ -228,7 +228,7 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
   config.camera_parent = mount.parent;
   config.T_parent_camera = mount.T_parent_camera;
   return {.robot_options = std::move(robot_options),
-          .robot = std::move(robot),
+          .robot = robot,
           .camera = std::move(cameras.judged),
           .camera_info = options.path.string() + ": " + reader.topics().camera_info.name,
           .config = std::move(config),
@@ -238,7 +238,7 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
           .target_history = options.bag.target_topics.empty() ? 0.0 : topic_target_history,
           .bag = std::move(used),
           .made_files = {},
-          .frames = source_of(options.path, std::move(source))};
+          .frames = source_of(options.path, robot, std::move(source))};
 }
 
 }  // namespace penumbra::io

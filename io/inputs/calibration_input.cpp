@@ -23,10 +23,10 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
 
   const bool has_depth = input.config.has_depth;
   if (!has_depth && !masks) throw InputError(path.string() + ": has no depth: give --masks");
-  const auto source = input.frames(input.robot);
+  const auto source = input.frames();
   Frame frame;
   KeptFrames frames(
-      input.robot, input.camera,
+      input.robot, *input.camera,
       {.choice = options.time_offset ? KeptFrames::Choice::moving : KeptFrames::Choice::rest_first,
        .needs_depth = has_depth,
        .parent = find_camera_parent(input.robot, input.config.camera_parent)});
@@ -52,14 +52,14 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
       }
       if (const FileResult read = read_png(
               file, mask,
-              ImageSize{input.camera.intrinsics.width(), input.camera.intrinsics.height()});
+              ImageSize{input.camera->intrinsics.width(), input.camera->intrinsics.height()});
           !read.ok())
         throw InputError("--masks: " + read.message);
       kept->mask = frames.image_of(std::as_const(mask).view());
     }
     if (has_depth)
       kept->depth =
-          frames.depth_of(frame.depth.view, {input.camera.range.near, input.camera.range.far});
+          frames.depth_of(frame.depth.view, {input.camera->range.near, input.camera->range.far});
     frames.add(*std::move(kept));
   }
 

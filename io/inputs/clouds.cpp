@@ -47,10 +47,9 @@ class RecordedClouds final : public FrameSource {
     if (time_note_.empty()) return {};
     return {time_note_};
   }
-  [[nodiscard]] const AssembledFrame* assembled() const override { return &current_; }
 
  private:
-  void read_file(const fs::path& file);
+  void read_file(const fs::path& file, Frame& frame) const;
 
   CloudRecording recording_;
   Robot robot_;
@@ -59,50 +58,45 @@ class RecordedClouds final : public FrameSource {
   bool use_times_;
   PoseHistory history_;
   PoseLookup lookup_;
-  AssembledFrame current_;
   std::string time_note_;  // the first cloud's
 };
 
 bool RecordedClouds::read(std::size_t number, Frame& frame) {
   if (number >= wanted_.size()) return false;
   const JointRow& row = *wanted_[number];
-  current_ = {};
-  current_.index = static_cast<std::size_t>(row.index);
-  current_.stamp = row.stamp;
-  current_.pose =
+  frame = {.index = static_cast<std::size_t>(row.index), .stamp = row.stamp};
+  frame.pose =
       pose_of(row, robot_, find_camera_parent(robot_, recording_.parent), recording_.attached);
-  current_.pose_at = [this, stamp = row.stamp, pose = current_.pose](std::int64_t at,
-                                                                     RobotPose& to) {
+  frame.pose_at = [this, stamp = row.stamp, pose = frame.pose](std::int64_t at, RobotPose& to) {
     to = pose;
     if (!stamp || at == *stamp) return;
     lookup_.at(history_, at, to);
     to.attached = pose.attached;
   };
-  read_file(recording_.clouds.file(row.index));
-  if (time_note_.empty()) time_note_ = current_.points.time_note;
-  frame = std::move(static_cast<Frame&>(current_));
+  read_file(recording_.clouds.file(row.index), frame);
+  if (time_note_.empty()) time_note_ = frame.scan->received->points.time_note;
   return true;
 }
 
-void RecordedClouds::read_file(const fs::path& file) {
+void RecordedClouds::read_file(const fs::path& file, Frame& frame) const {
+  const auto cloud = std::make_shared<ReceivedCloud>();
+  CloudPoints& points = cloud->points;
   try {
     const auto stored = std::make_shared<StoredCloud>(read_cloud(file));
-    stored->cloud.header.stamp = current_.stamp.value_or(0);
-    current_.owner = stored;
-    current_.message = stored->cloud;
-    const std::string fault = read_points(stored->cloud, use_times_, current_.points);
+    stored->cloud.header.stamp = frame.stamp.value_or(0);
+    cloud->owner = stored;
+    cloud->message = stored->cloud;
+    const std::string fault = read_points(stored->cloud, use_times_, points);
     if (!fault.empty()) throw InputError(file.string() + ": " + fault);
   } catch (const InputError& error) {
-    current_.source_status = FrameStatus::bad_depth;
-    current_.source_message = error.what();
+    frame.source_status = FrameStatus::bad_depth;
+    frame.source_message = error.what();
   }
-  CloudPoints& points = current_.points;
-  if (!current_.stamp && !points.times.empty()) {
+  if (!frame.stamp && !points.times.empty()) {
     points.times.clear();
     points.time_note = "the joint file has no stamps: the points' times are not used";
   }
-  current_.scan = Scan{.points = points.points, .times = points.times};
-  if (!recording_.has_rays) current_.scan->origin.reset();
+  frame.scan = scan_of(cloud, recording_.has_rays);
 }
 
 CloudRule changed_rule(CloudRule rule, const CloudRunOptions& options) {
@@ -130,7 +124,6 @@ RunInput open_recording(const CloudRunOptions& options) {
   for (const JointRow& row : rows) numbers.push_back(row.index);
   return {.robot_options = recording.robots.front().options,
           .robot = robot,
-          .camera = no_camera(),
           .camera_info = {},
           .config = {},
           .beyond = {},
@@ -138,14 +131,14 @@ RunInput open_recording(const CloudRunOptions& options) {
           .frame_numbers = std::move(numbers),
           .bag = {},
           .made_files = {},
-          .frames = [recording, rows = std::move(rows), range = options.input.frames,
-                     times = options.use_times](const Robot& of) -> std::unique_ptr<FrameSource> {
-            return std::make_unique<RecordedClouds>(recording, of, rows, range, times);
+          .frames = [recording, robot, rows = std::move(rows), range = options.input.frames,
+                     times = options.use_times]() -> std::unique_ptr<FrameSource> {
+            return std::make_unique<RecordedClouds>(recording, robot, rows, range, times);
           },
-          .cloud = CloudConfig{.rule = changed_rule(recording.rule, options),
-                               .threads = options.threads,
-                               .sensor_parent = recording.parent,
-                               .T_parent_sensor = recording.T_parent_sensor},
+          .cloud = {.rule = changed_rule(recording.rule, options),
+                    .threads = options.threads,
+                    .sensor_parent = recording.parent,
+                    .T_parent_sensor = recording.T_parent_sensor},
           .used_clouds = {.rule = {}, .merged = !recording.has_rays, .times = options.use_times},
           .sensor = recording.clouds.file(0).parent_path().filename().string(),
           .cloud_files = recording.clouds};
@@ -170,9 +163,9 @@ std::vector<RunInput> open_clouds(const CloudRunOptions& options, const LineSink
 
 CloudTuning tune_clouds(const RunInput& input, const std::function<bool()>& go_on) {
   constexpr std::size_t step = 3, most = 40;  // clouds
-  Pipeline pipeline(input.robot, *input.cloud);
-  CloudTuner tuner(input.cloud->rule);
-  const std::unique_ptr<FrameSource> source = input.frames(input.robot);
+  Pipeline pipeline(input.robot, input.cloud);
+  CloudTuner tuner(input.cloud.rule);
+  const std::unique_ptr<FrameSource> source = input.frames();
   Frame frame;
   for (std::size_t i = 0, measured = 0; measured < most && source->next(frame) && go_on(); ++i)
     if (i % step == 0 && tuner.add(pipeline, frame)) ++measured;

@@ -7,37 +7,19 @@
 namespace penumbra::io {
 namespace {
 
-/// The camera of the report's images.
-Camera camera_of_report(ImageSpace image, const Camera& camera) {
-  if (image == ImageSpace::raw || camera.distortion.is_none()) return camera;
-  return {.intrinsics = Rectification(camera).pinhole(),
-          .distortion = {},
-          .range = camera.range,
-          .frame_id = camera.frame_id};
-}
-
 /// Opens the targets of the options, else of the input, if there are any.
-std::optional<TargetsFile> open_targets(const SessionOptions& options, const RunInput& input,
-                                        const Camera& camera) {
+std::optional<TargetsFile> open_targets(const SessionOptions& options, const RunInput& input) {
   const auto& file = options.targets ? options.targets : input.targets;
   if (!file || options.no_targets) return std::nullopt;
-  TargetsFile targets =
-      TargetsFile::open(*file, {.robot = input.robot,
-                                .image = options.image,
-                                .images = camera.intrinsics,
-                                .has_distortion = !input.camera.distortion.is_none(),
-                                .beyond_hides = input.beyond != BeyondMeans::visible,
-                                .camera_frame = camera.frame_id,
-                                .stamps = input.stamps});
+  TargetsFile targets = open_targets(*file, input, options.image);
   if (!input.frame_numbers.empty()) targets.check_frames(input.frame_numbers);
   return targets;
 }
 
-/// Takes the input's robot.
 Session session_of(const SessionOptions& options, RunInput& input, double target_history) {
-  if (input.cloud) {
-    input.cloud->target_history = target_history;
-    return make_session(std::move(input.robot), *input.cloud);
+  if (!input.camera) {
+    input.cloud.target_history = target_history;
+    return make_session(input.robot, input.cloud);
   }
   PipelineConfig config = input.config;
   config.backend = options.backend;
@@ -45,8 +27,7 @@ Session session_of(const SessionOptions& options, RunInput& input, double target
   config.rule = options.rule.applied_to(config.rule);
   config.image = options.image;
   config.target_history = target_history;
-  return make_session(std::move(input.robot), input.camera, config, options.drift,
-                      input.camera_info);
+  return make_session(input.robot, *input.camera, config, options.drift, input.camera_info);
 }
 
 void append(std::vector<std::string>& lines, std::vector<std::string> more) {
@@ -55,23 +36,39 @@ void append(std::vector<std::string>& lines, std::vector<std::string> more) {
 
 }  // namespace
 
+TargetsFile open_targets(const std::filesystem::path& file, const RunInput& input,
+                         ImageSpace image) {
+  TargetsContext context{.robot = input.robot,
+                         .image = image,
+                         .images = Intrinsics(1, 1, 1.0, 1.0, 0.0, 0.0),  // scans have no pixels
+                         .has_distortion = false,
+                         .beyond_hides = input.beyond != BeyondMeans::visible,
+                         .stamps = input.stamps};
+  if (const auto& camera = input.camera) {
+    context.has_distortion = !camera->distortion.is_none();
+    const bool is_straight = image == ImageSpace::raw || !context.has_distortion;
+    context.images = is_straight ? camera->intrinsics : Rectification(*camera).pinhole();
+    context.camera_frame = camera->frame_id;
+  }
+  return TargetsFile::open(file, context);
+}
+
 InputSession::InputSession(const SessionOptions& options, RunInput input)
     : options_(options),
       input_(std::move(input)),
-      camera_(camera_of_report(options.image, input_.camera)),
-      targets_(open_targets(options, input_, camera_)),
+      targets_(open_targets(options, input_)),
       session_(session_of(options, input_, targets_ ? targets_->history() : input_.target_history)),
-      source_(input_.frames(pipeline().robot())) {}
+      source_(input_.frames()) {}
 
 ReportHead InputSession::head() const {
-  if (input_.cloud) {
+  if (!input_.camera) {
     UsedSettings settings{.rule = {},
                           .robot = input_.robot_options,
                           .targets = targets_ ? targets_->file().string() : std::string(),
-                          .target_history = input_.cloud->target_history,
+                          .target_history = input_.cloud.target_history,
                           .bag = input_.bag,
                           .clouds = input_.used_clouds};
-    settings.clouds->rule = input_.cloud->rule;
+    settings.clouds->rule = input_.cloud.rule;
     return {options_.input.path.string(), {},
             std::move(settings),          pipeline().robot().links(),
             pipeline().missing_links(),   pipeline().robot().notes()};
@@ -88,34 +85,33 @@ ReportHead InputSession::head() const {
           pipeline().robot().links(),   pipeline().missing_links(), pipeline().robot().notes()};
 }
 
-RunResult InputSession::run(RunOutput& output, const std::function<bool()>& go_on) {
+RunResult InputSession::run(const Sinks& sinks, const std::function<bool()>& go_on) {
   RunResult result;
-  judge_frames(output, go_on, result);
+  for (Sink* const sink : sinks) sink->begin(head());
+  judge_frames(sinks, go_on, result);
   append(result.notes, source_->notes());
   if (targets_) append(result.notes, targets_->notes());
   append(result.notes, session_.warnings());
   if (!result.device_fault.empty()) result.notes.push_back(result.device_fault);
-  append(result.notes, output.notes());
+  for (const Sink* const sink : sinks) append(result.notes, sink->notes());
   if (result.is_stopped)
     result.notes.push_back("stopped after " + std::to_string(result.statistics.frames()) +
                            " frames: later ones are not judged");
-  output.finish(result.statistics, result.notes);
+  for (Sink* const sink : sinks) sink->finish(result.statistics, result.notes);
   return result;
 }
 
-void InputSession::judge_frames(RunOutput& output, const std::function<bool()>& go_on,
+void InputSession::judge_frames(const Sinks& sinks, const std::function<bool()>& go_on,
                                 RunResult& result) {
   Frame frame;
   try {
     while (!result.is_stopped && source_->next(frame)) {
-      if (targets_) {
-        frame.targets = targets_->of_frame(static_cast<std::int64_t>(*frame.index));
-      }
+      if (targets_) frame.targets = targets_->of_frame(static_cast<std::int64_t>(*frame.index));
       const FrameReport& report = session_.process(frame);
       result.statistics.add(report);
       if (!frame.color_message.empty() && result.frames_without_color++ == 0)
         result.first_without_color = frame.color_message;
-      output.save(report, frame, {frame.targets, pipeline().robot(), camera_});
+      for (Sink* const sink : sinks) sink->take(frame, report);
       result.is_stopped = !go_on();
     }
   } catch (const DeviceError& error) {

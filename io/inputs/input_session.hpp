@@ -13,8 +13,8 @@
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/session/session.hpp>
 
-#include <io/files/run_output.hpp>
 #include <io/files/settings.hpp>
+#include <io/files/sink.hpp>
 #include <io/files/targets_file.hpp>
 #include <io/inputs/run_input.hpp>
 
@@ -53,31 +53,31 @@ class InputSession {
   InputSession(const SessionOptions& options, RunInput input);
 
   [[nodiscard]] const Pipeline& pipeline() const { return session_.pipeline(); }
-  [[nodiscard]] const Camera& camera() const { return camera_; }  ///< of the report's images
   [[nodiscard]] bool has_depth() const { return input_.config.has_depth; }
   [[nodiscard]] std::optional<std::size_t> size() const { return source_->size(); }
   [[nodiscard]] ReportHead head() const;  ///< refers to this
-  [[nodiscard]] const FrameSource& source() const { return *source_; }
   /// See RunInput.
   [[nodiscard]] std::span<const std::filesystem::path> made_files() const {
     return input_.made_files;
   }
 
-  /// Judges the frames into `output`, which has begun, and finishes it. Calls `go_on` after each
-  /// frame and stops if it returns false. Throws InputError if the first usable frame shows a fault
-  /// of the input, and what `output` throws.
-  [[nodiscard]] RunResult run(RunOutput& output, const std::function<bool()>& go_on);
+  /// Judges the frames. Calls `go_on` after each frame and stops if it returns false. Throws
+  /// InputError if the first usable frame shows a fault of the input, and what a sink throws.
+  [[nodiscard]] RunResult run(const Sinks& sinks, const std::function<bool()>& go_on);
 
  private:
-  void judge_frames(RunOutput& output, const std::function<bool()>& go_on, RunResult& result);
+  void judge_frames(const Sinks& sinks, const std::function<bool()>& go_on, RunResult& result);
 
   const SessionOptions& options_;
   RunInput input_;
-  Camera camera_;
   std::optional<TargetsFile> targets_;
   Session session_;
   std::unique_ptr<FrameSource> source_;
 };
+
+/// Opens a file of targets for an input's frames. Throws InputError.
+[[nodiscard]] TargetsFile open_targets(const std::filesystem::path& file, const RunInput& input,
+                                       ImageSpace image);
 
 /// Makes a session. Throws InputError that names the camera_info file for a fault of the lens.
 [[nodiscard]] Session make_session(Robot robot, const Camera& camera, const PipelineConfig& config,

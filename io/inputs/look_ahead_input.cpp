@@ -42,7 +42,7 @@ Frame find_frame(FrameSource& source, const Robot& robot, const LookAheadOptions
 
 ForecastCamera camera_of(const RunInput& input, const RobotPose& pose, std::string name) {
   return {.name = std::move(name),
-          .camera = input.camera,
+          .camera = *input.camera,
           .parent = input.config.camera_parent,
           .T_parent_camera = pose.T_parent_camera.value_or(input.config.T_parent_camera),
           .rule = input.config.rule};
@@ -51,7 +51,7 @@ ForecastCamera camera_of(const RunInput& input, const RobotPose& pose, std::stri
 /// Adds what the camera measures of the targets in the frame, and notes about them.
 void judge(const RunInput& input, Frame frame, LookAheadInput& to) {
   for (Target& target : frame.targets) target.handling = {};
-  Pipeline pipeline(to.robot, input.camera, input.config);
+  Pipeline pipeline(to.robot, *input.camera, input.config);
   const FrameReport& report = pipeline.process(frame);
   if (has_depth(report.status)) to.now = {report.targets.begin(), report.targets.end()};
   for (const TargetReport& target : report.targets)
@@ -93,7 +93,7 @@ LookAheadInput read_look_ahead_input(const LookAheadOptions& options, const Line
   for (const std::string& name : names) {
     input.camera = name;
     const RunInput opened = open_input(input, print);
-    const auto source = opened.frames(opened.robot);
+    const auto source = opened.frames();
     Frame frame = find_frame(*source, opened.robot, options);
     if (!read) {
       read = LookAheadInput{

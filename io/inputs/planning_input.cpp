@@ -5,6 +5,7 @@
 #include <penumbra/base/error.hpp>
 
 #include <io/files/candidates_file.hpp>
+#include <io/inputs/input_session.hpp>
 #include <io/inputs/planning_input.hpp>
 
 namespace penumbra::io {
@@ -14,14 +15,7 @@ TargetsFile open_planned_targets(const std::filesystem::path& path,
                                  const RunInput& input) {
   const auto& file = given ? given : input.targets;
   if (!file) throw InputError(path.string() + ": has no targets; give a file with --targets");
-  TargetsFile targets =
-      TargetsFile::open(*file, {.robot = input.robot,
-                                .image = ImageSpace::raw,
-                                .images = input.camera.intrinsics,
-                                .has_distortion = !input.camera.distortion.is_none(),
-                                .beyond_hides = true,
-                                .camera_frame = input.camera.frame_id,
-                                .stamps = input.stamps});
+  TargetsFile targets = open_targets(*file, input, ImageSpace::raw);
   if (targets.size() == 0) throw InputError(file->string() + ": has no targets");
   return targets;
 }
@@ -69,7 +63,7 @@ PlanningInput read_planning_input(const PlanningOptions& options, const LineSink
   const PipelineConfig& config = read.input.config;
   const std::size_t parent =
       config.camera_parent.empty() ? 0 : robot.find_link(config.camera_parent).value();
-  const auto source = read.input.frames(robot);
+  const auto source = read.input.frames();
   Frame frame;
   std::string fault, note;
   while (source->next(frame)) {

@@ -132,7 +132,7 @@ RunInput open_recording_input(const InputOptions& options) {
           .bag = {},
           .made_files = {recording.camera.pose},
           .frames = [reader, selected = std::move(selected),
-                     options](const Robot&) -> std::unique_ptr<FrameSource> {
+                     options]() -> std::unique_ptr<FrameSource> {
             return std::make_unique<RecordingSource>(reader, selected, options);
           }};
 }
@@ -202,9 +202,7 @@ RunInput open_input(const InputOptions& options, const LineSink& print) {
   for (const ExtraMesh& part : input.robot_options.extra) input.made_files.push_back(part.mesh);
   if (options.bag.pose) input.made_files.push_back(*options.bag.pose);
   if (options.threads != 1)
-    input.frames = [open = std::move(input.frames)](const Robot& robot) {
-      return std::make_unique<ReadAhead>(open(robot));
-    };
+    input.frames = [open = std::move(input.frames)] { return std::make_unique<ReadAhead>(open()); };
   return input;
 }
 

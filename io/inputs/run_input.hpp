@@ -57,7 +57,7 @@ struct InputOptions {
 struct RunInput {
   RobotOptions robot_options;
   Robot robot;
-  Camera camera;
+  std::optional<Camera> camera = {};  ///< null: a sensor of points
   std::filesystem::path camera_info;  ///< named in errors of the camera
   PipelineConfig config;  ///< with what the input gives: camera's pose if not by tf, tolerance
   std::optional<BeyondMeans> beyond;
@@ -69,11 +69,11 @@ struct RunInput {
   /// Those of its files that tune and calibrate make, too: the camera's pose, parts.
   std::vector<std::filesystem::path> made_files;
 
-  /// Opens the frames from the first one; the robot must outlive them.
-  std::function<std::unique_ptr<FrameSource>(const Robot&)> frames;
+  /// Opens the frames from the first one.
+  std::function<std::unique_ptr<FrameSource>()> frames;
 
-  // Of a sensor of points, which has no camera:
-  std::optional<CloudConfig> cloud = {};
+  // Of a sensor of points:
+  CloudConfig cloud = {};
   UsedClouds used_clouds = {};                   ///< with the rule of `cloud`
   std::string sensor = {};                       ///< its topic, or the folder of its files
   std::optional<FramePattern> cloud_files = {};  ///< of a recording
@@ -87,11 +87,6 @@ inline constexpr const char* needs_depth_images =
 [[nodiscard]] bool is_bag(const std::filesystem::path& input);
 /// Throws InputError for an input that is neither a bag nor a recording.
 void check_is_recording(const std::filesystem::path& input);
-
-/// Returns what takes the camera's place in a RunInput of clouds.
-[[nodiscard]] inline Camera no_camera() {
-  return {Intrinsics(1, 1, 1.0, 1.0, 0.0, 0.0), {}, {}, {}};
-}
 
 /// Throws InputError if an option of bags was given with a recording.
 void check_no_bag_option(const InputOptions& options);

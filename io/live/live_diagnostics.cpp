@@ -163,7 +163,7 @@ DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, s
   add(status, "judged per second", decimal(rate, ""));
   if (camera.setup() != nullptr)
     add(status, "camera on link",
-        camera.setup()->sensor.mount.parent + ", by " + camera.setup()->sensor.mount.source);
+        camera.setup()->mount.parent + ", by " + camera.setup()->mount.source);
   if (const auto& renderer = inbox.tally(number).last.renderer) add_renderer(status, *renderer);
   add_counts(status, counts);
   for (const std::string& line : inbox.warnings(number)) add(status, "warning", line);
@@ -192,7 +192,7 @@ DiagnosticStatusMessage LiveDiagnostics::cloud_status(const LiveInbox& inbox, st
   add(status, "labelled per second", decimal(rate, ""));
   if (cloud.setup() != nullptr)
     add(status, "sensor on link",
-        cloud.setup()->sensor.mount.parent + ", by " + cloud.setup()->sensor.mount.source);
+        cloud.setup()->mount.parent + ", by " + cloud.setup()->mount.source);
   add_counts(status, counts);
   for (const std::string& line : inbox.warnings(sensor)) add(status, "warning", line);
   for (const auto& [label, count] : point_counts)

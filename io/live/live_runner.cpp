@@ -198,17 +198,6 @@ void LiveRunner::wait(const std::optional<std::int64_t>& wake_at,
   changed_.wait_for(lock, at_most);
 }
 
-LiveWorkerOptions LiveRunner::worker_options(std::size_t sensor) {
-  const LiveOptions& all = inbox_.options();
-  LiveWorkerOptions options{.config = config_,
-                            .limits = all.drift,
-                            .points = all.points,
-                            .poses = &mutex_,
-                            .calibration = sensors_[sensor].calibration.get()};
-  if (sensor >= all.cameras.size()) options.clouds = all.clouds[sensor - all.cameras.size()].output;
-  return options;
-}
-
 void LiveRunner::work(std::size_t sensor) {
   SensorThread& self = sensors_[sensor];
   AssembledFrame job;
@@ -227,7 +216,8 @@ void LiveRunner::work(std::size_t sensor) {
       }
       if (with_overlay) self.next_overlay = steady_now() + overlay_period;
       if (!std::exchange(self.has_config, true))
-        self.worker = std::make_unique<LiveWorker>(worker_options(sensor));
+        self.worker = std::make_unique<LiveWorker>(inbox_.options(), sensor, config_, &mutex_,
+                                                   self.calibration.get());
       const double points_rate = inbox_.options().points_rate;
       lock.unlock();
       const std::int64_t begin = steady_now();
@@ -239,12 +229,13 @@ void LiveRunner::work(std::size_t sensor) {
       }
       TimedResults sink(*self.sink, with_overlay, with_points);
       LiveOutcome outcome = self.worker->judge(job, sink, self.watcher);
-      if (fusion_ != nullptr && outcome.is_published && job.setup->sensor.cameras)
+      if (fusion_ != nullptr && outcome.is_published && job.setup->cameras() != nullptr)
         fusion_->add(sensor, outcome.views, job.setup->posed->robot.links().front());
       const std::int64_t now = steady_now(), system = system_now();
       job.image = {};
+      job.depth = {};
       job.color_image.reset();
-      job.owner.reset();
+      job.scan.reset();
       lock.lock();
       if (outcome.find_warnings) {
         pending_warnings_.push_back({sensor, job.setup, std::exchange(outcome.find_warnings, {})});

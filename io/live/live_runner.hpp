@@ -113,7 +113,6 @@ class LiveRunner {
     std::function<std::vector<std::string>()> find;
   };
   void work(std::size_t sensor);
-  [[nodiscard]] LiveWorkerOptions worker_options(std::size_t sensor);
   void work_in_background();
   void serve(const RobotLoadRequest& request, std::unique_lock<std::mutex>& lock);
   void find_warnings(std::unique_lock<std::mutex>& lock);

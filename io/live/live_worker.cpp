@@ -12,29 +12,23 @@ namespace {
 /// is named soon.
 constexpr std::int64_t first_warnings_after = 5'000'000'000, warnings_period = 60'000'000'000;
 
-PipelineConfig config_of(const JudgedSensor& sensor, PipelineConfig config) {
-  config.has_depth = sensor.cameras->has_depth;
-  config.camera_parent = sensor.mount.parent;
-  config.T_parent_camera = sensor.mount.T_parent_camera;
-  return config;
-}
-
 }  // namespace
 
 LiveWorker::Tools LiveWorker::make_tools(const SensorSetup& setup) const {
   const Robot& robot = setup.posed->robot;
-  const JudgedSensor& sensor = setup.sensor;
-  const std::string& root = robot.links().front();
-  if (sensor.cloud) {
-    Tools tools{Session(robot, *sensor.cloud)};
-    tools.cloud_encoder.emplace(options_.clouds, root);
-    return tools;
+  if (setup.cloud() != nullptr) {
+    const CloudOutput how = options_.clouds[sensor_ - options_.cameras.size()].output;
+    return {.session = Session(robot, *setup.cloud()), .encoder = ResultEncoder(robot, how)};
   }
-  const Camera& camera = sensor.cameras->judged;
-  Tools tools{Session(robot, camera, config_of(sensor, options_.config), options_.limits)};
-  if (options_.calibration != nullptr) tools.session.calibrate(*options_.calibration, camera);
-  tools.depth.emplace(*sensor.cameras);
-  tools.encoder.emplace(camera, root, options_.points);
+  const JudgedCameras& cameras = *setup.cameras();
+  PipelineConfig config = config_;
+  config.has_depth = cameras.has_depth;
+  config.camera_parent = setup.mount.parent;
+  config.T_parent_camera = setup.mount.T_parent_camera;
+  Tools tools{.session = Session(robot, cameras.judged, config, options_.drift),
+              .encoder = ResultEncoder(robot, cameras.judged, options_.points),
+              .depth = DepthInput(cameras)};
+  if (calibration_ != nullptr) tools.session.calibrate(*calibration_, cameras.judged);
   return tools;
 }
 
@@ -63,18 +57,20 @@ LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatche
     return outcome;
   }
   job.index = judged_++;
-  if (job.pose_at && options_.poses != nullptr)
+  if (job.pose_at && poses_ != nullptr)
     job.pose_at = [this, pose_at = std::move(job.pose_at)](std::int64_t stamp, RobotPose& pose) {
-      const std::lock_guard lock(*options_.poses);
+      const std::lock_guard lock(*poses_);
       pose_at(stamp, pose);
     };
   if (tools_->depth) static_cast<void>(tools_->depth->read(job));
   Session& session = tools_->session;
   const FrameReport& report = session.process(job);
-  if (tools_->encoder)
-    write_image(job, report, sink, outcome);
-  else
-    tools_->cloud_encoder->encode(report, job, job, sink);
+  if (const Pipeline& pipeline = session.pipeline(); !job.scan) {
+    show_color(job, sink.wants(Result::overlay));
+    outcome.views = views_of({{}, pipeline.intrinsics(), pipeline.rule().tolerance}, report);
+    outcome.renderer = pipeline.renderer();
+  }
+  tools_->encoder.encode(job, report, sink);
   outcome.drift = session.drift();
   if (watcher != nullptr) watcher->take(job, report, outcome.drift);
   outcome.is_published = true;
@@ -83,19 +79,9 @@ LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatche
   outcome.timing = report.timing;
   outcome.pixels = report.pixels;
   outcome.parts = report.parts;
-  outcome.time_note = job.points.time_note;
+  if (job.scan) outcome.time_note = job.scan->received->points.time_note;
   find_warnings(job.arrived, outcome);
   return outcome;
-}
-
-void LiveWorker::write_image(const AssembledFrame& job, const FrameReport& report, ResultSink& sink,
-                             LiveOutcome& outcome) {
-  const Pipeline& pipeline = tools_->session.pipeline();
-  show_color(job, sink.wants(Result::overlay));
-  tools_->encoder->encode(report, {job.depth.view, std::as_const(color_).view()},
-                          {job.targets, pipeline.robot(), job.setup->sensor.cameras->judged}, sink);
-  outcome.views = views_of({{}, pipeline.intrinsics(), pipeline.rule().tolerance}, report);
-  outcome.renderer = pipeline.renderer();
 }
 
 /// Once in a while, gives the warnings to another thread. Later ones replace the first ones only if
@@ -104,18 +90,17 @@ void LiveWorker::find_warnings(std::int64_t now, LiveOutcome& outcome) {
   if (!next_warnings_) next_warnings_ = now + first_warnings_after;
   if (now < *next_warnings_) return;
   const std::size_t poses = tools_->session.poses();  // 0 of clouds without rays
-  if (has_warned_ && (tools_->encoder || poses > 0) && poses < KeptFrames::least) return;
+  if (has_warned_ && (tools_->depth || poses > 0) && poses < KeptFrames::least) return;
   has_warned_ = true;
   next_warnings_ = now + warnings_period;
   const auto taken = std::make_shared<const Warnings>(tools_->session.take_warnings());
   outcome.find_warnings = [taken] { return taken->lines(); };
 }
 
-void LiveWorker::show_color(const AssembledFrame& job, bool wanted) {
-  const bool shown =
-      wanted && job.color_image &&
-      decode_color(*job.color_image, job.setup->sensor.cameras->judged, color_).empty();
-  if (!shown) color_ = {};
+void LiveWorker::show_color(AssembledFrame& job, bool wanted) {
+  if (wanted && job.color_image &&
+      decode_color(*job.color_image, job.setup->cameras()->judged, color_).empty())
+    job.color = std::as_const(color_).view();
 }
 
 }  // namespace penumbra::io

@@ -15,20 +15,19 @@
 
 namespace penumbra::io {
 
-/// What LiveWorker is set to.
-struct LiveWorkerOptions {
-  PipelineConfig config = {};  ///< the camera's pose and parent are replaced by those of each setup
-  DriftLimits limits = {};
-  PointsRule points = {};
-  CloudOutput clouds = {};
-  std::mutex* poses = nullptr;  ///< guards the robot's poses; null: nobody changes them
-  RunningCalibration* calibration = nullptr;  ///< gets a camera's frames, too
-};
-
 /// Judges the frames of one sensor. Use one thread at a time, without the lock of the poses.
 class LiveWorker {
  public:
-  explicit LiveWorker(LiveWorkerOptions options) : options_(std::move(options)) {}
+  /// `options` must outlive this. `config`: of a camera, whose pose and parent are replaced by
+  /// those of each setup. `poses` guards the robot's poses; null: nobody changes them.
+  /// `calibration` gets a camera's frames, too; may be null.
+  LiveWorker(const LiveOptions& options, std::size_t sensor, PipelineConfig config,
+             std::mutex* poses, RunningCalibration* calibration)
+      : options_(options),
+        sensor_(sensor),
+        config_(std::move(config)),
+        poses_(poses),
+        calibration_(calibration) {}
 
   /// Writes a frame's results to the sink, then hands it to `watcher`, which may be null.
   /// Unknown results are written as unknown. A new setup makes a new renderer. Throws DeviceError
@@ -39,20 +38,20 @@ class LiveWorker {
   /// The objects made for a setup.
   struct Tools {
     Session session;
-    // Of a camera, or of a sensor of points:
-    std::optional<DepthInput> depth = {};
-    std::optional<ResultEncoder> encoder = {};
-    std::optional<CloudEncoder> cloud_encoder = {};
+    ResultEncoder encoder;
+    std::optional<DepthInput> depth = {};  // of a camera
   };
 
   [[nodiscard]] Tools make_tools(const SensorSetup& setup) const;
   [[nodiscard]] bool follow(const std::shared_ptr<SensorSetup>& setup);
-  void write_image(const AssembledFrame& job, const FrameReport& report, ResultSink& sink,
-                   LiveOutcome& outcome);
   void find_warnings(std::int64_t now, LiveOutcome& outcome);
-  void show_color(const AssembledFrame& job, bool wanted);
+  void show_color(AssembledFrame& job, bool wanted);
 
-  LiveWorkerOptions options_;
+  const LiveOptions& options_;
+  std::size_t sensor_;
+  PipelineConfig config_;
+  std::mutex* poses_;
+  RunningCalibration* calibration_;
   std::shared_ptr<SensorSetup> setup_;
   std::optional<Tools> tools_;
   std::optional<std::int64_t> next_warnings_;  // on the inbox's clock

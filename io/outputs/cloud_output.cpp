@@ -6,7 +6,6 @@
 
 #include <penumbra/base/error.hpp>
 
-#include <io/assembly/assembled_frame.hpp>
 #include <io/assembly/result_encoder.hpp>
 #include <io/cloud/cloud_file.hpp>
 #include <io/outputs/cloud_output.hpp>
@@ -20,10 +19,9 @@ namespace fs = std::filesystem;
 constexpr const char* clouds_folder = "clouds";  // below the output
 
 /// Clouds and report.json.
-class CloudFolder final : public RunOutput {
+class CloudFolder final : public Sink {
  public:
-  CloudFolder(ResultFolder& folder, const FrameSource& source, const CloudOutput& how)
-      : folder_(folder), source_(source), how_(how) {}
+  CloudFolder(ResultFolder& folder, const CloudOutput& how) : folder_(folder), how_(how) {}
 
   void begin(const ReportHead& head) override {
     missing_links_.assign(head.missing_links.begin(), head.missing_links.end());
@@ -31,10 +29,10 @@ class CloudFolder final : public RunOutput {
     folder_.add("report.json",
                 [&](const fs::path& part) { report_.emplace(part, report_start(head)); });
   }
-  void save(const FrameReport& report, const Frame& frame, const ShownTargets&) override {
+  void take(const Frame& frame, const FrameReport& report) override {
     report_->add(report_frame(report));
     if (frame.scan->points.count == 0 && !frame.source_message.empty()) return;  // not read
-    const auto& cloud = std::get<PointCloud2Message>(source_.assembled()->message);
+    const auto& cloud = std::get<PointCloud2Message>(frame.scan->received->message);
     write_cloud(folder_.frame_file(0, static_cast<std::int64_t>(report.index)),
                 cloud_output(cloud, report, how_, data_));
   }
@@ -45,7 +43,6 @@ class CloudFolder final : public RunOutput {
 
  private:
   ResultFolder& folder_;
-  const FrameSource& source_;
   CloudOutput how_;
   std::optional<ReportWriter> report_;
   std::vector<std::string> missing_links_;
@@ -53,16 +50,15 @@ class CloudFolder final : public RunOutput {
 };
 
 /// The topics of a sensor in a bag.
-class CloudTopics final : public RunOutput, private ResultSink {
+class CloudTopics final : public Sink, private ResultSink {
  public:
-  CloudTopics(mcap::Writer& writer, std::string topic, const FrameSource& source, CloudOutput how)
-      : writer_(writer), topic_(std::move(topic)), source_(source), how_(how) {}
+  CloudTopics(mcap::Writer& writer, std::string topic, const Robot& robot, CloudOutput how)
+      : writer_(writer), topic_(std::move(topic)), how_(how), encoder_(robot, how) {}
 
-  void begin(const ReportHead& head) override { encoder_.emplace(how_, head.links.front()); }
-  void save(const FrameReport& report, const Frame& frame, const ShownTargets&) override {
-    encoder_->encode(report, frame, *source_.assembled(), *this);
+  void take(const Frame& frame, const FrameReport& report) override {
+    arrived_ = frame.scan->received->arrived;
+    encoder_.encode(frame, report, *this);
   }
-  void finish(const Statistics&, std::span<const std::string>) override {}
 
  private:
   struct Channel {
@@ -81,8 +77,8 @@ class CloudTopics final : public RunOutput, private ResultSink {
     if (!channels_.contains(result))
       add_channel(result, topic_ + "/targets", message_type<TargetsMessage>());
     Channel& channel = channels_[result];
-    writer_.write(channel.id, source_.assembled()->arrived, std::max<std::int64_t>(0, stamp),
-                  ++channel.messages, payload);
+    writer_.write(channel.id, arrived_, std::max<std::int64_t>(0, stamp), ++channel.messages,
+                  payload);
   }
   void add_channel(Result result, const std::string& topic, const std::string& type) {
     channels_[result].id =
@@ -92,9 +88,9 @@ class CloudTopics final : public RunOutput, private ResultSink {
 
   mcap::Writer& writer_;
   std::string topic_;
-  const FrameSource& source_;
   CloudOutput how_;
-  std::optional<CloudEncoder> encoder_;
+  ResultEncoder encoder_;
+  std::int64_t arrived_ = 0;  // the current cloud
   Result clouds_ = Result::without_robot;
   std::map<Result, Channel> channels_;
 };
@@ -123,14 +119,13 @@ ResultFolderOptions cloud_results(const RunInput& input, const fs::path& output,
   return results;
 }
 
-std::unique_ptr<RunOutput> open_cloud_folder(ResultFolder& folder, const FrameSource& source,
-                                             const CloudOutput& how) {
-  return std::make_unique<CloudFolder>(folder, source, how);
+std::unique_ptr<Sink> open_cloud_folder(ResultFolder& folder, const CloudOutput& how) {
+  return std::make_unique<CloudFolder>(folder, how);
 }
 
-std::unique_ptr<RunOutput> CloudBag::sensor(const std::string& topic, const FrameSource& source,
-                                            const CloudOutput& how) {
-  return std::make_unique<CloudTopics>(writer_, topic, source, how);
+std::unique_ptr<Sink> CloudBag::sensor(const std::string& topic, const Robot& robot,
+                                       const CloudOutput& how) {
+  return std::make_unique<CloudTopics>(writer_, topic, robot, how);
 }
 
 void CloudBag::finish() {

@@ -8,7 +8,7 @@
 #include <io/cloud/cloud_points.hpp>
 #include <io/files/pending_file.hpp>
 #include <io/files/result_folder.hpp>
-#include <io/files/run_output.hpp>
+#include <io/files/sink.hpp>
 #include <io/inputs/run_input.hpp>
 #include <io/mcap/writer.hpp>
 
@@ -19,11 +19,8 @@ namespace penumbra::io {
 [[nodiscard]] ResultFolderOptions cloud_results(const RunInput& input,
                                                 const std::filesystem::path& output, bool force);
 
-/// The results of a recording in `folder`, which is of cloud_results(). `source`: of the frames.
-/// Both must outlive this.
-[[nodiscard]] std::unique_ptr<RunOutput> open_cloud_folder(ResultFolder& folder,
-                                                           const FrameSource& source,
-                                                           const CloudOutput& how);
+/// The results of a recording in `folder`, which is of cloud_results() and must outlive this.
+[[nodiscard]] std::unique_ptr<Sink> open_cloud_folder(ResultFolder& folder, const CloudOutput& how);
 
 /// The results of a bag's sensors: a bag with the topics /penumbra/TOPIC and, if there are targets,
 /// /penumbra/TOPIC/targets. The file appears with finish().
@@ -32,10 +29,9 @@ class CloudBag {
   explicit CloudBag(const std::filesystem::path& file)
       : pending_(file), writer_(pending_.part(), {.profile = "ros2"}) {}
 
-  /// Returns the output of a sensor. `source`: of its frames. Both must outlive it.
-  [[nodiscard]] std::unique_ptr<RunOutput> sensor(const std::string& topic,
-                                                  const FrameSource& source,
-                                                  const CloudOutput& how);
+  /// Returns the output of a sensor, which this must outlive.
+  [[nodiscard]] std::unique_ptr<Sink> sensor(const std::string& topic, const Robot& robot,
+                                             const CloudOutput& how);
   void finish();
 
  private:

@@ -39,12 +39,11 @@ std::string why_kept(const std::filesystem::path& file) {
   }
 }
 
-class OutputBag final : public RunOutput, private ResultSink {
+class OutputBag final : public Sink, private ResultSink {
  public:
-  OutputBag(const std::filesystem::path& file, const Camera& camera, std::string root);
+  OutputBag(const std::filesystem::path& file, const Pipeline& pipeline);
 
-  void begin(const ReportHead&) override {}
-  void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
+  void take(const Frame& frame, const FrameReport& report) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
   [[nodiscard]] std::vector<std::string> notes() const override;
 
@@ -64,11 +63,11 @@ class OutputBag final : public RunOutput, private ResultSink {
   std::string missing_link_;
 };
 
-OutputBag::OutputBag(const std::filesystem::path& file, const Camera& camera, std::string root)
+OutputBag::OutputBag(const std::filesystem::path& file, const Pipeline& pipeline)
     : file_(file),
       pending_(file),
       writer_(pending_.part(), {.profile = "ros2"}),
-      encoder_(camera, std::move(root)) {
+      encoder_(pipeline.robot(), pipeline.report_camera()) {
   for (const ResultTopic& topic : result_topics) {
     const std::uint16_t schema = writer_.add_schema(std::string(topic.type), "ros2msg",
                                                     std::string(definition_of(topic.type)));
@@ -82,13 +81,13 @@ void OutputBag::write(Result result, std::int64_t stamp, std::span<const std::by
   writer_.write(channel.id, stamp, stamp, channel.messages++, payload);
 }
 
-void OutputBag::save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) {
+void OutputBag::take(const Frame& frame, const FrameReport& report) {
   if (!report.stamp)
     throw InputError(
         "frame " + std::to_string(report.index) +
         " has no stamp, and a bag's messages need one: give --fps N, of the recording");
   if (!report.missing_links.empty()) missing_link_ = report.missing_links.front();
-  encoder_.encode(report, {frame.depth.view, frame.color.view}, targets, *this);
+  encoder_.encode(frame, report, *this);
 }
 
 void OutputBag::finish(const Statistics& /*statistics*/, std::span<const std::string> /*notes*/) {
@@ -106,9 +105,8 @@ std::vector<std::string> OutputBag::notes() const {
 
 }  // namespace
 
-std::unique_ptr<RunOutput> open_output_bag(const std::filesystem::path& file, const Camera& camera,
-                                           std::string root) {
-  return std::make_unique<OutputBag>(file, camera, std::move(root));
+std::unique_ptr<Sink> open_output_bag(const std::filesystem::path& file, const Pipeline& pipeline) {
+  return std::make_unique<OutputBag>(file, pipeline);
 }
 
 void check_former_bag(const std::filesystem::path& file) {

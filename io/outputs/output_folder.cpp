@@ -106,8 +106,12 @@ ResultFolderOptions run_results(const OutputOptions& options) {
 }
 
 OutputFolder::OutputFolder(const OutputOptions& options, ResultFolder& folder,
-                           const Rectification* rectification)
-    : options_(options), folder_(folder), painter_(rectification), writers_(writers_of(options_)) {
+                           const Pipeline& pipeline)
+    : options_(options),
+      folder_(folder),
+      camera_(pipeline.report_camera()),
+      painter_(pipeline.robot(), camera_, pipeline.rectification()),
+      writers_(writers_of(options_)) {
   folder.begin();
 }
 
@@ -147,8 +151,7 @@ std::string OutputFolder::add_page() {
   return {};
 }
 
-void OutputFolder::save(const FrameReport& report, const Frame& frame,
-                        const ShownTargets& targets) {
+void OutputFolder::take(const Frame& frame, const FrameReport& report) {
   report_->add(report_frame(report));
   const VirtualDepthView& virtual_depth = report.virtual_depth;
   const std::size_t index = report.index;
@@ -165,16 +168,14 @@ void OutputFolder::save(const FrameReport& report, const Frame& frame,
   if (options_.saves.labels)
     write_later(file(folder_, Kind::labels, index), report.labels,
                 [](const auto& to, const auto& image) { write_png(to, image, label_palette()); });
-  if (options_.saves.filtered || options_.saves.points)
-    save_without_robot(report, frame, targets.camera);
+  if (options_.saves.filtered || options_.saves.points) save_without_robot(frame, report);
   if (!options_.saves.overlay && !options_.report_page) return;
-  const auto overlay = painter_.draw(report, {frame.depth.view, frame.color.view}, targets);
+  const auto overlay = painter_.draw(frame, report);
   if (options_.saves.overlay) write_later(file(folder_, Kind::overlay, index), overlay, plain_png);
   if (options_.report_page) key_frames_.add(report, overlay);
 }
 
-void OutputFolder::save_without_robot(const FrameReport& report, const Frame& frame,
-                                      const Camera& camera) {
+void OutputFolder::save_without_robot(const Frame& frame, const FrameReport& report) {
   without_robot(report, filtered_);
   if (options_.saves.filtered)
     writers_.add([to = file(folder_, Kind::filtered, report.index),
@@ -186,7 +187,7 @@ void OutputFolder::save_without_robot(const FrameReport& report, const Frame& fr
     if (!T) return;
     T_frame_camera = *T;
   }
-  if (!cloud_maker_) cloud_maker_.emplace(camera);
+  if (!cloud_maker_) cloud_maker_.emplace(camera_);
   PointCloud cloud;
   cloud_maker_->make(filtered_, cloud, T_frame_camera);
   writers_.add([pcd = file(folder_, Kind::pcd, report.index),

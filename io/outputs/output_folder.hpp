@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/camera/rectification.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 
 #include <io/files/background_jobs.hpp>
 #include <io/files/overlay_painter.hpp>
 #include <io/files/result_folder.hpp>
-#include <io/files/run_output.hpp>
+#include <io/files/sink.hpp>
 #include <io/web/key_frames.hpp>
 
 namespace penumbra::io {
@@ -41,29 +41,28 @@ struct OutputOptions {
 
 /// The results of `run` in its folder. Images are named by the frame's index: vdi/000000.npy,
 /// labels/000000.png.
-class OutputFolder final : public RunOutput {
+class OutputFolder final : public Sink {
  public:
-  /// Begins `folder`, which is of run_results(`options`). `rectification` converts recorded images
-  /// to the geometry of the report's; null if they have it already. Both must outlive this. Throws
-  /// InputError if the folder cannot be used.
-  OutputFolder(const OutputOptions& options, ResultFolder& folder,
-               const Rectification* rectification);
+  /// Begins `folder`, which is of run_results(`options`). `pipeline`: of the frames. Both must
+  /// outlive this. Throws InputError if the folder cannot be used.
+  OutputFolder(const OutputOptions& options, ResultFolder& folder, const Pipeline& pipeline);
 
   void begin(const ReportHead& head) override;
 
   /// Writes the frame's images on other threads. Without the robot's pose there is no VDI and no
   /// link image, and all labels are unknown. Throws InputError if writing images fails.
-  void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
+  void take(const Frame& frame, const FrameReport& report) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
 
  private:
   [[nodiscard]] std::string add_page();
   template <typename T, typename Write>
   void write_later(std::filesystem::path file, ImageView<const T> image, Write write);
-  void save_without_robot(const FrameReport& report, const Frame& frame, const Camera& camera);
+  void save_without_robot(const Frame& frame, const FrameReport& report);
 
   OutputOptions options_;
   ResultFolder& folder_;
+  Camera camera_;  // of the report's images
   DepthImage filtered_;
   std::optional<CloudMaker> cloud_maker_;  // made with the first points
   OverlayPainter painter_;

@@ -15,7 +15,7 @@ namespace penumbra::io {
 /// Reads a message of that transport: twelve bytes of parameters, then PNG or RVL. A quantised
 /// depth q of 32FC1 is a / (q - b) metres, and NaN for q = 0.
 [[nodiscard]] std::optional<std::string> decode_compressed_depth(
-    const CompressedImageMessage& message, DecodedDepth& depth);
+    const CompressedImageMessage& message, SharedDepth& depth);
 
 /// Unpacks depths that were packed with RVL (A. Wilson, "Fast lossless depth image compression",
 /// ISS 2017): runs of zeros and of differences, in groups of three bits. Returns what is wrong, or

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include <io/files/depth_pixels.hpp>
 #include <io/files/image_size.hpp>
 #include <io/files/numbers.hpp>
 #include <io/files/printable.hpp>
@@ -122,13 +123,14 @@ DepthFormat parse_format(std::string_view format) {
   return {encoding, codec.empty() ? "png" : codec};
 }
 
-void dequantise(const Image<std::uint16_t>& quantised, float a, float b, Image<float>& metres) {
-  metres.fit(quantised.width(), quantised.height());
+Image<float> dequantised(const Image<std::uint16_t>& quantised, float a, float b) {
+  Image<float> metres(quantised.width(), quantised.height());
   for (std::size_t i = 0; i < metres.size(); ++i) {
     const std::uint16_t q = quantised.data()[i];
     metres.data()[i] =
         q == 0 ? std::numeric_limits<float>::quiet_NaN() : a / (static_cast<float>(q) - b);
   }
+  return metres;
 }
 
 }  // namespace
@@ -163,7 +165,7 @@ bool is_compressed_depth(const CompressedImageMessage& message) {
 }
 
 std::optional<std::string> decode_compressed_depth(const CompressedImageMessage& message,
-                                                   DecodedDepth& depth) {
+                                                   SharedDepth& depth) {
   const DepthFormat format = parse_format(message.format);
   const bool is_float = format.encoding == "32FC1";
   if ((!is_float && format.encoding != "16UC1") || (format.codec != "png" && format.codec != "rvl"))
@@ -171,11 +173,12 @@ std::optional<std::string> decode_compressed_depth(const CompressedImageMessage&
            "'; expected '16UC1; compressedDepth' or '32FC1; compressedDepth', png or rvl";
   if (message.data.size() < parameter_bytes) return "ends before its data";
   const auto packed = message.data.subspan(parameter_bytes);
-  auto fault = format.codec == "rvl" ? unpack_rvl(packed, depth.millimetres)
-                                     : decode_png(packed, depth.millimetres);
+  Image<std::uint16_t> millimetres;
+  auto fault =
+      format.codec == "rvl" ? unpack_rvl(packed, millimetres) : decode_png(packed, millimetres);
   if (fault) return fault;
   if (!is_float) {
-    depth.view = std::as_const(depth.millimetres).view();
+    depth = shared_depth_of(std::move(millimetres), {});
     return std::nullopt;
   }
   const DepthParameters parameters{little_endian<std::uint32_t>(message.data, 0),
@@ -184,8 +187,7 @@ std::optional<std::string> decode_compressed_depth(const CompressedImageMessage&
   if (parameters.format != inverse_depth || !(parameters.quant_a > 0) ||
       !std::isfinite(parameters.quant_a) || !std::isfinite(parameters.quant_b))
     return "has no parameters by which 32FC1 was quantised";
-  dequantise(depth.millimetres, parameters.quant_a, parameters.quant_b, depth.metres);
-  depth.view = std::as_const(depth.metres).view();
+  depth = shared_depth_of(dequantised(millimetres, parameters.quant_a, parameters.quant_b), {});
   return std::nullopt;
 }
 

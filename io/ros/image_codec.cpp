@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include <io/files/depth_pixels.hpp>
 #include <io/files/image_size.hpp>
 #include <io/files/jpeg.hpp>
 #include <io/files/printable.hpp>
@@ -112,14 +113,15 @@ T byte_swapped(T value) {
 }
 
 template <typename T>
-void copy_rows(const ImageMessage& message, Image<T>& image) {
-  image.fit(static_cast<int>(message.width), static_cast<int>(message.height));
+SharedDepth copy_rows(const ImageMessage& message) {
+  Image<T> image(static_cast<int>(message.width), static_cast<int>(message.height));
   for (int v = 0; v < image.height(); ++v) {
     T* row = image.view().row(v);
     std::memcpy(row, message.data.data() + std::size_t{message.step} * static_cast<std::size_t>(v),
                 message.width * sizeof(T));
     if (message.is_bigendian != 0) std::transform(row, row + message.width, row, byte_swapped<T>);
   }
+  return shared_depth_of(std::move(image), {});
 }
 
 // The pixels as they lie, if they can be used so.
@@ -133,15 +135,11 @@ std::optional<ImageView<const T>> view_in_place(const ImageMessage& message) {
 }
 
 template <typename T>
-std::optional<std::string> take_depth(const ImageMessage& message, Image<T>& buffer,
-                                      DepthView& view) {
+std::optional<std::string> take_depth(const ImageMessage& message, SharedDepth& depth,
+                                      const std::shared_ptr<const void>& owner) {
   if (auto fault = check_layout(message, sizeof(T))) return fault;
-  if (const auto in_place = view_in_place<T>(message)) {
-    view = *in_place;
-  } else {
-    copy_rows(message, buffer);
-    view = std::as_const(buffer).view();
-  }
+  const auto in_place = view_in_place<T>(message);
+  depth = in_place ? SharedDepth(*in_place, owner) : copy_rows<T>(message);
   return std::nullopt;
 }
 
@@ -157,24 +155,25 @@ bool begins_with(std::span<const std::byte> bytes, std::string_view signature) {
 
 }  // namespace
 
-std::optional<std::string> decode_depth(const ImageMessage& message, DecodedDepth& depth) {
-  depth.view = {};
+std::optional<std::string> decode_depth(const ImageMessage& message, SharedDepth& depth,
+                                        const std::shared_ptr<const void>& owner) {
+  depth = {};
   if (message.encoding == "16UC1" || message.encoding == "mono16")
-    return of_image("depth image", take_depth(message, depth.millimetres, depth.view));
+    return of_image("depth image", take_depth<std::uint16_t>(message, depth, owner));
   if (message.encoding == "32FC1")
-    return of_image("depth image", take_depth(message, depth.metres, depth.view));
+    return of_image("depth image", take_depth<float>(message, depth, owner));
   return "depth image has encoding '" + printable(message.encoding) +
          "'; expected 16UC1, mono16 or 32FC1";
 }
 
-std::optional<std::string> decode_depth(const CompressedImageMessage& message,
-                                        DecodedDepth& depth) {
-  depth.view = {};
+std::optional<std::string> decode_depth(const CompressedImageMessage& message, SharedDepth& depth) {
+  depth = {};
   if (is_compressed_depth(message))
     return of_image("depth image", decode_compressed_depth(message, depth));
-  if (auto fault = decode_png(message.data, depth.millimetres))
+  Image<std::uint16_t> millimetres;
+  if (auto fault = decode_png(message.data, millimetres))
     return of_image("depth image", std::move(fault));
-  depth.view = std::as_const(depth.millimetres).view();
+  depth = shared_depth_of(std::move(millimetres), {});
   return std::nullopt;
 }
 

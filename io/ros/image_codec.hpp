@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,25 +15,19 @@
 
 namespace penumbra::io {
 
-/// A depth image of a message. `view` refers to the payload if its pixels can be used in place,
-/// else to one of the buffers. It is empty after a fault.
-struct DecodedDepth {
-  DepthView view;
-  Image<std::uint16_t> millimetres;
-  Image<float> metres;
-};
+// Each returns what is wrong with the message's image, one line, or nothing. After a fault a depth
+// image is empty and a colour image unspecified.
 
-// Each returns what is wrong with the message's image, one line, or nothing. After a fault the
-// image is unspecified. Buffers are reused while the size stays the same.
-
-/// 16UC1 and mono16 as millimetres, 32FC1 as metres; either byte order, rows of any step.
-[[nodiscard]] std::optional<std::string> decode_depth(const ImageMessage& message,
-                                                      DecodedDepth& depth);
+/// 16UC1 and mono16 as millimetres, 32FC1 as metres; either byte order, rows of any step. Pixels
+/// that can be used in place are, and `owner` keeps them.
+[[nodiscard]] std::optional<std::string> decode_depth(
+    const ImageMessage& message, SharedDepth& depth,
+    const std::shared_ptr<const void>& owner = nullptr);
 
 /// PNG of 16-bit grey as millimetres, and the transport "compressedDepth" of 16UC1 and 32FC1: PNG
 /// or RVL.
 [[nodiscard]] std::optional<std::string> decode_depth(const CompressedImageMessage& message,
-                                                      DecodedDepth& depth);
+                                                      SharedDepth& depth);
 
 /// rgb8, bgr8, rgba8, bgra8 (without alpha), mono8, yuv422 (UYVY) and yuv422_yuy2 (YUYV), the last
 /// two in BT.601's narrow range.

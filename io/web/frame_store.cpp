@@ -37,23 +37,20 @@ std::string marks_json(std::span<const TargetMark> marks) {
 
 }  // namespace
 
-FrameStore::FrameStore(const Rectification* rectification) : rectification_(rectification) {}
+FrameStore::FrameStore(const Pipeline& pipeline, const ReportHead& head)
+    : pipeline_(pipeline),
+      missing_links_(head.missing_links.begin(), head.missing_links.end()),
+      notes_(head.notes.begin(), head.notes.end()),
+      text_(report_start(head)),
+      head_size_(text_.size()) {}
 
-void FrameStore::begin(const ReportHead& head) {
-  const std::lock_guard lock(mutex_);
-  missing_links_.assign(head.missing_links.begin(), head.missing_links.end());
-  notes_.assign(head.notes.begin(), head.notes.end());
-  text_ = report_start(head);
-  head_size_ = text_.size();
-}
-
-void FrameStore::save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) {
+void FrameStore::take(const Frame& frame, const FrameReport& report) {
   Entry entry;
   const std::string text = report_frame(report);
   std::string poses = poses_json(report.T_root_link, report.T_root_camera, report.links.size());
   if (!frame.scan)
-    poses += ", " + marks_json(target_overlay_.marks(targets.targets, report, targets.robot,
-                                                     targets.camera));
+    poses += ", " + marks_json(target_overlay_.marks(frame.targets, report, pipeline_.robot(),
+                                                     pipeline_.report_camera()));
   entry.poses = spool_.append(std::as_bytes(std::span(poses)), true);
   if (frame.scan)
     add_points(report, *frame.scan, entry);
@@ -103,11 +100,12 @@ FrameStore::Kept FrameStore::keep(ImageView<const T> image, const char* type) {
 FrameStore::Kept FrameStore::keep_depth(const DepthView& depth) {
   if (is_empty(depth)) return {};
   std::visit([&](const auto& image) { fill_metres(image, metres_); }, depth);
-  return keep(rectified(rectification_, std::as_const(metres_).view(), rectified_), "f32");
+  return keep(rectified(pipeline_.rectification(), std::as_const(metres_).view(), rectified_),
+              "f32");
 }
 
 FrameStore::Kept FrameStore::keep_color(const Frame& frame) {
-  const auto image = rectified(rectification_, frame.color.view, color_);
+  const auto image = rectified(pipeline_.rectification(), frame.color.view, color_);
   if (image.empty()) return {};
   encode_jpeg(image, jpeg_quality, file_);
   return {spool_.append(file_, false), "image/jpeg", image.width, image.height};

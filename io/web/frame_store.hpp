@@ -6,10 +6,9 @@
 #include <optional>
 #include <span>
 
-#include <penumbra/camera/rectification.hpp>
-#include <penumbra/pipeline/frame.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 
-#include <io/files/run_output.hpp>
+#include <io/files/sink.hpp>
 #include <io/web/packet.hpp>
 #include <io/web/spool_file.hpp>
 
@@ -18,15 +17,14 @@ namespace penumbra::io {
 /// Keeps frames as they are judged, or scans: the report in memory, the images compressed in a
 /// temporary file, so that recordings may be longer than the memory, and bags can be shown in any
 /// order.
-class FrameStore final : public FrameArchive, public RunOutput {
+class FrameStore final : public FrameArchive, public Sink {
  public:
-  /// `rectification` converts recorded images to the geometry of the report's; null if they have it
-  /// already. It must outlive this. Throws InputError if no temporary file can be made.
-  explicit FrameStore(const Rectification* rectification);
+  /// `pipeline`: of the frames; it must outlive this. Throws InputError if no temporary file can be
+  /// made.
+  FrameStore(const Pipeline& pipeline, const ReportHead& head);
 
-  // By one thread; save() throws InputError where the disk is full.
-  void begin(const ReportHead& head) override;
-  void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
+  // By one thread; take() throws InputError where the disk is full.
+  void take(const Frame& frame, const FrameReport& report) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
 
   // Any thread may call these.
@@ -57,7 +55,7 @@ class FrameStore final : public FrameArchive, public RunOutput {
   void add_images(const FrameReport& report, const Frame& frame, Entry& entry);
   void add(Entry entry, const std::string& text);
 
-  const Rectification* rectification_;
+  const Pipeline& pipeline_;
   TargetOverlay target_overlay_;
   SpoolFile spool_;
   std::vector<std::string> missing_links_, notes_;

@@ -22,7 +22,7 @@ using PartSet = std::bitset<part_count>;
 class LiveScene {
  public:
   LiveScene(const SensorSetup& setup, std::uint64_t number) : version(number), posed_(setup.posed) {
-    if (setup.sensor.cameras) camera.emplace(setup.sensor.cameras->judged);
+    if (setup.cameras() != nullptr) camera.emplace(setup.cameras()->judged);
   }
 
   [[nodiscard]] const Robot& robot() const { return posed_->robot; }

@@ -50,8 +50,10 @@ MomentPainter::MomentPainter(const Robot& robot, const ForecastCamera& camera,
   }
   background_ = Image<Rgb8>(camera_.intrinsics.width(), camera_.intrinsics.height());
   std::fill_n(background_.data(), background_.size(), grey);
-  OverlayPainter painter(rectification_ ? &*rectification_ : nullptr);
-  const ImageView<const Rgb8> seen = color.empty() ? color : painter.seen_color(color);
+  Image<Rgb8> straight;
+  const ImageView<const Rgb8> seen =
+      color.empty() ? color
+                    : rectified(rectification_ ? &*rectification_ : nullptr, color, straight);
   if (seen.width == background_.width() && seen.height == background_.height())
     for (int v = 0; v < seen.height; ++v)
       std::copy_n(seen.row(v), seen.width, background_.view().row(v));

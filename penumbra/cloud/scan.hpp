@@ -18,6 +18,8 @@
 
 namespace penumbra {
 
+struct ReceivedCloud;  // defined by the sources that read them
+
 /// The points of a scan, or of a cloud that is measured at once, in the sensor's frame.
 struct Scan {
   PointsView points = {};
@@ -27,6 +29,8 @@ struct Scan {
   /// Where the rays start, in the points' frame. Null: points without rays, as of merged clouds.
   std::optional<Eigen::Vector3d> origin = Eigen::Vector3d::Zero();
   std::shared_ptr<const void> owner = {};  ///< keeps points and times; may be null
+  /// What the points were read from, for outputs that write it without the robot; null: not known.
+  std::shared_ptr<const ReceivedCloud> received = {};
 };
 
 /// Returns a scan with points and times of its own.

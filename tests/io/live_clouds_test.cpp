@@ -97,7 +97,7 @@ class ScanWatcher final : public io::FrameWatcher {
  public:
   [[nodiscard]] bool wants_color() const override { return false; }
   void take(const io::AssembledFrame& job, const FrameReport& report, const Drift&) override {
-    EXPECT_EQ(static_cast<std::size_t>(report.labels.width), job.points.points.count);
+    EXPECT_EQ(static_cast<std::size_t>(report.labels.width), job.scan->points.count);
     EXPECT_TRUE(report.status != FrameStatus::ok || report.T_root_link.size() == 2);
     ++scans;
   }

@@ -300,7 +300,7 @@ class LiveBench {
 
   std::int64_t now = 1000 * seconds;
   io::LiveInbox inbox;
-  io::LiveWorker worker{io::LiveWorkerOptions{}};
+  io::LiveWorker worker{inbox.options(), 0, {}, nullptr};
   io::AssembledFrame job;
   KeptResults results;
 };

@@ -70,7 +70,7 @@ Bytes colour_png() {
 void fuzz_images(int rounds, std::uint64_t seed) {
   std::mt19937_64 random = test::seeded_random(seed);
   const test::MemoryShortage shortage(large_memory, 0);
-  DecodedDepth depth;
+  SharedDepth depth;
   const auto image = test::depth_image(24, 16, random);
   for (const bool rvl : {false, true})
     for (const char* encoding : {"16UC1", "32FC1"}) {

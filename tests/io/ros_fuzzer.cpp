@@ -38,7 +38,7 @@ void parse_definition(Bytes bytes) {
 
 template <int kind>
 void decode_image(Bytes bytes) {
-  static DecodedDepth depth;
+  static SharedDepth depth;
   static Image<Rgb8> colours;
   constexpr std::array formats = {"16UC1; compressedDepth png", "32FC1; compressedDepth rvl",
                                   "16UC1; png compressed", "jpeg"};

@@ -61,7 +61,7 @@ void expect_cuts_are_faults(const std::vector<std::byte>& whole, const Decode& d
 
 template <typename T>
 void check_depth(const Image<T>& image, const std::string& encoding) {
-  DecodedDepth depth;
+  SharedDepth depth;
   const std::size_t row = sizeof(T) * static_cast<std::size_t>(image.width());
   for (const std::size_t step : {row, row + sizeof(T), row + 1})
     for (const std::size_t offset : {std::size_t{0}, std::size_t{4}, std::size_t{1}})
@@ -91,7 +91,7 @@ TEST(RosImage, DepthOfAnyOrderStepAndAlignment) {
 TEST(RosImage, SizesThatDoNotFitAreFaults) {
   const std::vector<std::byte> data(24);
   const ImageMessage good{.height = 3, .width = 4, .encoding = "16UC1", .step = 8, .data = data};
-  DecodedDepth depth;
+  SharedDepth depth;
   EXPECT_FALSE(decode_depth(good, depth));
   using M = ImageMessage;
   const std::pair<void (*)(M&), const char*> changes[] = {
@@ -211,7 +211,7 @@ TEST(RosImage, CompressedDepth) {
   std::mt19937_64 random = test::seeded_random(2);
   const auto image = test::depth_image(33, 21, random);
   constexpr float a = 6500.0F, b = 12.5F;
-  DecodedDepth depth;
+  SharedDepth depth;
   for (const bool rvl : {false, true}) {
     const std::string codec = rvl ? " rvl" : " png";
     const auto data = test::compressed_depth(image, rvl, a, b);
@@ -242,7 +242,7 @@ TEST(RosImage, CompressedDepth) {
 
 TEST(RosImage, CompressedDepthFaults) {
   const Image<std::uint16_t> image(2, 2, 900);
-  DecodedDepth depth;
+  SharedDepth depth;
   const auto fault = [&](const std::string& format, const std::vector<std::byte>& data) {
     return decode_depth(CompressedImageMessage{.format = format, .data = data}, depth)
         .value_or("none");

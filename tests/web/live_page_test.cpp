@@ -138,7 +138,7 @@ TEST(LiveScans, ShowTheirPointsWhereTheSensorWas) {
   points.message.header.stamp = start;
   bench.publish("/points", encoded(points.message));
   ASSERT_TRUE(bench.inbox.next(0, bench.now, false, bench.job));
-  Pipeline pipeline(bench.job.setup->posed->robot, *bench.job.setup->sensor.cloud);
+  Pipeline pipeline(bench.job.setup->posed->robot, *bench.job.setup->cloud());
   EXPECT_TRUE(view.show(bench.job, pipeline.process(bench.job), {}, start));
   const auto packet = next(*browser);
   ASSERT_TRUE(packet);

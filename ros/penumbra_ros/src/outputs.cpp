@@ -95,7 +95,7 @@ void Outputs::write(Result result, std::int64_t /*stamp*/, std::span<const std::
 void Outputs::take(const penumbra::io::AssembledFrame& job, const penumbra::FrameReport& report,
                    const penumbra::Drift& /*drift*/) {
   if (is_selected("camera_info") && camera_info_->get_subscription_count() > 0)
-    publish_camera_info(job.setup->sensor.cameras->info, *report.stamp);
+    publish_camera_info(job.setup->cameras()->info, *report.stamp);
   if (is_selected("markers")) publish_markers(job, report);
   publish_detections(job, report);
   look_ahead_.take(job);
