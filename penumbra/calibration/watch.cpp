@@ -450,11 +450,15 @@ void CalibrationWatch::add(const FrameReport& report) {
     return;
   State& state = *state_;
   state.place(report);
-  if (state.seen++ % period != 0) return;
+  const bool is_compared = compares_next();
+  ++state.seen;
+  if (!is_compared) return;
   state.sample(report);
   state.accumulate(report);
   if (++state.frames % solve_period == 0) state.estimate();
 }
+
+bool CalibrationWatch::compares_next() const { return state_->seen % period == 0; }
 
 const Drift& CalibrationWatch::drift() const { return state_->drift; }
 

@@ -75,6 +75,8 @@ class CalibrationWatch {
 
   /// Adds a frame in which the robot's pose and depth are known; ignores others.
   void add(const FrameReport& report);
+  /// Returns whether it will compare the images of the next such frame.
+  [[nodiscard]] bool compares_next() const;
   [[nodiscard]] const Drift& drift() const;
 
  private:

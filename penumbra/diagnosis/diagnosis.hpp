@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,9 +57,10 @@ class SetupCheck {
              bool is_scanner = false);
 
   /// Adds a frame in which the robot's pose and depth are known; ignores others. `joints`: its
-  /// positions in the order of Robot::variables(); empty if the poses are from TF. Copies the depth
-  /// image of few frames only.
-  void add(const FrameReport& report, std::span<const double> joints);
+  /// positions in the order of Robot::variables(); empty if the poses are from TF. Copies the
+  /// images of few frames only, once `draw` has made them; null: they are there.
+  void add(const FrameReport& report, std::span<const double> joints,
+           const std::function<void()>& draw = nullptr);
 
   /// Compares the setup with what it would be if one mistake was mended. Takes a tenth of a second
   /// if nothing looks wrong, else about a second.

@@ -19,7 +19,8 @@ SetupCheck::SetupCheck(const Robot& robot, const Camera& camera, std::size_t cam
              .camera_stays = false,
              .columns = enough_columns}) {}
 
-void SetupCheck::add(const FrameReport& report, std::span<const double> joints) {
+void SetupCheck::add(const FrameReport& report, std::span<const double> joints,
+                     const std::function<void()>& draw) {
   if (!KeptFrames::is_usable(report)) return;
   pixels_ += static_cast<std::size_t>(report.labels.width) *
              static_cast<std::size_t>(report.labels.height);
@@ -27,6 +28,7 @@ void SetupCheck::add(const FrameReport& report, std::span<const double> joints) 
   elsewhere_ += report.pixels.front + report.pixels.beyond;
   std::optional<KeptFrame> frame = kept_.pass(report, joints);
   if (!frame) return;
+  if (draw) draw();
   frame->depth = kept_.depth_of(report.depth);
   if (!is_scanner_) {  // whose labels are those of a scan
     frame->labels = kept_.image_of(report.labels);

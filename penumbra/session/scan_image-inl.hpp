@@ -26,12 +26,15 @@ class ScanImage {
   ScanImage(const Robot& robot, const CloudConfig& config);
   virtual ~ScanImage() = default;
 
-  /// Draws a labelled scan: of one during which the robot moved, what was measured while it was
-  /// nearly where it is in the report. Returns false if no point is in the robot's direction, or
+  // Virtual, so that a program without scans is linked without them.
+
+  /// Takes a labelled scan, of which it reports the robot's pose: of one during which the robot
+  /// moved, where most points show it. Returns false if no point is in the robot's direction, or
   /// there are no rays.
-  ///
-  /// Virtual, so that a program without scans is linked without it.
-  virtual bool draw(const FrameReport& of, const Frame& frame);
+  virtual bool take(const FrameReport& of, const Frame& frame);
+  /// Draws the scan, while it is valid: what was measured while the robot was nearly where it is
+  /// in the report. Before that, the images are of the scan that was drawn last.
+  virtual void draw();
 
   // Of what was drawn last; numbers and labels are the scan's:
   [[nodiscard]] const FrameReport& report() const { return report_; }
@@ -42,16 +45,19 @@ class ScanImage {
 
  private:
   bool place(const FrameReport& of, const Frame& frame);
-  void look(const FrameReport& of, const Scan& scan);
+  [[nodiscard]] Eigen::Isometry3d T_camera_sensor() const;
+  void look(const FrameReport& of);
   void set_width(int width);
   [[nodiscard]] double measured_share() const;
-  void fill(const Scan& scan);
+  void fill();
 
   Robot robot_;
   std::size_t parent_;  // index of the link that carries the sensor
   PoseStage poses_;
   RobotPose pose_;
   const PoseResult* placed_ = nullptr;
+  Scan scan_;
+  bool is_drawn_ = false;
   std::int64_t begin_ = 0, end_ = 0;  // nanoseconds after the stamp: of what is drawn
   Eigen::Matrix3d R_camera_sensor_;
   double half_angle_ = 0.0;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <penumbra/base/stamps.hpp>
@@ -42,22 +43,29 @@ std::shared_ptr<ScanImage> make_scan_image(const Robot& robot, const CloudConfig
   return std::make_shared<ScanImage>(robot, config);
 }
 
-bool ScanImage::draw(const FrameReport& of, const Frame& frame) {
+bool ScanImage::take(const FrameReport& of, const Frame& frame) {
   if (of.status != FrameStatus::ok || !frame.scan->origin || !place(of, frame)) return false;
-  const Scan& scan = *frame.scan;
-  const bool is_first = !renderer_;
-  if (is_first) {
-    look(of, scan);
-    set_width(finest);
-  }
-  fill(scan);
-  if (const double share = is_first ? measured_share() : filled; share < filled) {
-    set_width(std::max(coarsest, static_cast<int>(finest * std::sqrt(share / filled))));
-    fill(scan);
-  }
+  scan_ = *frame.scan;
+  is_drawn_ = false;
   report_.pixels = of.pixels;
   report_.labels = of.labels;
+  if (!renderer_) {
+    look(of);
+    set_width(finest);
+    draw();
+    if (const double share = measured_share(); share < filled) {
+      set_width(std::max(coarsest, static_cast<int>(finest * std::sqrt(share / filled))));
+      fill();
+    }
+  }
+  report_.T_root_camera = placed_->T_root_camera * T_camera_sensor().inverse();
+  report_.T_root_link = placed_->T_root_link;
   return true;
+}
+
+void ScanImage::draw() {
+  if (!is_drawn_) fill();
+  is_drawn_ = true;
 }
 
 /// Finds the part of the scan that shows most of the robot, and the robot's pose then.
@@ -92,17 +100,17 @@ bool ScanImage::place(const FrameReport& of, const Frame& frame) {
 }
 
 /// Looks at all that the robot can reach; from within that, at what the scan meets of the robot.
-void ScanImage::look(const FrameReport& of, const Scan& scan) {
+void ScanImage::look(const FrameReport& of) {
   const Ball reach = transformed(placed_->T_camera_link[0], reach_of_links(robot_)[0]);
-  Eigen::Vector3d ahead = reach.centre - *scan.origin;
+  Eigen::Vector3d ahead = reach.centre - *scan_.origin;
   if (ahead.norm() > reach.radius) {
     half_angle_ = std::min(widest, std::asin(reach.radius / ahead.norm()) + margin);
   } else {
     half_angle_ = widest;
     ahead.setZero();
-    for (std::size_t i = 0; i < scan.points.count; ++i)
+    for (std::size_t i = 0; i < scan_.points.count; ++i)
       if (is_on_robot(of.labels.data[i]))
-        ahead += (scan.points[i].cast<double>() - *scan.origin).normalized();
+        ahead += (scan_.points[i].cast<double>() - *scan_.origin).normalized();
   }
   ahead.normalize();
   constexpr double steep = 0.99;
@@ -127,17 +135,20 @@ double ScanImage::measured_share() const {
   return measured / robot;
 }
 
-void ScanImage::fill(const Scan& scan) {
+Eigen::Isometry3d ScanImage::T_camera_sensor() const {
+  return Eigen::Isometry3d(R_camera_sensor_) * Eigen::Translation3d(-*scan_.origin);
+}
+
+void ScanImage::fill() {
   const int width = camera_.intrinsics.width();
-  const Eigen::Isometry3d T_camera_sensor =
-      Eigen::Isometry3d(R_camera_sensor_) * Eigen::Translation3d(-*scan.origin);
-  const Eigen::Isometry3f T = T_camera_sensor.cast<float>();
+  const Eigen::Isometry3f T = T_camera_sensor().cast<float>();
   const auto focal = static_cast<float>(camera_.intrinsics.fx());
   const float middle = 0.5F * static_cast<float>(width);
-  depth_ = Image<float>(width, width);
-  for (std::size_t i = 0; i < scan.points.count; ++i) {
-    if (!scan.times.empty() && (scan.times[i] < begin_ || scan.times[i] > end_)) continue;
-    const Eigen::Vector3f p = T * scan.points[i];
+  depth_.fit(width, width);
+  std::fill_n(depth_.data(), depth_.size(), 0.0F);
+  for (std::size_t i = 0; i < scan_.points.count; ++i) {
+    if (!scan_.times.empty() && (scan_.times[i] < begin_ || scan_.times[i] > end_)) continue;
+    const Eigen::Vector3f p = T * scan_.points[i];
     const float x = focal * p.x() / p.z() + middle, y = focal * p.y() / p.z() + middle;
     if (!(p.z() > 0.0F && std::min(x, y) >= 0.0F && std::max(x, y) < static_cast<float>(width)))
       continue;
@@ -146,11 +157,9 @@ void ScanImage::fill(const Scan& scan) {
   }
   T_camera_link_.clear();
   for (const Eigen::Isometry3d& pose : placed_->T_camera_link)
-    T_camera_link_.push_back(T_camera_sensor * pose);
+    T_camera_link_.push_back(T_camera_sensor() * pose);
   report_.virtual_depth = renderer_->render(T_camera_link_);
-  report_.T_root_camera = placed_->T_root_camera * T_camera_sensor.inverse();
-  report_.T_root_link = placed_->T_root_link;
-  report_.depth = depth_.view();
+  report_.depth = std::as_const(depth_).view();
 }
 
 }  // namespace penumbra

@@ -28,9 +28,10 @@ Warnings Session::new_warnings() const {
 const FrameReport& Session::process(const Frame& frame) {
   const FrameReport& report = pipeline_.process(frame);
   warnings_.add(report, frame);
-  if (scan_ && scan_->draw(report, frame)) {
+  if (scan_ && scan_->take(report, frame)) {
     warnings_.add(*scan_);
     if (!watch_) watch_.emplace(scan_->camera(), limits_, false);
+    if (watch_->compares_next()) scan_->draw();
     watch_->add(scan_->report());
   }
   if (watch_ && !scan_) watch_->add(report);

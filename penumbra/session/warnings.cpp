@@ -84,12 +84,12 @@ void Warnings::add(const FrameReport& report, const Frame& frame) {
     if (is_beyond(robot_.joints()[i], positions)) ++frames_beyond_[i];
 }
 
-void Warnings::add(const ScanImage& image) {
+void Warnings::add(ScanImage& image) {
   if (!sensor_)
     sensor_.emplace(Sensor{.setup = SetupCheck(robot_, image.camera(), image.parent(), true),
                            .image = ImageSpace::raw,
                            .fringe_reach = 0});
-  sensor_->setup.add(image.report(), image.positions());
+  sensor_->setup.add(image.report(), image.positions(), [&] { image.draw(); });
   diagnosis_.reset();
 }
 

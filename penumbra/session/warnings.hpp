@@ -45,8 +45,8 @@ class Warnings {
 
   /// `frame`: the report's.
   void add(const FrameReport& report, const Frame& frame);
-  /// Adds what was drawn of that frame, which is a scan.
-  void add(const ScanImage& image);
+  /// Adds that frame, which is a scan, drawn as an image.
+  void add(ScanImage& image);
 
   /// Returns a line for each likely mistake. What a wrong setup looks like is left out where the
   /// diagnosis names the cause.

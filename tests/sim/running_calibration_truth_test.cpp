@@ -57,11 +57,11 @@ class Cell {
   std::map<std::size_t, CalibrationFrame> kept;  // frames by their index
   [[nodiscard]] const Session& session() const { return session_; }
   void judge(const sim::SimFrame& next) {
-    Frame frame{.index = judged_++,
-                .stamp = next.stamp,
-                .depth = next.depth.view(),
-                .pose = {.positions = next.joints,
-                         .T_parent_camera = simulation_.T_base_camera() * off_}};
+    Frame frame{
+        .index = judged_++,
+        .stamp = next.stamp,
+        .depth = next.depth.view(),
+        .pose = {.positions = next.joints, .T_parent_camera = simulation_.T_base_camera() * off_}};
     session_.process(frame);
     if (!keeps) return;
     CalibrationFrame& one = kept[*frame.index];
@@ -111,8 +111,7 @@ TEST_F(RunningCalibrationTruth, HasTheNewPoseReadyAfterTheCameraMoved) {
   EXPECT_FALSE(cell.run_until([&] { return cell.calibration.progress().is_running; }, before));
   EXPECT_EQ(cell.calibration.progress().message, "");
   cell.move_camera(moved(0.02, -0.018, 0.013, 0.5));  // by 30 mm
-  ASSERT_TRUE(
-      cell.run_until([&] { return cell.calibration.progress().is_running; }, until_seen));
+  ASSERT_TRUE(cell.run_until([&] { return cell.calibration.progress().is_running; }, until_seen));
   const CalibrationProgress of = cell.run(after);
   EXPECT_TRUE(of.has_moved);
   EXPECT_TRUE(holds(of.message, "the camera has moved")) << of.message;
