@@ -14,7 +14,6 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/camera/intrinsics.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/robot/robot.hpp>
 
