@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::bench {

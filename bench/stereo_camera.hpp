@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 
 #include <sim/random.hpp>
 #include <sim/stage.hpp>

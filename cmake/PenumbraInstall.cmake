@@ -20,20 +20,17 @@ endforeach()
 # The public headers: the classes that docs/cpp.md names, and what these include. All other headers
 # are free to change.
 set(public_headers
-  base/error.hpp base/image.hpp base/setting.hpp base/stamps.hpp
-  mesh/prepared_mesh.hpp mesh/triangle_mesh.hpp robot/robot.hpp
-  time/attachments.hpp time/joint_buffer.hpp time/pose_history.hpp time/source_tracks.hpp
-  time/stamped_track.hpp time/transform_buffer.hpp
-  camera/camera.hpp camera/distortion.hpp camera/intrinsics.hpp camera/rectification.hpp
-  camera/registration.hpp
-  render/depth_renderer.hpp render/pixel_rectangle.hpp
-  labels/cloud_rule.hpp labels/labels.hpp poses/pose_lookup.hpp poses/robot_pose.hpp tracking/trackers.hpp
-  targets/region.hpp targets/target.hpp targets/target_judge.hpp
+  base/error.hpp base/image.hpp base/setting.hpp
+  mesh/prepared_mesh.hpp robot/robot.hpp robot/trajectory.hpp
+  time/joint_buffer.hpp time/pose_history.hpp time/transform_buffer.hpp
+  camera/camera.hpp camera/rectification.hpp camera/registration.hpp
+  render/depth_renderer.hpp labels/labels.hpp poses/pose_lookup.hpp poses/robot_pose.hpp
+  tracking/trackers.hpp targets/region.hpp targets/target.hpp targets/target_judge.hpp
+  cloud/cloud_labels.hpp cloud/scan.hpp
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
   calibration/calibration.hpp calibration/kept_frames.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
-  planning/plan_forecast.hpp session/session.hpp session/warnings.hpp
-  planning/look_ahead.hpp fusion/target_fusion.hpp robot/trajectory.hpp planning/view_planning.hpp
-  cloud/cloud_labels.hpp cloud/scan.hpp tuning/cloud_tuning.hpp)
+  tuning/cloud_tuning.hpp planning/look_ahead.hpp planning/view_planning.hpp fusion/target_fusion.hpp
+  session/session.hpp)
 set(component_of_calibration setup)
 set(component_of_diagnosis setup)
 set(component_of_tuning setup)

@@ -7,7 +7,7 @@
 
 #include <python/values.hpp>
 
-#include <penumbra/camera/distortion.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/pipeline.hpp>

@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 
 #include <io/files/png.hpp>
 #include <sim/arm.hpp>

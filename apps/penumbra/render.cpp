@@ -12,6 +12,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/session/warnings.hpp>
 
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>

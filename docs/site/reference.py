@@ -18,8 +18,7 @@ HEADERS = {
                         "poses/robot_pose.hpp", "poses/pose_lookup.hpp", "time/joint_buffer.hpp",
                         "time/transform_buffer.hpp"],
     "Robot": ["robot/robot.hpp"],
-    "Camera": ["camera/camera.hpp", "camera/intrinsics.hpp", "camera/distortion.hpp",
-               "camera/rectification.hpp", "camera/registration.hpp"],
+    "Camera": ["camera/camera.hpp", "camera/rectification.hpp", "camera/registration.hpp"],
     "Renderers": ["render/depth_renderer.hpp"],
     "Labels and verdicts": ["labels/labels.hpp", "targets/region.hpp",
                             "targets/target_judge.hpp", "cloud/cloud_labels.hpp",
@@ -27,8 +26,7 @@ HEADERS = {
     "Tracking": ["tracking/trackers.hpp"],
     "Calibration": ["calibration/calibration.hpp"],
     "Planning": ["planning/look_ahead.hpp", "robot/trajectory.hpp", "planning/view_planning.hpp"],
-    "Images, meshes, errors": ["base/image.hpp", "mesh/triangle_mesh.hpp",
-                               "mesh/prepared_mesh.hpp", "base/error.hpp"],
+    "Images, meshes, errors": ["base/image.hpp", "mesh/prepared_mesh.hpp", "base/error.hpp"],
 }
 
 

@@ -26,13 +26,13 @@ namespace penumbra::io {
 struct SensorSetup {
   using Sensor = std::variant<JudgedCameras, CloudConfig>;
 
-  /// `frame`: of the judged images or the clouds.
-  SensorSetup(std::shared_ptr<PosedRobot> of, Sensor with, CameraMount on, std::string_view frame,
+  SensorSetup(std::shared_ptr<PosedRobot> of, Sensor with, CameraMount on, std::string of_frame,
               const FrameQueueOptions& options, HiddenTargets hidden, FrameQueue::OnDrop on_drop,
               FrameQueue::Check check)
       : posed(std::move(of)),
         sensor(std::move(with)),
         mount(std::move(on)),
+        frame(std::move(of_frame)),
         queue(posed->robot, posed->history, options, std::move(on_drop), std::move(check)),
         targets(posed->robot, frame, options.poses.frame_prefix, hidden) {}
 
@@ -43,6 +43,7 @@ struct SensorSetup {
   const std::shared_ptr<PosedRobot> posed;
   const Sensor sensor;
   const CameraMount mount;
+  const std::string frame;  ///< of the judged images or the clouds
   FrameQueue queue;
   TargetInbox targets;
 };

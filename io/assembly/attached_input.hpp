@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <penumbra/time/attachments.hpp>
+#include <penumbra/time/pose_history.hpp>
 
 #include <io/ros/moveit_messages.hpp>
 

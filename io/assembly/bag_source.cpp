@@ -22,9 +22,9 @@ std::vector<CameraInputOptions> cameras_of(const BagSourceOptions& bag) {
   CameraInputOptions options;
   if (bag.topics.color && bag.with_color) options.color_topic = bag.topics.color->name;
   if (bag.topics.color_info) options.color_info_topic = bag.topics.color_info->name;
-  options.mount.frame_prefix = bag.frame_prefix;
+  options.mount.frame_prefix = bag.bag.frame_prefix;
   options.poses = bag.topics.poses;
-  options.time_offset = bag.time_offset;
+  options.time_offset = bag.bag.time_offset;
   options.max_wait = longest_wait;
   options.max_frames = most_waiting;
   options.has_targets = !bag.topics.targets.empty();
@@ -35,9 +35,9 @@ std::vector<CameraInputOptions> cameras_of(const BagSourceOptions& bag) {
 std::vector<CloudInputOptions> clouds_of(const BagSourceOptions& bag) {
   if (!bag.cloud) return {};
   CloudInputOptions options = *bag.cloud;
-  options.mount.frame_prefix = bag.frame_prefix;
+  options.mount.frame_prefix = bag.bag.frame_prefix;
   options.poses = bag.topics.poses;
-  options.time_offset = bag.time_offset;
+  options.time_offset = bag.bag.time_offset;
   options.max_frames = most_waiting;
   options.has_targets = !bag.topics.targets.empty();
   return {options};
@@ -51,8 +51,8 @@ BagSource::BagSource(const std::filesystem::path& bag, const Robot& robot, BagSo
       name_(bag.string()),
       assembler_({.robot = {},
                   .given = robot,
-                  .joint_names = options_.joint_names,
-                  .compare_sources = options_.compare_sources,
+                  .joint_names = options_.bag.joint_names,
+                  .compare_sources = !options_.bag.first_publisher,
                   .static_transforms = options_.static_transforms},
                  cameras_of(options_), clouds_of(options_)) {
   if (options_.camera) depth_.emplace(options_.camera->cameras);

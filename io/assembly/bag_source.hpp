@@ -19,14 +19,11 @@
 namespace penumbra::io {
 
 struct BagSourceOptions {
+  BagOptions bag;
   BagTopics topics;
   std::optional<KnownCamera> camera = {};
   std::optional<CloudInputOptions> cloud = {};      ///< one of topics.clouds, in place of a camera
   std::vector<TransformMessage> static_transforms;  ///< see RobotInputOptions
-  std::string frame_prefix = {};                    ///< PoseOptions::frame_prefix
-  std::string joint_names = {};                     ///< see RobotInputOptions
-  bool compare_sources = true;  ///< see JointBufferOptions and TransformBufferOptions
-  double time_offset = 0.0;     ///< see FrameQueueOptions::time_offset
   std::optional<std::int64_t> first, end = {};  ///< the range of frames to read
   std::string range_option = "--frames";        ///< that gave it, for messages
   bool with_color = false;                      ///< with colour images, for pictures

@@ -81,7 +81,7 @@ class SensorInput {
   /// `options`: CameraInputOptions or CloudInputOptions.
   template <typename Options>
   std::shared_ptr<SensorSetup> make_setup(const Options& options, SensorSetup::Sensor sensor,
-                                          CameraMount mount, std::string_view frame,
+                                          CameraMount mount, std::string frame,
                                           double companion_wait) {
     awaits_targets_ = is_lossless() && options.has_targets;
     const FrameQueueOptions queue{
@@ -95,7 +95,7 @@ class SensorInput {
                   .camera_parent = mount.parent,
                   .camera_frame = mount.frame}};
     return std::make_shared<SensorSetup>(
-        robot_.posed(), std::move(sensor), std::move(mount), frame, queue, options.hidden_targets,
+        robot_.posed(), std::move(sensor), std::move(mount), std::move(frame), queue, options.hidden_targets,
         [this](std::shared_ptr<Frame> of, DropReason reason) { drop(std::move(of), reason); },
         [this](const Frame& of, bool over) { return check(of, over); });
   }

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/targets/region.hpp>
 
 #include <io/files/frame_pattern.hpp>

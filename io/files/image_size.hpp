@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/camera/rectification.hpp>
 
 namespace penumbra::io {

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 
 #include <io/files/depth_pixels.hpp>
 #include <io/files/disk_file.hpp>

@@ -8,7 +8,7 @@
 
 #include <png.h>
 
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 
 #include <io/files/disk_file.hpp>
 #include <io/files/png.hpp>

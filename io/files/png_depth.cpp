@@ -10,7 +10,7 @@
 
 #include <libdeflate.h>
 
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 
 #include <io/files/png_depth.hpp>
 

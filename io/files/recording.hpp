@@ -11,11 +11,10 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/labels/cloud_rule.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/time/attachments.hpp>
+#include <penumbra/time/pose_history.hpp>
 
 #include <io/files/frame_pattern.hpp>
 #include <io/files/pose_file.hpp>

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra::io {
 

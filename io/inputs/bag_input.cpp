@@ -66,19 +66,19 @@ CameraMount mount_in_bag(const InputOptions& options, BagSceneReader& reader, co
                      (options.bag.clouds
                           ? ": the clouds do not name their frame; give --pose and --parent"
                           : ": the images do not name their frame; give it with --camera-frame"));
+  const std::string frame = mounted_frame(wanted, frame_of_images);
+  const std::string root = options.bag.frame_prefix + robot.links().front();
   std::optional<CameraMount> mount;
   reader.read_until([&](const BagScene& scene) {
     mount = find_mount(robot, wanted, scene.frames, frame_of_images);
-    return mount.has_value();
+    // Once the camera and the root link have a frame above both, no link can come above the camera.
+    return mount || scene.frames.connects(frame, root);
   });
   if (!options.needs_camera_pose)
     return {"", mount ? mount->parent : robot.links().front(), Eigen::Isometry3d::Identity(),
             mount ? mount->source : "nothing yet"};
   if (mount) return *mount;
-  // The camera is not on the robot, but both are below one frame.
-  const std::string frame = mounted_frame(wanted, frame_of_images);
-  if (!reader.scene().frames.connects(frame, options.bag.frame_prefix + robot.links().front()))
-    refuse_mount(options, reader, robot, frame);
+  if (!reader.scene().frames.connects(frame, root)) refuse_mount(options, reader, robot, frame);
   return mount_by_root(robot, wanted, frame_of_images);
 }
 
@@ -118,12 +118,9 @@ UsedBag used_bag(const InputOptions& options, const BagTopics& topics, const Cam
 }
 
 BagSourceOptions source_options(const InputOptions& options, const BagSceneReader& reader) {
-  return {.topics = reader.topics(),
+  return {.bag = options.bag,
+          .topics = reader.topics(),
           .static_transforms = reader.scene().static_transforms,
-          .frame_prefix = options.bag.frame_prefix,
-          .joint_names = options.bag.joint_names,
-          .compare_sources = !options.bag.first_publisher,
-          .time_offset = options.bag.time_offset,
           .first = options.frames.first,
           .end = options.frames.end,
           .range_option = options.frames.option,

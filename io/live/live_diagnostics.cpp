@@ -71,6 +71,13 @@ void add_tally(Status& status, const LiveTally& tally) {
       add(status, "last " + std::string(stage.name), decimal(*time, " ms"));
 }
 
+void add_points(Status& status, const LiveTally& tally) {
+  for (const auto& [label, count] : point_counts)
+    add_count(status, "points " + std::string(label), tally.points.*count);
+  add_count(status, "most poses of a scan", tally.parts);
+  if (!tally.time_note.empty()) add(status, "times", tally.time_note);
+}
+
 void add_drift(Status& status, const Drift& drift) {
   const Json json = drift_json(drift);
   for (const auto& [key, value] : json.items()) add(status, "calibration " + key, value.dump());
@@ -151,59 +158,43 @@ DiagnosticStatusMessage LiveDiagnostics::robot_status(const LiveInbox& inbox,
   return status;
 }
 
-DiagnosticStatusMessage LiveDiagnostics::camera_status(const LiveInbox& inbox, std::size_t number,
+DiagnosticStatusMessage LiveDiagnostics::sensor_status(const LiveInbox& inbox, std::size_t sensor,
                                                        std::span<const LiveLink> links,
                                                        const Period& period) const {
-  const CameraInput& camera = inbox.camera(number);
-  const ImageCounts counts = camera.counts();
-  const LiveFault current = camera_fault(inbox, number, links, period.now);
-  const double rate = static_cast<double>(counts.judged - judged_[number]) / period.seconds;
-  Status status = make_status(name_of(camera), current);
-  if (current.why.empty()) status.message = decimal(rate, " frames/s judged");
-  add(status, "judged per second", decimal(rate, ""));
-  if (camera.setup() != nullptr)
-    add(status, "camera on link",
-        camera.setup()->mount.parent + ", by " + camera.setup()->mount.source);
-  if (const auto& renderer = inbox.tally(number).last.renderer) add_renderer(status, *renderer);
-  add_counts(status, counts);
-  for (const std::string& line : inbox.warnings(number)) add(status, "warning", line);
-  add_drift(status, inbox.tally(number).last.drift);
-  add_tally(status, inbox.tally(number));
-  if (camera.camera_changes() > 0)
-    add_count(status, "camera_info changed", camera.camera_changes());
-  add_targets(status, camera.targets());
-  for (std::size_t i = 0; i < inbox.topics().size(); ++i)
-    if (is_of_camera(inbox.topics()[i].role) && inbox.topics()[i].camera == number)
-      add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));
-  return status;
-}
-
-DiagnosticStatusMessage LiveDiagnostics::cloud_status(const LiveInbox& inbox, std::size_t number,
-                                                      std::span<const LiveLink> links,
-                                                      const Period& period) const {
-  const CloudInput& cloud = inbox.cloud(number);
-  const std::size_t sensor = inbox.camera_count() + number;
+  const bool is_camera = sensor < inbox.camera_count();
+  const std::size_t number = is_camera ? sensor : sensor - inbox.camera_count();
+  const SensorInput& input = inbox.sensor(sensor);
   const LiveTally& tally = inbox.tally(sensor);
-  const ImageCounts counts = cloud.counts();
-  const LiveFault current = cloud_fault(inbox, number, links, period.now);
+  const ImageCounts counts = input.counts();
+  const LiveFault current = is_camera ? camera_fault(inbox, number, links, period.now)
+                                      : cloud_fault(inbox, number, links, period.now);
   const double rate = static_cast<double>(counts.judged - judged_[sensor]) / period.seconds;
-  Status status = make_status("cloud " + printable(cloud.options().topic), current);
-  if (current.why.empty()) status.message = decimal(rate, " clouds/s labelled");
-  add(status, "labelled per second", decimal(rate, ""));
-  if (cloud.setup() != nullptr)
-    add(status, "sensor on link",
-        cloud.setup()->mount.parent + ", by " + cloud.setup()->mount.source);
+  Status status = make_status(is_camera ? name_of(inbox.camera(number))
+                                        : "cloud " + printable(inbox.cloud(number).options().topic),
+                              current);
+  if (current.why.empty())
+    status.message = decimal(rate, is_camera ? " frames/s judged" : " clouds/s labelled");
+  add(status, is_camera ? "judged per second" : "labelled per second", decimal(rate, ""));
+  if (const SensorSetup* const setup = input.setup())
+    add(status, is_camera ? "camera on link" : "sensor on link",
+        setup->mount.parent + ", by " + setup->mount.source);
+  if (tally.last.renderer) add_renderer(status, *tally.last.renderer);
   add_counts(status, counts);
   for (const std::string& line : inbox.warnings(sensor)) add(status, "warning", line);
-  for (const auto& [label, count] : point_counts)
-    add_count(status, "points " + std::string(label), tally.points.*count);
-  add_count(status, "most poses of a scan", tally.parts);
-  if (!tally.time_note.empty()) add(status, "times", tally.time_note);
+  if (is_camera)
+    add_drift(status, tally.last.drift);
+  else
+    add_points(status, tally);
   add_tally(status, tally);
-  add_targets(status, cloud.targets());
-  for (std::size_t i = 0; i < inbox.topics().size(); ++i)
-    if (inbox.topics()[i].role == TopicRole::cloud && inbox.topics()[i].camera == number)
-      add_link(status, inbox.topics()[i], links[i], rate_of(inbox, i, period));
+  if (is_camera && inbox.camera(number).camera_changes() > 0)
+    add_count(status, "camera_info changed", inbox.camera(number).camera_changes());
+  add_targets(status, input.targets());
+  for (std::size_t i = 0; i < inbox.topics().size(); ++i) {
+    const InputTopic& topic = inbox.topics()[i];
+    const bool is_own = is_camera ? is_of_camera(topic.role) : topic.role == TopicRole::cloud;
+    if (is_own && topic.camera == number)
+      add_link(status, topic, links[i], rate_of(inbox, i, period));
+  }
   return status;
 }
 
@@ -220,10 +211,8 @@ DiagnosticArrayMessage LiveDiagnostics::report(const LiveInbox& inbox,
   received_.resize(inbox.topics().size());
   DiagnosticArrayMessage array{.header = {moment.system_now, ""}, .status = {}};
   array.status.push_back(robot_status(inbox, links, period));
-  for (std::size_t c = 0; c < inbox.camera_count(); ++c)
-    array.status.push_back(camera_status(inbox, c, links, period));
-  for (std::size_t c = 0; c < inbox.cloud_count(); ++c)
-    array.status.push_back(cloud_status(inbox, c, links, period));
+  for (std::size_t i = 0; i < inbox.sensor_count(); ++i)
+    array.status.push_back(sensor_status(inbox, i, links, period));
   for (std::size_t i = 0; i < judged_.size(); ++i) judged_[i] = inbox.sensor(i).counts().judged;
   received_.assign(inbox.received().begin(), inbox.received().end());
   before_ = moment.now;

@@ -75,12 +75,9 @@ class LiveDiagnostics {
   [[nodiscard]] DiagnosticStatusMessage robot_status(const LiveInbox& inbox,
                                                      std::span<const LiveLink> links,
                                                      const Period& period);
-  [[nodiscard]] DiagnosticStatusMessage camera_status(const LiveInbox& inbox, std::size_t number,
+  [[nodiscard]] DiagnosticStatusMessage sensor_status(const LiveInbox& inbox, std::size_t sensor,
                                                       std::span<const LiveLink> links,
                                                       const Period& period) const;
-  [[nodiscard]] DiagnosticStatusMessage cloud_status(const LiveInbox& inbox, std::size_t number,
-                                                     std::span<const LiveLink> links,
-                                                     const Period& period) const;
   [[nodiscard]] double rate_of(const LiveInbox& inbox, std::size_t topic,
                                const Period& period) const;
 

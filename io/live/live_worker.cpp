@@ -93,8 +93,7 @@ void LiveWorker::find_warnings(std::int64_t now, LiveOutcome& outcome) {
   if (has_warned_ && (tools_->depth || poses > 0) && poses < KeptFrames::least) return;
   has_warned_ = true;
   next_warnings_ = now + warnings_period;
-  const auto taken = std::make_shared<const Warnings>(tools_->session.take_warnings());
-  outcome.find_warnings = [taken] { return taken->lines(); };
+  outcome.find_warnings = tools_->session.take_warnings();
 }
 
 void LiveWorker::show_color(AssembledFrame& job, bool wanted) {

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 #include <io/files/json.hpp>
 #include <io/web/scene.hpp>

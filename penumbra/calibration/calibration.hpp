@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/calibration/kept_frames.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra {

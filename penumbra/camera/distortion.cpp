@@ -13,7 +13,7 @@
 #include <sstream>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/camera/distortion.hpp>
+#include <penumbra/camera/camera.hpp>
 
 namespace penumbra {
 namespace {

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 
 namespace penumbra {
 

@@ -12,7 +12,6 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/labels/cloud_rule.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 

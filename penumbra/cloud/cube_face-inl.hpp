@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/cloud/cloud_labels.hpp>
-#include <penumbra/render/pixel_rectangle.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::cloud {
 

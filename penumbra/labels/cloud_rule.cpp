@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <penumbra/base/error.hpp>
-#include <penumbra/labels/cloud_rule.hpp>
+#include <penumbra/labels/labels.hpp>
 
 namespace penumbra {
 

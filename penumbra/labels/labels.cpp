@@ -6,7 +6,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/simd_target.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/labels/fringe-inl.hpp>
 #include <penumbra/labels/label_work-inl.hpp>
 #include <penumbra/labels/labels.hpp>

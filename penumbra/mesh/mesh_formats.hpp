@@ -15,7 +15,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/text.hpp>
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra::mesh_formats {
 

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <penumbra/mesh/triangle_mesh.hpp>
-
 namespace penumbra {
+
+/// Triangles over shared vertices, metres. Seen from outside, corners run counter-clockwise.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3f> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
 
 /// A ball in the mesh's frame, metres.
 struct Ball {

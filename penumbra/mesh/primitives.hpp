@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-#include <penumbra/labels/cloud_rule.hpp>
+#include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/poses/pose_stage.hpp>
 #include <penumbra/targets/target_stage.hpp>

@@ -21,7 +21,6 @@
 #include <penumbra/poses/pose_stage.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/render/near_plane_check.hpp>
-#include <penumbra/render/pixel_rectangle.hpp>
 #include <penumbra/targets/object_renderers.hpp>
 #include <penumbra/targets/region_spans.hpp>
 #include <penumbra/targets/target_views.hpp>

@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/render/pixel_rectangle.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/targets/target_visibility.hpp>
 
 namespace penumbra::planning {

@@ -14,7 +14,7 @@
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/targets/target.hpp>
-#include <penumbra/time/attachments.hpp>
+#include <penumbra/time/pose_history.hpp>
 
 namespace penumbra {
 

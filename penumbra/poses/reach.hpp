@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/robot/robot.hpp>

@@ -6,6 +6,7 @@
 
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/poses/robot_pose.hpp>
+#include <penumbra/time/source_tracks.hpp>
 
 namespace penumbra {
 namespace {

@@ -12,8 +12,8 @@
 
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/time/attachments.hpp>
 #include <penumbra/time/joint_buffer.hpp>
+#include <penumbra/time/pose_history.hpp>
 
 namespace penumbra {
 

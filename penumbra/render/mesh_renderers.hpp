@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 

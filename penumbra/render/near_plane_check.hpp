@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra {

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/render/pixel_rectangle.hpp>
 
 namespace penumbra {
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra {

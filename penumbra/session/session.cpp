@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
+#include <penumbra/planning/plan_forecast.hpp>
 #include <penumbra/session/scan_image-inl.hpp>
 #include <penumbra/session/session.hpp>
+#include <penumbra/session/warnings.hpp>
 
 namespace penumbra {
 
@@ -13,7 +15,8 @@ Session::Session(Robot robot, const Camera& camera, const PipelineConfig& config
       limits_(limits),
       warnings_(new_warnings()),
       watch_(std::in_place, pipeline_.report_camera(), limits_),
-      forecast_(std::in_place, pipeline_.robot(), pipeline_.report_camera(), config) {}
+      forecast_(
+          std::make_unique<PlanForecast>(pipeline_.robot(), pipeline_.report_camera(), config)) {}
 
 Session::Session(Pipeline of_scans, std::shared_ptr<ScanImage> scan, const DriftLimits& limits)
     : pipeline_(std::move(of_scans)),
@@ -21,15 +24,24 @@ Session::Session(Pipeline of_scans, std::shared_ptr<ScanImage> scan, const Drift
       limits_(limits),
       warnings_(new_warnings()) {}
 
-Warnings Session::new_warnings() const {
-  return config_ ? Warnings(pipeline_, *config_) : Warnings(pipeline_.robot());
+Session::~Session() = default;
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+
+std::unique_ptr<Warnings> Session::new_warnings() const {
+  return config_ ? std::make_unique<Warnings>(pipeline_, *config_)
+                 : std::make_unique<Warnings>(pipeline_.robot());
 }
+
+const Diagnosis& Session::diagnosis() const { return warnings_->diagnosis(); }
+
+std::size_t Session::poses() const { return warnings_->poses(); }
 
 const FrameReport& Session::process(const Frame& frame) {
   const FrameReport& report = pipeline_.process(frame);
-  warnings_.add(report, frame);
+  warnings_->add(report, frame);
   if (scan_ && scan_->take(report, frame)) {
-    warnings_.add(*scan_);
+    warnings_->add(*scan_);
     if (!watch_) watch_.emplace(scan_->camera(), limits_, false);
     if (watch_->compares_next()) scan_->draw();
     watch_->add(scan_->report());
@@ -50,7 +62,7 @@ const Drift& Session::drift() const {
 }
 
 std::vector<std::string> Session::warnings() const {
-  std::vector<std::string> lines = warnings_.lines();
+  std::vector<std::string> lines = warnings_->lines();
   const std::string moved = drift().message();
   if (!moved.empty() && diagnosis().cause == Diagnosis::Cause::none) lines.push_back(moved);
   return lines;
@@ -61,7 +73,11 @@ void Session::calibrate(RunningCalibration& calibration, const Camera& camera) {
   calibration_ = &calibration;
 }
 
-Warnings Session::take_warnings() { return std::exchange(warnings_, new_warnings()); }
+std::function<std::vector<std::string>()> Session::take_warnings() {
+  return [taken = std::shared_ptr(std::exchange(warnings_, new_warnings()))] {
+    return taken->lines();
+  };
+}
 
 void Session::begin_sequence() {
   pipeline_.forget_targets();

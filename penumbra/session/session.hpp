@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,13 +9,14 @@
 #include <vector>
 
 #include <penumbra/calibration/watch.hpp>
+#include <penumbra/diagnosis/diagnosis.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/planning/plan_forecast.hpp>
-#include <penumbra/session/warnings.hpp>
 
 namespace penumbra {
 
+class PlanForecast;
 class ScanImage;
+class Warnings;
 /// Draws a sensor's scans. Defined in the component `cloud`.
 [[nodiscard]] std::shared_ptr<ScanImage> make_scan_image(const Robot& robot,
                                                          const CloudConfig& config);
@@ -35,13 +37,17 @@ class Session {
   /// Judges a frame. Views in the report are valid until the next call.
   const FrameReport& process(const Frame& frame);
 
+  ~Session();
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+
   [[nodiscard]] Pipeline& pipeline() { return pipeline_; }
   [[nodiscard]] const Pipeline& pipeline() const { return pipeline_; }
 
   /// Returns a line for each likely mistake in the frames so far. Diagnoses the setup.
   [[nodiscard]] std::vector<std::string> warnings() const;
   /// Takes a tenth of a second, or about a second if something looks wrong.
-  [[nodiscard]] const Diagnosis& diagnosis() const { return warnings_.diagnosis(); }
+  [[nodiscard]] const Diagnosis& diagnosis() const;
   /// Returns how far the camera has moved from its calibration.
   [[nodiscard]] const Drift& drift() const;
 
@@ -49,30 +55,30 @@ class Session {
   /// frames' images. Not for scans.
   void calibrate(RunningCalibration& calibration, const Camera& camera);
 
-  /// Returns the warnings about the frames since the last call, and begins them anew. For a
-  /// stream without an end; their lines can be made on another thread.
-  [[nodiscard]] Warnings take_warnings();
+  /// Returns what finds the warnings about the frames since the last call, and begins them anew.
+  /// For a stream without an end; any thread may call the result.
+  [[nodiscard]] std::function<std::vector<std::string>()> take_warnings();
 
   /// Returns the number of different poses of the robot, up to SetupCheck::most, that warnings are
   /// based on.
-  [[nodiscard]] std::size_t poses() const { return warnings_.poses(); }
+  [[nodiscard]] std::size_t poses() const;
 
   /// Forgets targets, warnings and drift: a new sequence begins.
   void begin_sequence();
 
  private:
   Session(Pipeline of_scans, std::shared_ptr<ScanImage> scan, const DriftLimits& limits);
-  [[nodiscard]] Warnings new_warnings() const;
+  [[nodiscard]] std::unique_ptr<Warnings> new_warnings() const;
 
   Pipeline pipeline_;
   std::optional<PipelineConfig> config_;  // of a camera; null: scans
   std::shared_ptr<ScanImage> scan_;       // null of a camera
   DriftLimits limits_;
-  Warnings warnings_;
+  std::unique_ptr<Warnings> warnings_;
   std::optional<CalibrationWatch> watch_;
   RunningCalibration* calibration_ = nullptr;
-  std::optional<PlanForecast> forecast_;  // of a camera
-  FrameReport report_;                    // with forecasts
+  std::unique_ptr<PlanForecast> forecast_;  // of a camera
+  FrameReport report_;                      // with forecasts
   std::vector<TargetReport> targets_;
 };
 

@@ -6,7 +6,7 @@
 #include <penumbra/poses/pose_stage.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/targets/target.hpp>
-#include <penumbra/time/attachments.hpp>
+#include <penumbra/time/pose_history.hpp>
 
 namespace penumbra {
 

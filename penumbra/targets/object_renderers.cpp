@@ -6,7 +6,7 @@
 #include <string>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/render/pixel_rectangle.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/targets/object_renderers.hpp>
 
 namespace penumbra {

@@ -12,7 +12,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/image.hpp>
-#include <penumbra/render/pixel_rectangle.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include <penumbra/time/attachments.hpp>
+#include <penumbra/time/pose_history.hpp>
 
 namespace penumbra {
 namespace {

@@ -8,6 +8,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/time/joint_buffer.hpp>
+#include <penumbra/time/source_tracks.hpp>
 
 namespace penumbra {
 namespace {
@@ -21,6 +22,37 @@ double shorter_turn(double from, double to) {
 }
 
 }  // namespace
+
+/// As JointRule, for the rotation of a floating joint.
+struct RotationRule {
+  static constexpr bool one_value_of_a_stamp = false;
+
+  [[nodiscard]] double distance(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) const {
+    return a.angularDistance(b);
+  }
+  [[nodiscard]] Eigen::Quaterniond interpolate(const Eigen::Quaterniond& a, double fraction,
+                                               const Eigen::Quaterniond& b) const {
+    return a.slerp(fraction, b);
+  }
+  [[nodiscard]] double noise() const { return JointRule::turn_noise; }
+};
+
+using RotationTrack = SourceTracks<Eigen::Quaterniond, RotationRule>;
+
+/// The rotation of a floating joint.
+struct JointBuffer::Rotation {
+  std::size_t first;  // of its four variables: x, y, z, w
+  RotationTrack track;
+  // The newest state, whose parts may still arrive:
+  std::int64_t stamp = 0;
+  std::string source = {};
+  std::array<bool, 4> known{};
+  Eigen::Vector4d xyzw = Eigen::Vector4d::Zero();
+};
+
+JointBuffer::~JointBuffer() = default;
+JointBuffer::JointBuffer(JointBuffer&&) noexcept = default;
+JointBuffer& JointBuffer::operator=(JointBuffer&&) noexcept = default;
 
 double JointRule::difference(double from, double to) const {
   return kind == Kind::turning ? shorter_turn(from, to) : to - from;

@@ -17,7 +17,6 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/time/source_tracks.hpp>
 #include <penumbra/time/transform_buffer.hpp>
 
 namespace penumbra {
@@ -65,6 +64,9 @@ struct JointAnswer {
   std::vector<std::string> other_names = {};
 };
 
+template <typename T, typename Rule>
+class SourceTracks;
+
 /// How a joint buffer compares and interpolates a variable's values.
 struct JointRule {
   enum class Kind { linear, revolute, turning };
@@ -91,20 +93,6 @@ struct JointRule {
   [[nodiscard]] double largest_step(double seconds) const;
 };
 
-/// The same for the rotation of a floating joint.
-struct RotationRule {
-  static constexpr bool one_value_of_a_stamp = false;
-
-  [[nodiscard]] double distance(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) const {
-    return a.angularDistance(b);
-  }
-  [[nodiscard]] Eigen::Quaterniond interpolate(const Eigen::Quaterniond& a, double fraction,
-                                               const Eigen::Quaterniond& b) const {
-    return a.slerp(fraction, b);
-  }
-  [[nodiscard]] double noise() const { return JointRule::turn_noise; }
-};
-
 /// Merges joint states (complete or partial, in any order of names and time) and interpolates them
 /// at a stamp. Never extrapolates: a joint is stale at a stamp that is neither that of a state nor
 /// between two states at most max_gap apart.
@@ -121,6 +109,9 @@ class JointBuffer {
  public:
   /// Throws InputError for options that are negative, not finite or above 1e9 s, and max_states 0.
   explicit JointBuffer(const Robot& robot, JointBufferOptions options = {});
+  ~JointBuffer();
+  JointBuffer(JointBuffer&&) noexcept;
+  JointBuffer& operator=(JointBuffer&&) noexcept;
 
   /// Adds one joint state and returns the number of accepted values. Skips names that are not
   /// variables of the robot (mimic joints, other devices). Refuses and counts names without a
@@ -149,18 +140,7 @@ class JointBuffer {
 
  private:
   using Track = SourceTracks<double, JointRule>;
-  using RotationTrack = SourceTracks<Eigen::Quaterniond, RotationRule>;
-
-  /// The rotation of a floating joint.
-  struct Rotation {
-    std::size_t first;  // of its four variables: x, y, z, w
-    RotationTrack track;
-    // The newest state, whose parts may still arrive:
-    std::int64_t stamp = 0;
-    std::string source = {};
-    std::array<bool, 4> known{};
-    Eigen::Vector4d xyzw = Eigen::Vector4d::Zero();
-  };
+  struct Rotation;
 
   void note_other(const std::string& name);
   void set_part(Rotation& rotation, std::size_t part, std::int64_t stamp, std::string_view source,

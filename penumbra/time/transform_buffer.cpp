@@ -7,6 +7,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/base/stamps.hpp>
+#include <penumbra/time/source_tracks.hpp>
 #include <penumbra/time/transform_buffer.hpp>
 
 namespace penumbra {
@@ -32,6 +33,34 @@ std::string gap_text(std::int64_t a, std::int64_t b) {
 }
 
 }  // namespace
+
+struct TransformBuffer::Pose {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+};
+
+struct TransformBuffer::PoseRule {
+  /// Accepted difference of sources at rest, metres, as for joint states and TF.
+  static constexpr double noise_of_poses = 0.005;
+  static constexpr double lever = 0.5;  ///< metres by which a rotation counts as an arc
+  static constexpr bool one_value_of_a_stamp = true;
+
+  [[nodiscard]] double distance(const Pose& a, const Pose& b) const;
+  [[nodiscard]] Pose interpolate(const Pose& a, double fraction, const Pose& b) const;
+  [[nodiscard]] double noise() const { return noise_of_poses; }
+};
+
+struct TransformBuffer::FrameNode {
+  std::string name;
+  std::size_t parent = none;
+  bool is_static = false;
+  Pose fixed;                           // if static
+  SourceTracks<Pose, PoseRule> states;  // if not
+};
+
+TransformBuffer::~TransformBuffer() = default;
+TransformBuffer::TransformBuffer(TransformBuffer&&) noexcept = default;
+TransformBuffer& TransformBuffer::operator=(TransformBuffer&&) noexcept = default;
 
 TransformBuffer::Pose TransformBuffer::pose_of(const Eigen::Isometry3d& T) {
   return {Eigen::Quaterniond(T.linear()).normalized(), T.translation()};
@@ -151,8 +180,11 @@ std::string TransformBuffer::describe(TransformInsert why, std::string_view pare
 
 std::size_t TransformBuffer::find_or_add(std::string_view name) {
   if (const auto known = find(name)) return *known;
-  frames_.push_back(
-      {std::string(name), none, false, {}, Track({}, max_gap_, options_.compare_sources)});
+  frames_.push_back({std::string(name),
+                     none,
+                     false,
+                     {},
+                     SourceTracks<Pose, PoseRule>({}, max_gap_, options_.compare_sources)});
   index_.emplace(name, frames_.size() - 1);
   return frames_.size() - 1;
 }

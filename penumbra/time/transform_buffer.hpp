@@ -13,8 +13,6 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/time/source_tracks.hpp>
-
 namespace penumbra {
 
 struct TransformBufferOptions {
@@ -70,6 +68,9 @@ class TransformBuffer {
 
   /// Throws InputError for times that are negative, not finite or above 1e9 s, and limits of 0.
   explicit TransformBuffer(const TransformBufferOptions& options = {});
+  ~TransformBuffer();
+  TransformBuffer(TransformBuffer&&) noexcept;
+  TransformBuffer& operator=(TransformBuffer&&) noexcept;
 
   /// Adds one pose of `child`; replaces one of the same stamp and source. A refused pose is counted
   /// and changes nothing. `source`: a name of the publisher.
@@ -104,28 +105,9 @@ class TransformBuffer {
  private:
   static constexpr std::size_t none = ~std::size_t{0};
 
-  struct Pose {
-    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-    Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  };
-  struct PoseRule {
-    /// Accepted difference of sources at rest, metres, as for joint states and TF.
-    static constexpr double noise_of_poses = 0.005;
-    static constexpr double lever = 0.5;  ///< metres by which a rotation counts as an arc
-    static constexpr bool one_value_of_a_stamp = true;
-
-    [[nodiscard]] double distance(const Pose& a, const Pose& b) const;
-    [[nodiscard]] Pose interpolate(const Pose& a, double fraction, const Pose& b) const;
-    [[nodiscard]] double noise() const { return noise_of_poses; }
-  };
-  using Track = SourceTracks<Pose, PoseRule>;
-  struct FrameNode {
-    std::string name;
-    std::size_t parent = none;
-    bool is_static = false;
-    Pose fixed;    // if static
-    Track states;  // if not
-  };
+  struct Pose;
+  struct PoseRule;
+  struct FrameNode;
   /// Two frames and their nearest common ancestor.
   struct Chain {
     std::size_t target = none, source = none, meeting = none;

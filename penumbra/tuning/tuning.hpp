@@ -9,9 +9,9 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/calibration/kept_frames.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/labels/labels.hpp>
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra::tuning {
 

@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 
 #include <io/bag/bag_reader.hpp>
 #include <io/ros/message_decoder.hpp>

@@ -2,7 +2,6 @@
 #include "../support/test.hpp"
 
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/camera/intrinsics.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "../support/test.hpp"
 
-#include <penumbra/camera/distortion.hpp>
+#include <penumbra/camera/camera.hpp>
 
 namespace penumbra::test {
 

@@ -3,7 +3,7 @@
 
 #include "../support/test.hpp"
 
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 /// Sums and brute force over all triangles, in double.
 namespace penumbra::test {

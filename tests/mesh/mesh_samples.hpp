@@ -4,7 +4,7 @@
 #include "../support/temporary_folder.hpp"
 #include "../support/test.hpp"
 
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 /// Small mesh files of each format: a tetrahedron with corners 0, 2x, 3y, 4z metres (volume 4).
 namespace penumbra::test {

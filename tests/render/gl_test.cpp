@@ -5,9 +5,9 @@
 
 #include <thread>
 
+#include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/render/gl/egl_context.hpp>
 #include <penumbra/render/gl/gl_calls.hpp>
-#include <penumbra/render/pixel_rectangle.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 
 namespace penumbra::test {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 
 namespace penumbra::test {
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/camera/intrinsics.hpp>
-#include <penumbra/mesh/triangle_mesh.hpp>
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/mesh/prepared_mesh.hpp>
 
 namespace penumbra::test {
 

@@ -15,9 +15,9 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/render/clusters.hpp>
-#include <penumbra/render/pixel_rectangle.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/render/triangle_groups.hpp>
 
 namespace penumbra::cpu {

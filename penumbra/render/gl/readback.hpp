@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/camera/intrinsics.hpp>
-#include <penumbra/render/pixel_rectangle.hpp>
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::gl {
 

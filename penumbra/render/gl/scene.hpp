@@ -9,9 +9,8 @@
 
 #include <Eigen/Geometry>
 
-#include <penumbra/camera/intrinsics.hpp>
+#include <penumbra/camera/camera.hpp>
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/render/pixel_rectangle.hpp>
 #include <penumbra/render/triangle_groups.hpp>
 
 namespace penumbra::gl {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <penumbra/camera/intrinsics.hpp>
-#include <penumbra/render/pixel_rectangle.hpp>
+#include <penumbra/camera/camera.hpp>
+#include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::gl {
 
