@@ -11,6 +11,7 @@
 
 #include <io/files/run_output.hpp>
 #include <io/web/packet.hpp>
+#include <io/web/pose_outlines.hpp>
 #include <io/web/spool_file.hpp>
 
 namespace penumbra::io {
@@ -28,6 +29,13 @@ class FrameStore final : public FrameArchive, public RunOutput {
   void begin(const ReportHead& head) override;
   void save(const FrameReport& report, const Frame& frame, const ShownTargets& targets) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
+
+  /// Shows the outlines of a calibration of the camera of the report's images, too. Both must
+  /// outlive this. Call it before save().
+  void outline(PoseOutlines& outlines, const RunningCalibration& calibration) {
+    outlines_ = &outlines;
+    calibration_ = &calibration;
+  }
 
   // Any thread may call these.
   [[nodiscard]] std::size_t size() const override;
@@ -47,6 +55,7 @@ class FrameStore final : public FrameArchive, public RunOutput {
     std::size_t report_offset = 0, report_size = 0;  // in text_
     SpoolPlace poses;
     std::array<Kept, part_count> parts;
+    RobotPose pose;  // with outlines
   };
 
   template <typename T>
@@ -58,6 +67,8 @@ class FrameStore final : public FrameArchive, public RunOutput {
   void add(Entry entry, const std::string& text);
 
   const Rectification* rectification_;
+  PoseOutlines* outlines_ = nullptr;
+  const RunningCalibration* calibration_ = nullptr;
   TargetOverlay target_overlay_;
   SpoolFile spool_;
   std::vector<std::string> missing_links_, notes_;

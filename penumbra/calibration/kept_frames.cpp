@@ -154,8 +154,8 @@ KeptFrame KeptFrames::posed_frame(const Frame& frame) const {
   const bool is_partial = std::ranges::any_of(
       pose.uncertain_links, [&](std::size_t link) { return robot_.report()[link].drawn; });
   // Where only the camera's pose is unknown, the robot's is there.
-  const bool may_lack_camera = pose.status == FrameStatus::missing_transform ||
-                               pose.status == FrameStatus::stale_transform;
+  const bool may_lack_camera =
+      pose.status == FrameStatus::missing_transform || pose.status == FrameStatus::stale_transform;
   if ((pose.status != FrameStatus::ok && !may_lack_camera) || is_partial) return posed;
   posed.T_root_link = pose.T_root_link;
   if (!posed.T_root_link.empty() || pose.positions.size() != robot_.variables().size())
@@ -167,6 +167,7 @@ KeptFrame KeptFrames::posed_frame(const Frame& frame) const {
 }
 
 void KeptFrames::refuse(std::size_t index, const std::string& why) {
+  last_fault_ = why;
   if (faulty_++ == 0) fault_ = "frame " + std::to_string(index) + ": " + why;
 }
 

@@ -46,7 +46,7 @@ class Cell {
 
   /// Calibrates with the frames that the result is of.
   [[nodiscard]] Calibration again(const CalibrationProgress& of, bool search) const {
-    std::vector<CalibrationFrame> frames;
+    std::vector<KeptFrame> frames;
     for (const FrameFit& fit : of.found->frames) frames.push_back(kept.at(fit.index));
     CalibrationOptions options;
     if (!search) options.initial = of.given;
@@ -54,17 +54,17 @@ class Cell {
   }
 
   RunningCalibration calibration;
-  std::map<std::size_t, CalibrationFrame> kept;  // frames by their index
+  std::map<std::size_t, KeptFrame> kept;  // frames by their index
   [[nodiscard]] const Session& session() const { return session_; }
   void judge(const sim::SimFrame& next) {
-    Frame frame{.index = judged_++,
-                .stamp = next.stamp,
-                .depth = next.depth.view(),
-                .pose = {.positions = next.joints,
-                         .T_parent_camera = simulation_.T_base_camera() * off_}};
+    Frame frame{
+        .index = judged_++,
+        .stamp = next.stamp,
+        .depth = next.depth.view(),
+        .pose = {.positions = next.joints, .T_parent_camera = simulation_.T_base_camera() * off_}};
     session_.process(frame);
     if (!keeps) return;
-    CalibrationFrame& one = kept[*frame.index];
+    KeptFrame& one = kept[*frame.index];
     one.index = *frame.index;
     one.joints = next.joints;
     one.T_root_link.resize(simulation_.robot().links().size());
@@ -111,8 +111,7 @@ TEST_F(RunningCalibrationTruth, HasTheNewPoseReadyAfterTheCameraMoved) {
   EXPECT_FALSE(cell.run_until([&] { return cell.calibration.progress().is_running; }, before));
   EXPECT_EQ(cell.calibration.progress().message, "");
   cell.move_camera(moved(0.02, -0.018, 0.013, 0.5));  // by 30 mm
-  ASSERT_TRUE(
-      cell.run_until([&] { return cell.calibration.progress().is_running; }, until_seen));
+  ASSERT_TRUE(cell.run_until([&] { return cell.calibration.progress().is_running; }, until_seen));
   const CalibrationProgress of = cell.run(after);
   EXPECT_TRUE(of.has_moved);
   EXPECT_TRUE(holds(of.message, "the camera has moved")) << of.message;

@@ -25,8 +25,8 @@ geometry_msgs::msg::TransformStamped to_message(const penumbra::io::TransformMes
 }  // namespace
 
 CalibrationServices::CalibrationServices(rclcpp_lifecycle::LifecycleNode& node,
-                                         const std::string& below,
-                                         penumbra::io::LiveRunner& runner, std::size_t camera)
+                                         const std::string& below, penumbra::io::LiveRunner& runner,
+                                         std::size_t camera)
     : runner_(runner),
       camera_(camera),
       calibrate_(node.create_service<Calibrate>(
@@ -45,26 +45,25 @@ CalibrationServices::CalibrationServices(rclcpp_lifecycle::LifecycleNode& node,
 /// Returns the command that publishes the found pose in TF, or an empty text.
 std::string CalibrationServices::command() const {
   const auto transform = runner_.calibrated_transform(camera_);
-  return transform ? penumbra::io::static_transform_command(transform->T_parent_child,
-                                                            transform->header.frame_id,
-                                                            transform->child_frame_id)
-                   : std::string();
+  return transform
+             ? penumbra::io::static_transform_command(
+                   transform->T_parent_child, transform->header.frame_id, transform->child_frame_id)
+             : std::string();
 }
 
 void CalibrationServices::calibrate(const Calibrate::Request& request,
                                     Calibrate::Response& response) {
   penumbra::RunningCalibration& calibration = runner_.calibration(camera_);
-  penumbra::CalibrationProgress of = calibration.progress();
+  penumbra::CalibrationProgress of = runner_.calibration_progress(camera_);
   const bool begins = request.again || !of.is_running;
   const bool is_other = of.is_running && request.search != of.is_search;
   if (begins) calibration.begin(request.search);
-  of = calibration.progress();
+  of = runner_.calibration_progress(camera_);
   response.success = begins || !is_other;
   response.message = begins ? "begun: " + of.message : of.message;
   if (!begins) response.message = "it runs already: " + of.message;
   if (!begins && is_other)
-    response.message += std::string("; it began ") +
-                        (of.is_search ? "without" : "with") +
+    response.message += std::string("; it began ") + (of.is_search ? "without" : "with") +
                         " a first guess: set again to begin anew";
   response.poses = static_cast<std::uint32_t>(of.poses);
   response.found = of.is_ready();
@@ -82,10 +81,11 @@ void CalibrationServices::apply(Trigger::Response& response) {
   response.message = runner_.apply_calibration(camera_);
   response.success = response.message.empty();
   if (!response.success) return;
-  response.message = "images are judged with the pose that was found, until the node is configured "
-                     "again";
-  response.message += publish.empty() ? "; correct the URDF, which has the camera's pose"
-                                      : "; for TF: " + publish;
+  response.message =
+      "images are judged with the pose that was found, until the node is configured "
+      "again";
+  response.message +=
+      publish.empty() ? "; correct the URDF, which has the camera's pose" : "; for TF: " + publish;
 }
 
 }  // namespace penumbra_ros
