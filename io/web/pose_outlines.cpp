@@ -25,8 +25,7 @@ std::optional<PartBytes> PoseOutlines::draw(const RobotPose& pose, const Calibra
     frame.pose.message.clear();
     frame.pose.T_parent_camera = T_parent_camera;
     const FrameReport& report = pipeline_->process(frame);
-    if (!report.virtual_depth.depth.empty())
-      draw_outline(report.virtual_depth.depth, value, image);
+    if (!report.virtual_depth.depth.empty()) draw_outline(report.virtual_depth.depth, value, image);
   };
   if (of.given) draw_from(*of.given, 1);
   draw_from(of.found->T_parent_camera, 2);

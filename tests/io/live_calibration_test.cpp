@@ -52,8 +52,8 @@ class LiveCalibration : public testing::Test {
     io::LiveOptions options;
     options.robot.given = robot_;
     options.cameras = {{.depth_topic = "/depth", .info_topic = "/info", .mount = mount}};
-    run_ = std::make_unique<LiveRun>(options, PipelineConfig{},
-                                     std::vector<io::ResultSink*>{&sink_});
+    run_ =
+        std::make_unique<LiveRun>(options, PipelineConfig{}, std::vector<io::ResultSink*>{&sink_});
     run_->start();
     run_->say("/info", encoded(live_info(0, lens)));
   }
@@ -90,11 +90,11 @@ class LiveCalibration : public testing::Test {
                                                   .names = {"turn", "elbow", "wrist"},
                                                   .positions = joints}));
       if (with_depth)
-        run_->say("/depth", encoded(io::image_message(io::MessageHeader{stamp_, "optical"},
-                                                      "16UC1", depth.view())));
+        run_->say("/depth", encoded(io::image_message(io::MessageHeader{stamp_, "optical"}, "16UC1",
+                                                      depth.view())));
       else
-        run_->say("/depth", encoded(io::image_message(io::MessageHeader{stamp_, "optical"},
-                                                      "mono8", Image<std::uint8_t>(8, 8).view())));
+        run_->say("/depth", encoded(io::image_message(io::MessageHeader{stamp_, "optical"}, "mono8",
+                                                      Image<std::uint8_t>(8, 8).view())));
       ++sent_;
       ASSERT_TRUE(wait_until([&] {
         return run_->with_inbox(
