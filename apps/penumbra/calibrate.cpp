@@ -9,6 +9,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/calibration/calibration.hpp>
+#include <penumbra/calibration/watch.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
 
 #include <apps/penumbra/help.hpp>
@@ -202,6 +203,9 @@ int execute(const CalibrateArguments& arguments) {
             << " frames have different poses of the robot\n";
   const Calibration found = calibrate(input.frames, input.camera, robot, options);
   print_notes(found.notes);
+  if (arguments.initial && input.T_by_tf && found.is_good())
+    print_notes(std::vector{"compared with the found pose and its region, tf's pose is " +
+                            distance_text(found, *input.T_by_tf)});
   if (folder) {
     if (found.is_good())
       folder->add("camera_pose.csv", [&](const std::filesystem::path& part) {

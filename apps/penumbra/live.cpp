@@ -265,7 +265,7 @@ class Live {
   void print_calibrations() {
     printed_.resize(results_.size());
     for (std::size_t i = 0; i < results_.size(); ++i) {
-      const CalibrationProgress of = runner_->calibration(i).progress();
+      const CalibrationProgress of = runner_->calibration_progress(i);
       if (!of.is_ready() || printed_[i] == of.found) continue;
       printed_[i] = of.found;
       std::cout << (cameras_[i].empty() ? "" : cameras_[i] + ": ") << "calibrated: " << of.message

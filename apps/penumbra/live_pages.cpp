@@ -28,6 +28,7 @@ class LivePages::Page final : public io::FrameWatcher {
       : view_(input, of_clouds), server_(options, view_) {}
 
   [[nodiscard]] std::string url() const { return server_.url(); }
+  void watch(const RunningCalibration& calibration) { view_.watch(calibration); }
   void set_note(std::string note) { note_ = std::move(note); }
 
   [[nodiscard]] bool wants_color() const override { return view_.needs(io::Part::color); }
@@ -77,6 +78,7 @@ void LivePages::print() const {
 void LivePages::watch(io::LiveRunner& runner, const std::vector<io::CameraInputOptions>& cameras) {
   for (std::size_t i = 0; i < pages_.size(); ++i) {
     runner.watch(i, *pages_[i]);
+    if (i < cameras.size()) pages_[i]->watch(runner.calibration(i));
     if (i < cameras.size() && cameras[i].color_topic.empty())
       pages_[i]->set_note("color: no color images were found; --color-topic names them");
   }

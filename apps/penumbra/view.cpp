@@ -24,6 +24,7 @@
 #include <apps/penumbra/stop_signal.hpp>
 #include <apps/penumbra/text.hpp>
 #include <io/files/camera_views.hpp>
+#include <io/files/pose_file.hpp>
 #include <io/inputs/input_session.hpp>
 #include <io/web/cameras_view.hpp>
 #include <io/web/frame_store.hpp>
@@ -38,6 +39,7 @@ struct ViewArguments {
   io::SessionOptions session;
   std::string judging_option;  ///< name of an option that was given; empty: none
   ServerArguments server;
+  bool calibrate = false, search = false;
 };
 
 namespace fs = std::filesystem;
@@ -89,12 +91,14 @@ class ViewSource {
   [[nodiscard]] const io::CameraRun* run() const { return recorder_ ? &recorder_->run() : nullptr; }
 
  private:
-  void open_input(const io::SessionOptions& options, const std::string& camera);
+  void open_input(const ViewArguments& arguments, const std::string& camera);
   void open_run(const ViewArguments& arguments);
   void judge();
 
   std::vector<std::string> cameras_;
+  std::optional<RunningCalibration> calibration_;
   std::optional<io::InputSession> judging_;
+  std::optional<io::PoseOutlines> outlines_;
   std::optional<io::FrameStore> store_;
   std::optional<io::ViewRecorder> recorder_;  // with several cameras
   std::optional<io::RunFolder> folder_;
@@ -124,7 +128,7 @@ ViewSource::ViewSource(const ViewArguments& arguments, std::vector<std::string> 
   if (is_run_folder(input.path))
     open_run(own);
   else
-    open_input(own.session, camera);
+    open_input(own, camera);
 }
 
 ViewSource::~ViewSource() {
@@ -132,14 +136,22 @@ ViewSource::~ViewSource() {
   if (thread_.joinable()) thread_.join();
 }
 
-void ViewSource::open_input(const io::SessionOptions& options, const std::string& camera) {
+void ViewSource::open_input(const ViewArguments& arguments, const std::string& camera) {
+  const io::SessionOptions& options = arguments.session;
   judging_.emplace(options, print_line);
   const Pipeline& pipeline = judging_->pipeline();
   store_.emplace(pipeline, judging_->head());
+  if (arguments.calibrate) {
+    judging_->calibrate(calibration_.emplace());
+    calibration_->begin(arguments.search);
+    outlines_.emplace(pipeline.robot(), pipeline.report_camera());
+    store_->outline(*outlines_, *calibration_);
+  }
   if (!cameras_.empty()) recorder_.emplace(camera, pipeline);
   const auto links = pipeline.robot().links();
   std::vector<io::Part> parts{io::Part::color, io::Part::labels, io::Part::links, io::Part::vdi};
   if (judging_->has_depth()) parts.insert(parts.end(), {io::Part::depth, io::Part::cloud});
+  if (calibration_) parts.push_back(io::Part::outlines);
   view_.emplace(io::SessionInfo{.input = options.input.path.string(),
                                 .links = {links.begin(), links.end()},
                                 .camera = pipeline.report_camera(),
@@ -178,6 +190,7 @@ void ViewSource::judge() {
     io::Sinks sinks{&*store_};
     if (recorder_) sinks.insert(sinks.begin(), &*recorder_);
     result_ = judging_->run(sinks, [this] { return !stop_; });
+    if (calibration_) calibration_->finish();
   } catch (...) {
     error_ = std::current_exception();
   }
@@ -192,6 +205,15 @@ void ViewSource::print() {
   if (error_) std::rethrow_exception(error_);
   print_result(result_, judging_->pipeline().robot(),
                "all frames are judged; Ctrl-C ends the viewer");
+  if (!calibration_) return;
+  const CalibrationProgress of = calibration_->progress();
+  std::cout << "calibration: " << of.message << '\n';
+  if (!of.is_ready()) return;
+  const std::string& frame = judging_->camera().frame_id;
+  std::cout << "ROS 2: "
+            << io::static_transform_command(of.found->T_parent_camera, of.camera_parent,
+                                            frame.empty() ? "camera_optical_frame" : frame)
+            << "\n  (in place of the transforms that lead to this frame now)\n";
 }
 
 constexpr auto look_period = 100ms;
@@ -234,11 +256,18 @@ void add_options(CLI::App& app, ViewArguments& view) {
              "where the page is served; 0: any that is free; default 8470, or the next free one");
   add_session(app, view.session);
   add_sequence(app, view.session);
+  app.add_flag(
+      "--calibrate", view.calibrate,
+      "find the camera's pose from the robot in these frames, and show the robot's outline "
+      "by the pose in use, red, and by the found one, green");
+  app.add_flag("--search", view.search, "with --calibrate: without the pose in use as first guess");
   add_bag(app, view.session.input.bag);
 }
 
 void check_options(const CLI::App& app, ViewArguments& view) {
   check_session(app, view.session);
+  if (view.search && !view.calibrate)
+    throw InputError("--search: is of --calibrate; give that, too");
   view.session.input.with_color = true;
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_name();

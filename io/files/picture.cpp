@@ -11,19 +11,13 @@ constexpr Rgb8 text_color{255, 255, 255};
 constexpr Rgb8 shadow_color{0, 0, 0};
 constexpr int rows_per_letter = 360;  // image rows for which letters grow by their own size
 
+}  // namespace
+
 bool is_outline(ImageView<const float> depth, int u, int v) {
   const auto is_robot = [&](int x, int y) { return depth(x, y) > 0.0f; };
   return is_robot(u, v) && ((u > 0 && !is_robot(u - 1, v)) || (v > 0 && !is_robot(u, v - 1)) ||
                             (u + 1 < depth.width && !is_robot(u + 1, v)) ||
                             (v + 1 < depth.height && !is_robot(u, v + 1)));
-}
-
-}  // namespace
-
-void draw_outline(ImageView<const float> virtual_depth, Rgb8 color, Image<Rgb8>& image) {
-  for (int v = 0; v < image.height(); ++v)
-    for (int u = 0; u < image.width(); ++u)
-      if (is_outline(virtual_depth, u, v)) image(u, v) = color;
 }
 
 void draw_legend(const std::string& text, Rgb8 color, int line, int lines, Image<Rgb8>& image) {

@@ -67,6 +67,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
   CalibrationInput result{.input = std::move(input),
                           .camera = frames.camera(),
                           .frames = frames.chosen(),
+                          .T_by_tf = frames.T_parent_camera(),
                           .seen = frames.seen(),
                           .notes = source->notes()};
   if (unmasked > 0 && result.frames.empty())

@@ -28,8 +28,9 @@ struct CalibrationInput {
   RunInput input;     ///< its config has the camera's pose, also if it was by tf
   Intrinsics camera;  ///< of the frames' images, which are free of distortion
   std::vector<KeptFrame> frames;
-  std::size_t seen = 0;            ///< frames of the input
-  std::vector<std::string> notes;  ///< a line each
+  std::optional<Eigen::Isometry3d> T_by_tf = {};  ///< the camera's pose in its link; null: none
+  std::size_t seen = 0;                           ///< frames of the input
+  std::vector<std::string> notes;                 ///< a line each
 };
 
 /// Reads an input and keeps frames between which the robot moves, those in which it stands still

@@ -61,6 +61,11 @@ class InputSession {
     return input_.made_files;
   }
 
+  /// See Session; of a camera.
+  void calibrate(RunningCalibration& calibration) {
+    session_.calibrate(calibration, *input_.camera);
+  }
+
   /// Judges the frames. Calls `go_on` after each frame and stops if it returns false. Throws
   /// InputError if the first usable frame shows a fault of the input, and what a sink throws.
   [[nodiscard]] RunResult run(const Sinks& sinks, const std::function<bool()>& go_on);

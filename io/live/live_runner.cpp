@@ -96,6 +96,21 @@ void LiveRunner::receive(std::size_t topic, const ImageMessage& image,
   changed_.notify_all();
 }
 
+CalibrationProgress LiveRunner::calibration_progress(std::size_t camera) {
+  CalibrationProgress of = calibration(camera).progress();
+  if (!of.is_ready()) return of;
+  const std::lock_guard lock(mutex_);
+  const SensorSetup* const setup = inbox_.camera(camera).setup();
+  if (setup == nullptr || !setup->mount.frame.empty()) return of;  // its pose is TF's
+  TransformAnswer tf;
+  setup->posed->history.transforms().at(
+      0, inbox_.camera(camera).options().mount.frame_prefix + of.camera_parent, setup->frame,
+      tf);
+  if (tf.status == TransformStatus::ok)
+    of.message += "; TF's pose is " + distance_text(*of.found, tf.T_target_source);
+  return of;
+}
+
 std::optional<TransformMessage> LiveRunner::calibrated_transform(std::size_t camera) {
   const CalibrationProgress of = calibration(camera).progress();
   if (!of.is_ready()) return std::nullopt;
@@ -105,7 +120,7 @@ std::optional<TransformMessage> LiveRunner::calibrated_transform(std::size_t cam
     const PosedRobot& posed = *input.setup()->posed;
     return transform_of_mount(posed.robot, posed.history.transforms(), inbox.robot().frames(),
                               input.options().mount,
-                              {.frame = input.setup()->sensor.frame,
+                              {.frame = input.setup()->frame,
                                .parent = of.camera_parent,
                                .T_parent_camera = of.found->T_parent_camera,
                                .source = {}});
@@ -128,7 +143,7 @@ std::string LiveRunner::apply_calibration(std::size_t camera) {
 
 void LiveRunner::add_calibrations(DiagnosticArrayMessage& message) {
   for (std::size_t i = 0; i < sensors_.size() && sensors_[i].calibration; ++i) {
-    const CalibrationProgress of = calibration(i).progress();
+    const CalibrationProgress of = calibration_progress(i);
     if (of.message.empty()) continue;
     DiagnosticStatusMessage& status = message.status[1 + i];  // the first is the robot's
     status.values.push_back({calibration_poses_key, std::to_string(of.poses)});

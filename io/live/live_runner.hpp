@@ -67,6 +67,8 @@ class LiveRunner {
   [[nodiscard]] RunningCalibration& calibration(std::size_t camera) {
     return *sensors_[camera].calibration;
   }
+  /// Returns how far it is. If a pose of the user's replaces TF's, also says if TF contradicts.
+  [[nodiscard]] CalibrationProgress calibration_progress(std::size_t camera);
   /// Returns the transform of TF that a camera's calibration gives; null: no pose was found.
   [[nodiscard]] std::optional<TransformMessage> calibrated_transform(std::size_t camera);
   /// Judges later images with the pose that a camera's calibration found, in place of TF's. Returns

@@ -56,7 +56,8 @@ void FrameStore::take(const Frame& frame, const FrameReport& report) {
     add_points(report, *frame.scan, entry);
   else
     add_images(report, frame, entry);
-  add(entry, text);
+  if (outlines_ != nullptr) entry.pose = frame.pose;
+  add(std::move(entry), text);
   if (frame.color_message.empty()) return;
   const std::lock_guard lock(mutex_);
   if (without_color_++ == 0) first_without_color_ = frame.color_message;
@@ -68,7 +69,7 @@ void FrameStore::add(Entry entry, const std::string& text) {
   entry.report_offset = text_.size();
   entry.report_size = text.size();
   text_ += text;
-  entries_.push_back(entry);
+  entries_.push_back(std::move(entry));
 }
 
 void FrameStore::add_points(const FrameReport& report, const Scan& scan, Entry& entry) {
@@ -146,7 +147,9 @@ std::optional<PacketFrame> FrameStore::frame(std::size_t i) const {
   lock.unlock();
   return PacketFrame{
       std::move(report), spool_.read(entry.poses),
-      [this, parts = entry.parts](Part part) -> std::optional<PartBytes> {
+      [this, parts = entry.parts, pose = entry.pose](Part part) -> std::optional<PartBytes> {
+        if (part == Part::outlines && outlines_ != nullptr)
+          return outlines_->draw(pose, calibration_->progress());
         const Kept& kept = parts[static_cast<std::size_t>(part)];
         if (kept.type == nullptr) return std::nullopt;
         return PartBytes{kept.type, kept.width, kept.height, shared_bytes(spool_.read(kept.place))};

@@ -10,6 +10,7 @@
 
 #include <io/files/sink.hpp>
 #include <io/web/packet.hpp>
+#include <io/web/pose_outlines.hpp>
 #include <io/web/spool_file.hpp>
 
 namespace penumbra::io {
@@ -26,6 +27,13 @@ class FrameStore final : public FrameArchive, public Sink {
   // By one thread; take() throws InputError where the disk is full.
   void take(const Frame& frame, const FrameReport& report) override;
   void finish(const Statistics& statistics, std::span<const std::string> notes) override;
+
+  /// Shows the outlines of a calibration of the camera of the report's images, too. Both must
+  /// outlive this. Call it before take().
+  void outline(PoseOutlines& outlines, const RunningCalibration& calibration) {
+    outlines_ = &outlines;
+    calibration_ = &calibration;
+  }
 
   // Any thread may call these.
   [[nodiscard]] std::size_t size() const override;
@@ -45,6 +53,7 @@ class FrameStore final : public FrameArchive, public Sink {
     std::size_t report_offset = 0, report_size = 0;  // in text_
     SpoolPlace poses;
     std::array<Kept, part_count> parts;
+    RobotPose pose;  // with outlines
   };
 
   template <typename T>
@@ -56,6 +65,8 @@ class FrameStore final : public FrameArchive, public Sink {
   void add(Entry entry, const std::string& text);
 
   const Pipeline& pipeline_;
+  PoseOutlines* outlines_ = nullptr;
+  const RunningCalibration* calibration_ = nullptr;
   TargetOverlay target_overlay_;
   SpoolFile spool_;
   std::vector<std::string> missing_links_, notes_;

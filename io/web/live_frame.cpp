@@ -48,13 +48,16 @@ const PacketCloud* LiveScene::cloud() const {
 }
 
 LiveFrame::LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFrame& job,
-                     const FrameReport& report, const PartSet& kept)
+                     const FrameReport& report, const PartSet& kept,
+                     CalibrationProgress calibration)
     : scene_(std::move(scene)),
       kept_(kept),
       index_(report.index),
       stamp_(job.stamp.value_or(0)),
       report_(report_frame(report)),
-      poses_(poses_json(report.T_root_link, report.T_root_camera, scene_->robot().links().size())) {
+      poses_(poses_json(report.T_root_link, report.T_root_camera, scene_->robot().links().size())),
+      pose_(job.pose),
+      calibration_(std::move(calibration)) {
   const auto keeps = [&](Part part) { return kept[static_cast<std::size_t>(part)]; };
   if (keeps(Part::labels)) labels_ = part_of(report.labels, "u8");
   if (keeps(Part::links)) links_ = part_of(report.virtual_depth.links, "u16");
@@ -85,6 +88,8 @@ std::optional<PartBytes> LiveFrame::part(Part part) const {
       return depth_;
     case Part::cloud:
       return scan_;
+    case Part::outlines:
+      return scene_->outlines(pose_, calibration_);
     default:
       return std::nullopt;
   }

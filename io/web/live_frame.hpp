@@ -11,6 +11,7 @@
 
 #include <io/assembly/assembled_frame.hpp>
 #include <io/web/packet.hpp>
+#include <io/web/pose_outlines.hpp>
 #include <io/web/scene.hpp>
 
 namespace penumbra::io {
@@ -22,7 +23,9 @@ using PartSet = std::bitset<part_count>;
 class LiveScene {
  public:
   LiveScene(const SensorSetup& setup, std::uint64_t number) : version(number), posed_(setup.posed) {
-    if (setup.cameras() != nullptr) camera.emplace(setup.cameras()->judged);
+    if (setup.cameras() == nullptr) return;
+    camera.emplace(setup.cameras()->judged);
+    outlines_.emplace(posed_->robot, *camera);
   }
 
   [[nodiscard]] const Robot& robot() const { return posed_->robot; }
@@ -30,6 +33,11 @@ class LiveScene {
   [[nodiscard]] const Scene& drawn() const;
   /// Returns the camera's rays, computed at the first call; null without a camera.
   [[nodiscard]] const PacketCloud* cloud() const;
+  /// See PoseOutlines; nothing without a camera.
+  [[nodiscard]] std::optional<PartBytes> outlines(const RobotPose& pose,
+                                                  const CalibrationProgress& of) const {
+    return outlines_ ? outlines_->draw(pose, of) : std::nullopt;
+  }
 
   const std::uint64_t version;
   std::optional<Camera> camera;  ///< nothing: of a sensor that measures points
@@ -39,15 +47,16 @@ class LiveScene {
   mutable std::once_flag drawn_once_, cloud_once_;
   mutable std::optional<Scene> drawn_;
   mutable std::optional<PacketCloud> cloud_;
+  mutable std::optional<PoseOutlines> outlines_;
 };
 
 /// The parts of a judged frame, or of a labelled scan, that pages need. Colour is decoded and depth
 /// converted to metres on demand.
 class LiveFrame {
  public:
-  /// Copies the parts in `kept`.
+  /// Copies the parts in `kept`. `calibration`: of the camera.
   LiveFrame(std::shared_ptr<const LiveScene> scene, const AssembledFrame& job,
-            const FrameReport& report, const PartSet& kept);
+            const FrameReport& report, const PartSet& kept, CalibrationProgress calibration);
 
   /// Returns the frame for packets. This must outlive it.
   [[nodiscard]] PacketFrame packet_frame() const;
@@ -57,6 +66,7 @@ class LiveFrame {
   [[nodiscard]] const LiveScene& scene() const { return *scene_; }
   [[nodiscard]] std::uint64_t index() const { return index_; }  ///< index in the report
   [[nodiscard]] std::int64_t stamp() const { return stamp_; }
+  [[nodiscard]] const CalibrationProgress& calibration() const { return calibration_; }
 
  private:
   [[nodiscard]] std::optional<PartBytes> part(Part part) const;
@@ -71,6 +81,8 @@ class LiveFrame {
   std::optional<PartBytes> labels_, links_, virtual_depth_, scan_;
   std::variant<Image<std::uint16_t>, Image<float>> raw_depth_;
   std::optional<KeptImage> raw_color_;
+  const RobotPose pose_;
+  const CalibrationProgress calibration_;
 
   mutable std::once_flag color_once_, depth_once_;
   mutable std::optional<PartBytes> color_, depth_;

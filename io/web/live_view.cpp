@@ -106,6 +106,7 @@ class LiveView::Client final : public WebChannel {
                     {"dropped", dropped},
                     {"rate_hz", moment.rate},
                     {"calibration", drift_json(moment.drift)},
+                    {"calibrating", frame->calibration().message},
                     {"missing", moment.missing},
                     {"diagnostics", json_of(moment.diagnostics)}};
     const LiveScene& scene = frame->scene();
@@ -149,8 +150,10 @@ bool LiveView::show(const AssembledFrame& job, const FrameReport& report, const 
     scene = scene_;
     for (std::size_t part = 0; part < part_count; ++part) kept[part] = needed_[part] > 0;
   }
+  CalibrationProgress calibration;
+  if (calibration_ != nullptr) calibration = calibration_->progress();
   std::shared_ptr<const LiveFrame> frame =
-      std::make_shared<LiveFrame>(std::move(scene), job, report, kept);
+      std::make_shared<LiveFrame>(std::move(scene), job, report, kept, std::move(calibration));
   const std::lock_guard lock(mutex_);
   if (clients_ == 0) return false;
   std::swap(frame_, frame);
@@ -192,7 +195,8 @@ LiveView::Moment LiveView::now() const {
 std::string LiveView::session() const {
   const Moment moment = now();
   SessionInfo info{.mode = "live", .input = input_, .links = {}};
-  if (!of_clouds_) info.parts = {Part::color, Part::labels, Part::links, Part::vdi, Part::depth};
+  if (!of_clouds_)
+    info.parts = {Part::color, Part::labels, Part::links, Part::vdi, Part::depth, Part::outlines};
   info.parts.push_back(Part::cloud);
   if (moment.scene) {
     info.camera = moment.scene->camera;

@@ -29,6 +29,9 @@ class LiveView final : public WebHandler {
   /// `input`: its name, which the page shows. `of_clouds`: a sensor's that measures points.
   explicit LiveView(std::string input, bool of_clouds = false);
 
+  /// Shows also how far this calibration is. Call it before show().
+  void watch(const RunningCalibration& calibration) { calibration_ = &calibration; }
+
   /// Takes the newest frame, like FrameWatcher::take. Copies only the parts that clients want, and
   /// nothing without a client. Returns whether clients have to be woken. `now`: nanoseconds of a
   /// steady clock.
@@ -60,6 +63,7 @@ class LiveView final : public WebHandler {
 
   const std::string input_;
   const bool of_clouds_;
+  const RunningCalibration* calibration_ = nullptr;
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveFrame> frame_;  // null without a client
   std::deque<std::int64_t> judged_at_;      // in the last two seconds, at least two

@@ -19,8 +19,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "packets are little endian");
 
-constexpr std::array<std::string_view, part_count> part_names{"color", "overlay", "labels", "links",
-                                                              "vdi",   "depth",   "cloud"};
+constexpr std::array<std::string_view, part_count> part_names{
+    "color", "overlay", "labels", "links", "vdi", "depth", "cloud", "outlines"};
 constexpr Rgb8 no_color{128, 128, 128};
 
 struct Point {

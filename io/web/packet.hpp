@@ -19,9 +19,9 @@
 namespace penumbra::io {
 
 /// The parts that a frame's packet may have in addition to its report.
-enum class Part { color, overlay, labels, links, vdi, depth, cloud };
+enum class Part { color, overlay, labels, links, vdi, depth, cloud, outlines };
 
-inline constexpr std::size_t part_count = 7;
+inline constexpr std::size_t part_count = 8;
 
 [[nodiscard]] std::string_view to_string(Part part);
 

@@ -115,8 +115,8 @@ WebAnswer StoredView::packet(const WebRequest& request) const {
   const auto wanted = parse_wanted(query_of(request, "with"), query_of(request, "step"));
   if (!wanted)
     return web_error(400,
-                     "with= takes color, overlay, labels, links, vdi, depth and cloud, with "
-                     "commas between them; step= 1 to 64");
+                     "with= takes color, overlay, labels, links, vdi, depth, cloud and outlines, "
+                     "with commas between them; step= 1 to 64");
   const auto frame = archive_.frame(*index);
   if (!frame)
     return web_error(404, "there is no frame " + std::to_string(*index) + "; there are " +

@@ -167,6 +167,7 @@ KeptFrame KeptFrames::posed_frame(const Frame& frame) const {
 }
 
 void KeptFrames::refuse(std::size_t index, const std::string& why) {
+  last_fault_ = why;
   if (faulty_++ == 0) fault_ = "frame " + std::to_string(index) + ": " + why;
 }
 

@@ -133,6 +133,8 @@ class KeptFrames {
     return T_parent_camera_;
   }
   [[nodiscard]] std::size_t seen() const { return seen_; }
+  /// Returns why the last frame that cannot be used cannot; empty: all can.
+  [[nodiscard]] const std::string& last_fault() const { return last_fault_; }
   /// Returns which frames cannot be used and whether too few are at rest, a line each.
   [[nodiscard]] std::vector<std::string> notes() const;
 
@@ -157,7 +159,7 @@ class KeptFrames {
   double speed_ = 0.0;            // of the fastest link's origin, m/s; 0 if it is not known
   std::optional<Eigen::Isometry3d> T_parent_camera_;
   std::size_t seen_ = 0, images_ = 0, faulty_ = 0;
-  std::string fault_;  // of the first
+  std::string fault_, last_fault_;  // of the first frame, with its index
 };
 
 }  // namespace penumbra

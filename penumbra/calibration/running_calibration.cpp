@@ -38,18 +38,20 @@ std::string result_text(const Calibration& found, const std::optional<Eigen::Iso
   if (!found.is_good()) return "no good pose yet: " + joined(found.faults);
   std::string text = "a good pose is found, within " +
                      mm_and_degrees(found.position_error(), found.rotation_error()) + " (95 %)";
-  if (given) {
-    const Eigen::Isometry3d between = given->inverse() * found.T_parent_camera;
-    const double moved = between.translation().norm();
-    const double turned = std::abs(Eigen::AngleAxisd(between.linear()).angle());
-    const bool is_beyond = moved > found.position_error() || turned > found.rotation_error();
-    text += "; the pose in use is " + mm_and_degrees(moved, turned) + " from it, " +
-            (is_beyond ? "which is beyond that" : "which is within that");
-  }
+  if (given) text += "; the pose in use is " + distance_text(found, *given);
   return text + (found.notes.empty() ? "" : "; " + joined(found.notes));
 }
 
 }  // namespace
+
+std::string distance_text(const Calibration& found, const Eigen::Isometry3d& T_parent_camera) {
+  const Eigen::Isometry3d between = T_parent_camera.inverse() * found.T_parent_camera;
+  const double moved = between.translation().norm();
+  const double turned = std::abs(Eigen::AngleAxisd(between.linear()).angle());
+  const bool is_beyond = moved > found.position_error() || turned > found.rotation_error();
+  return mm_and_degrees(moved, turned) + " from it, which is " + (is_beyond ? "beyond" : "within") +
+         " that";
+}
 
 void RunningCalibration::begin(bool search) {
   const std::lock_guard lock(mutex_);
@@ -81,9 +83,8 @@ void RunningCalibration::restart(bool search, bool has_moved) {
 void RunningCalibration::follow(const Robot& robot, const Camera& camera,
                                 const std::string& camera_parent,
                                 const Eigen::Isometry3d& T_parent_camera) {
-  auto setup = std::make_shared<Setup>(Setup{robot, camera, {}, camera_parent, T_parent_camera});
-  if (setup->camera_parent.empty()) setup->camera_parent = robot.links().front();
-  if (!camera.distortion.is_none()) setup->lens.emplace(camera);
+  const std::string& parent = camera_parent.empty() ? robot.links().front() : camera_parent;
+  auto setup = std::make_shared<Setup>(Setup{robot, camera, parent, T_parent_camera});
   const std::lock_guard lock(mutex_);
   has_moved_ = false;
   if (setup_ && setup_->is_same(*setup)) return;
@@ -128,29 +129,27 @@ void RunningCalibration::take(const Frame& frame, const Drift& drift) {
 }
 
 void RunningCalibration::look_at(const Frame& frame) {
-  if (!frames_) frames_.emplace(setup_->robot, true);
-  std::optional<CalibrationFrame> kept = frames_->pass(frame);
+  if (!frames_)
+    frames_.emplace(
+        setup_->robot, setup_->camera,
+        KeptFrames::Options{.choice = KeptFrames::Choice::rest_first,
+                            .parent = find_camera_parent(setup_->robot, setup_->camera_parent)});
+  std::optional<KeptFrame> kept = frames_->pass(frame);
   progress_.frames = frames_->seen();
   progress_.camera_parent = setup_->camera_parent;
   if (has_pose(frame.pose.status))
     progress_.given = frame.pose.T_parent_camera.value_or(setup_->T_parent_camera);
   if (!kept) return;
-  const auto& range = setup_->camera.range;
-  kept->depth = metres_of(frame.depth.view, {range.near, range.far});
-  if (setup_->lens) {
-    const Intrinsics& pinhole = setup_->lens->pinhole();
-    Image<float> image(pinhole.width(), pinhole.height());
-    remap(setup_->lens->pinhole_to_raw(), std::as_const(kept->depth).view(), 0.0F, image.view());
-    kept->depth = std::move(image);
-  }
+  const DepthRange& range = setup_->camera.range;
+  kept->depth = frames_->depth_of(frame.depth.view, {range.near, range.far});
   frames_->add(*std::move(kept));
   ++added_;
   last_added_ = progress_.frames;
-  progress_.poses = frames_->poses();
+  progress_.poses = frames_->frames().size();
 }
 
 bool RunningCalibration::can_solve() const {
-  return frames_ && added_ > solved_ && frames_->poses() >= CalibrationFrames::least &&
+  return frames_ && added_ > solved_ && frames_->frames().size() >= KeptFrames::least &&
          (progress_.is_search || progress_.given);
 }
 
@@ -162,12 +161,11 @@ void RunningCalibration::solve() {
   options.camera_parent = setup_->camera_parent;
   if (!progress_.is_search) options.initial = progress_.given;
   solving_ = std::async(std::launch::async, [this, number = number_, setup = setup_,
-                                             frames = frames_->chosen(),
+                                             camera = frames_->camera(), frames = frames_->chosen(),
                                              options = std::move(options)] {
     std::shared_ptr<const Calibration> found;
     std::string fault;
     try {
-      const Intrinsics camera = setup->lens ? setup->lens->pinhole() : setup->camera.intrinsics;
       found = std::make_shared<const Calibration>(calibrate(frames, camera, setup->robot, options));
     } catch (const std::exception& error) {
       fault = error.what();
@@ -221,14 +219,14 @@ void RunningCalibration::describe() {
     line += "no frame can be used yet (" + frames_->last_fault() + ")";
   } else if (!progress_.is_search && !progress_.given) {
     line += "the camera's pose is not known, so that there is none to begin from: search for it";
-  } else if (poses < CalibrationFrames::least) {
+  } else if (poses < KeptFrames::least) {
     line += "move the robot to more poses, and let it stand still for a second in each";
   } else {
     line += "the pose is sought";
   }
   line += "; " + poses_text(poses) + " so far";
-  if (progress_.is_running && poses < CalibrationFrames::least)
-    line += " of at least " + std::to_string(CalibrationFrames::least);
+  if (progress_.is_running && poses < KeptFrames::least)
+    line += " of at least " + std::to_string(KeptFrames::least);
   else if (progress_.is_ready() && progress_.is_running)
     line += "; " + progress_.found->advice;
 }

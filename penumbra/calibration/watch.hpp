@@ -14,7 +14,6 @@
 
 #include <penumbra/calibration/calibration.hpp>
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
 namespace penumbra {
@@ -100,10 +99,15 @@ struct CalibrationProgress {
   [[nodiscard]] bool is_ready() const { return found && found->is_good(); }
 };
 
+/// Says how far another pose of the camera is from a found one, and whether that is within its 95 %
+/// region: as in "15.0 mm and 0.70 degrees from it, which is beyond that".
+[[nodiscard]] std::string distance_text(const Calibration& found,
+                                        const Eigen::Isometry3d& T_parent_camera);
+
 /// Calibrates a camera while its cell runs: a question that is asked of a session's frames. The
 /// robot is moved by others. New poses are solved on a thread of its own, at first all, once a good
 /// pose is found a few at a time. It begins by itself when the watch sees the camera move, and
-/// changes nothing. It keeps at most 2 CalibrationFrames::most images, and as many while it solves.
+/// changes nothing. It keeps at most KeptFrames::Options::most images, and as many while it solves.
 /// Any thread may call all members.
 class RunningCalibration {
  public:
@@ -131,7 +135,6 @@ class RunningCalibration {
   struct Setup {
     Robot robot;
     Camera camera;
-    std::optional<Rectification> lens;
     std::string camera_parent;
     Eigen::Isometry3d T_parent_camera;
     [[nodiscard]] bool is_same(const Setup& other) const;
@@ -147,7 +150,7 @@ class RunningCalibration {
 
   mutable std::mutex mutex_;
   std::shared_ptr<const Setup> setup_;  // null: no frame came yet
-  std::optional<CalibrationFrames> frames_;
+  std::optional<KeptFrames> frames_;
   CalibrationProgress progress_;
   bool is_solving_ = false, has_moved_ = false;
   std::optional<std::int64_t> begun_at_;  // stamp of the first frame, ns

@@ -37,6 +37,8 @@ TEST(LiveCommand, RefusesWhatCannotBe) {
       {{"--summary", "/nonexistent/live.json"}, "/nonexistent/live.json"},
       {{"--robot", "/nonexistent.urdf"}, "nonexistent.urdf"},  // before any camera is there
       {{"--pose", "/nonexistent.csv"}, "nonexistent.csv"},
+      {{"--search"}, "--search: is of --calibrate"},
+      {{"--calibrate", "--cloud", "/points"}, "--calibrate: is of cameras"},
       {{"--duration", "0.5"}, "no camera was found: "}};
   for (const auto& [options, named] : all) {
     const Outcome outcome = live(options);

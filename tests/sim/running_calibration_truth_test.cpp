@@ -46,7 +46,7 @@ class Cell {
 
   /// Calibrates with the frames that the result is of.
   [[nodiscard]] Calibration again(const CalibrationProgress& of, bool search) const {
-    std::vector<CalibrationFrame> frames;
+    std::vector<KeptFrame> frames;
     for (const FrameFit& fit : of.found->frames) frames.push_back(kept.at(fit.index));
     CalibrationOptions options;
     if (!search) options.initial = of.given;
@@ -54,7 +54,7 @@ class Cell {
   }
 
   RunningCalibration calibration;
-  std::map<std::size_t, CalibrationFrame> kept;  // frames by their index
+  std::map<std::size_t, KeptFrame> kept;  // frames by their index
   [[nodiscard]] const Session& session() const { return session_; }
   void judge(const sim::SimFrame& next) {
     Frame frame{
@@ -64,7 +64,7 @@ class Cell {
         .pose = {.positions = next.joints, .T_parent_camera = simulation_.T_base_camera() * off_}};
     session_.process(frame);
     if (!keeps) return;
-    CalibrationFrame& one = kept[*frame.index];
+    KeptFrame& one = kept[*frame.index];
     one.index = *frame.index;
     one.joints = next.joints;
     one.T_root_link.resize(simulation_.robot().links().size());

@@ -237,7 +237,9 @@ export class Viewer {
     setText(byId('frame-number'), String(frame.index));
     byId('frame-details').replaceChildren(
       frameDetails(frame),
-      ...(frame.points ? [] : [calibrationDetails(this.calibration)]),
+      ...(frame.points
+        ? []
+        : [calibrationDetails(this.calibration, packet.live?.calibrating ?? '')]),
     );
     byId('frame-status').hidden = frame.status === 'ok';
     setText(byId('frame-status'), frame.status);

@@ -54,11 +54,11 @@ std::string CalibrationServices::command() const {
 void CalibrationServices::calibrate(const Calibrate::Request& request,
                                     Calibrate::Response& response) {
   penumbra::RunningCalibration& calibration = runner_.calibration(camera_);
-  penumbra::CalibrationProgress of = calibration.progress();
+  penumbra::CalibrationProgress of = runner_.calibration_progress(camera_);
   const bool begins = request.again || !of.is_running;
   const bool is_other = of.is_running && request.search != of.is_search;
   if (begins) calibration.begin(request.search);
-  of = calibration.progress();
+  of = runner_.calibration_progress(camera_);
   response.success = begins || !is_other;
   response.message = begins ? "begun: " + of.message : of.message;
   if (!begins) response.message = "it runs already: " + of.message;

@@ -88,6 +88,65 @@ TEST_F(NodeTest, ForgetsWhatItSaw) {
   EXPECT_TRUE(labels_of(1)) << "robot and camera are still known";
 }
 
+TEST_F(NodeTest, CalibratesWhileItRunsAndAppliesWhenAsked) {
+  using penumbra_msgs::srv::Calibrate;
+  using std_srvs::srv::Trigger;
+  start();
+  const auto apply = [&] {
+    return call<Trigger>("apply_calibration", std::make_shared<Trigger::Request>());
+  };
+  const auto ask = [&](bool search, bool again) {
+    auto request = std::make_shared<Calibrate::Request>();
+    request->search = search;
+    request->again = again;
+    return call<Calibrate>("calibrate", request);
+  };
+  const auto early = apply();
+  ASSERT_TRUE(early);
+  EXPECT_FALSE(early->success);
+  EXPECT_NE(early->message.find("no calibration was begun"), std::string::npos) << early->message;
+
+  const auto begun = ask(false, false);
+  ASSERT_TRUE(begun);
+  EXPECT_TRUE(begun->success) << begun->message;
+  EXPECT_FALSE(begun->found);
+  const auto other = ask(true, false);
+  ASSERT_TRUE(other);
+  EXPECT_FALSE(other->success) << "it runs already, with a first guess";
+  ASSERT_TRUE(labels_of(1));
+  ASSERT_TRUE(labels_of(1));
+  const auto resting = ask(false, false);
+  ASSERT_TRUE(resting);
+  EXPECT_TRUE(resting->success);
+  EXPECT_EQ(resting->poses, 1U);
+  EXPECT_NE(resting->message.find("move the robot"), std::string::npos) << resting->message;
+
+  for (std::size_t i = 0; i < player_->reader.size(); ++i) ASSERT_TRUE(labels_of(i)) << i;
+  Calibrate::Response::SharedPtr found;
+  ASSERT_TRUE(spin_until([&] {
+    found = ask(false, false);
+    return !found || found->found;
+  })) << found->message;
+  ASSERT_TRUE(found);
+  // docs/calibration.md: 95 % of poses by three frames end within 6.5 mm.
+  constexpr double near_truth = 0.01;  // metres
+  EXPECT_EQ(found->transform.header.frame_id, player_->recording.camera.parent);
+  EXPECT_EQ(found->transform.child_frame_id, Player::frame_id);
+  const auto& at = found->transform.transform.translation;
+  const Eigen::Vector3d truth = player_->recording.camera.T_parent_camera->translation();
+  EXPECT_LT((Eigen::Vector3d(at.x, at.y, at.z) - truth).norm(), near_truth) << found->message;
+  EXPECT_GT(found->position_error, 0.0);
+  EXPECT_NE(found->command.find("static_transform_publisher"), std::string::npos);
+
+  const auto applied = apply();
+  ASSERT_TRUE(applied);
+  EXPECT_TRUE(applied->success) << applied->message;
+  EXPECT_TRUE(labels_of(2)) << "judged with the found pose";
+  const auto again = apply();
+  ASSERT_TRUE(again);
+  EXPECT_FALSE(again->success) << again->message;
+}
+
 TEST_F(NodeTest, HasALifecycle) {
   using lifecycle_msgs::msg::State;
   start();

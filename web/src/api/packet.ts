@@ -47,6 +47,8 @@ interface Parts {
   color?: EncodedImage;
   overlay?: EncodedImage;
   labels?: Grid<Uint8Array>;
+  /** The robot's outline: 1 by the camera's pose in use, 2 by the pose that its calibration found. */
+  outlines?: Grid<Uint8Array>;
   links?: Grid<Uint16Array>;
   vdi?: Grid<Float32Array>;
   depth?: Grid<Float32Array>;
@@ -120,7 +122,8 @@ function readPart(parts: Parts, part: PartHeader, bytes: ArrayBuffer): void {
       parts[name] = { type: part.type, bytes: new Uint8Array(bytes) };
       break;
     case 'labels':
-      parts.labels = { ...sizeOf(part, 1), values: new Uint8Array(bytes) };
+    case 'outlines':
+      parts[name] = { ...sizeOf(part, 1), values: new Uint8Array(bytes) };
       break;
     case 'links':
       parts.links = { ...sizeOf(part, 2), values: new Uint16Array(bytes) };

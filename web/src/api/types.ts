@@ -109,9 +109,10 @@ export interface Report {
   readonly summary: Summary | null;
 }
 
-export type PartName = 'overlay' | 'labels' | 'links' | 'vdi' | 'depth' | 'color' | 'cloud';
+export type PartName =
+  'overlay' | 'labels' | 'links' | 'vdi' | 'depth' | 'color' | 'cloud' | 'outlines';
 /** Residuals are measured minus virtual depth. */
-export type Layer = Exclude<PartName, 'color' | 'cloud'> | 'residual';
+export type Layer = Exclude<PartName, 'color' | 'cloud' | 'outlines'> | 'residual';
 
 export interface CameraInfo {
   readonly width: number;
@@ -163,6 +164,8 @@ export interface LiveStatus {
   readonly dropped: number;
   readonly rate_hz: number;
   readonly calibration?: Calibration | null;
+  /** How far the camera's calibration is; empty: none was begun. */
+  readonly calibrating?: string;
   readonly missing: readonly string[];
   readonly diagnostics: readonly Diagnostic[];
 }

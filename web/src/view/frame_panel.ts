@@ -56,8 +56,14 @@ export function frameDetails(frame: FrameReport): HTMLElement {
   return body;
 }
 
-/** Returns how far the camera is from its calibration; null: not known. */
-export const calibrationDetails = (calibration: Calibration | null): HTMLElement =>
+/**
+ * Returns how far the camera is from its calibration; null: not known.
+ * @param calibrating how far a new calibration is; empty: none was begun
+ */
+export const calibrationDetails = (
+  calibration: Calibration | null,
+  calibrating: string,
+): HTMLElement =>
   element(
     'div',
     'frame-details',
@@ -66,4 +72,5 @@ export const calibrationDetails = (calibration: Calibration | null): HTMLElement
       fact('moved_mm', 'moved', calibration?.moved_mm, movedText(calibration)),
       fact('turned_degrees', 'turned', calibration?.turned_degrees, turnedText(calibration)),
     ]),
+    ...(calibrating ? [element('p', 'calibrating', `New calibration: ${calibrating}`)] : []),
   );

@@ -48,6 +48,7 @@ export class ImageView {
     const hasOverlay = available.includes('overlay');
     const layer = this.layer === 'overlay' && !hasOverlay ? 'labels' : this.layer;
     const parts: PartName[] = ['color', ...partsOf(layer)];
+    if (this.layer === 'overlay' && available.includes('outlines')) parts.push('outlines');
     if (this.withoutRobot) parts.push('labels');
     if (this.packet && !this.packet.color) parts.push('depth'); // replaces the colour image
     return parts;
@@ -64,7 +65,7 @@ export class ImageView {
     this.packet = packet;
     this.links = links;
     this.paint(packet, ...images);
-    showLegend(this.layer, links, this.range, this.withoutRobot);
+    showLegend(this.layer, links, this.range, this.withoutRobot, Boolean(packet.outlines));
     const { width, height } = this.below;
     this.frame.style.setProperty('--ratio', `${width} / ${height}`);
     fitScene(width / height);
@@ -102,6 +103,8 @@ export class ImageView {
     if (overlay) this.painter.bitmap(this.above, overlay);
     else this.paintLayer(packet);
     if (this.withoutRobot) this.removeRobot(packet);
+    if (this.layer === 'overlay' && packet.outlines)
+      this.painter.outlines(this.above, packet.outlines);
   }
 
   private paintLayer(packet: Packet): void {

@@ -4,6 +4,7 @@ import { depthPercentiles, fullResidual, type DepthRange } from '../model/depth_
 import { metres } from '../model/format';
 import { labelStyles, linkColor } from '../model/labels';
 import { byId, element, swatch, term } from './dom';
+import { outlineColors } from './painters';
 
 let shown = '';
 
@@ -13,11 +14,18 @@ export function showLegend(
   links: readonly string[],
   range: DepthRange | null,
   withoutRobot: boolean,
+  hasOutlines: boolean,
 ): void {
-  const key = [layer, withoutRobot, ...(range ?? []).map(metres), ...links].join('|');
+  const key = [layer, withoutRobot, hasOutlines, ...(range ?? []).map(metres), ...links].join('|');
   if (key === shown) return;
   shown = key;
   const entries = entriesOf(layer, links, range);
+  if (hasOutlines && layer === 'overlay')
+    entries.push(
+      ...['outline by the pose in use', 'by the found pose'].map((name, pose) =>
+        entry(name, outlineColors[pose] as string),
+      ),
+    );
   if (withoutRobot) entries.push(element('span', 'hint', 'checkered: removed'));
   byId('image-legend').replaceChildren(...entries);
   byId('image-legend').classList.toggle('terms', layer === 'overlay' || layer === 'labels');

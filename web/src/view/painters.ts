@@ -18,6 +18,9 @@ const labelTable = (alpha: number): Uint32Array =>
 const opaqueLabels = labelTable(255);
 const overlayLabels = labelTable(150);
 
+/** Of the robot's outline by the camera's pose in use, and by the pose that was found. */
+export const outlineColors: readonly string[] = ['rgb(230 40 40)', 'rgb(0 220 80)'];
+
 /** Two colours, in stripes, of pixels without depth. */
 type Stripes = readonly [number, number];
 export const noRobot: Stripes = [0, 0];
@@ -59,6 +62,18 @@ export class Painter {
         (at + width < width * height && robot(at + width) !== here);
       return isEdge ? (here ? white : black) : (overlayLabels[label] as number);
     });
+  }
+
+  /** Adds the robot's outline by the camera's pose in use, red, and by the found one, green. */
+  outlines(canvas: HTMLCanvasElement, { width, height, values }: Grid<Uint8Array>): void {
+    const context = canvas.getContext('2d');
+    if (!context) return;
+    for (const [pose, color] of outlineColors.entries()) {
+      context.fillStyle = color;
+      for (let at = 0; at < width * height; ++at)
+        if (values[at] === pose + 1)
+          context.fillRect((at % width) - 1, Math.floor(at / width) - 1, 3, 3);
+    }
   }
 
   /** Draws depth as a grey image. */
