@@ -26,7 +26,9 @@ Warnings Session::new_warnings() const {
 }
 
 const FrameReport& Session::process(const Frame& frame) {
-  const FrameReport& report = pipeline_.process(frame);
+  const bool has_forecasts = frame.plan && forecast_;
+  const FrameReport& report =
+      pipeline_.process(frame, has_forecasts ? forecast_->of(frame) : std::span<const Forecast>());
   warnings_.add(report, frame);
   if (scan_ && scan_->draw(report, frame)) {
     warnings_.add(*scan_);
@@ -34,12 +36,7 @@ const FrameReport& Session::process(const Frame& frame) {
     watch_->add(scan_->report());
   }
   if (watch_ && !scan_) watch_->add(report);
-  if (!frame.plan || !forecast_) return report;
-  targets_.assign(report.targets.begin(), report.targets.end());
-  forecast_->add(frame, targets_);
-  report_ = report;
-  report_.targets = targets_;
-  return report_;
+  return report;
 }
 
 const Drift& Session::drift() const {

@@ -67,8 +67,6 @@ class Session {
   Warnings warnings_;
   std::optional<CalibrationWatch> watch_;
   std::optional<PlanForecast> forecast_;  // of a camera
-  FrameReport report_;                    // with forecasts
-  std::vector<TargetReport> targets_;
 };
 
 }  // namespace penumbra
