@@ -26,9 +26,7 @@ PlanForecast::PlanForecast(const Robot& /*robot*/, const Camera& /*camera*/,
 PlanForecast::~PlanForecast() = default;
 PlanForecast::PlanForecast(PlanForecast&&) noexcept = default;
 PlanForecast& PlanForecast::operator=(PlanForecast&&) noexcept = default;
-void PlanForecast::add(const Frame& /*frame*/, std::span<TargetReport> /*reports*/) {
-  refuse("a plan");
-}
+std::span<const Forecast> PlanForecast::of(const Frame& /*frame*/) { refuse("a plan"); }
 
 namespace io {
 

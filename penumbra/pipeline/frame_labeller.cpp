@@ -81,6 +81,9 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
   if (has_depth_ && has_depth(frame.status)) frame.status = worse(frame.status, check(frame));
   if (has_depth(frame.status))
     images.evidence = has_depth_ ? Evidence::measured : Evidence::assumed_free;
+  if (!poses.missing_links.empty()) images.undrawn = frame.message;
+  if (images.evidence == Evidence::none || !poses.reaches.empty()) images.fault = frame.fault();
+  images.link_names = poses.links;
   VirtualDepthView robot;
   {
     const StageTimer timer(frame.render_ms);

@@ -100,11 +100,11 @@ Camera Pipeline::report_camera() const { return state_->images().camera(); }
 const Rectification* Pipeline::rectification() const { return state_->images().rectification(); }
 std::span<const std::string> Pipeline::missing_links() const { return state_->missing_links; }
 
-const FrameReport& Pipeline::process(const Frame& frame) {
+const FrameReport& Pipeline::process(const Frame& frame, std::span<const Forecast> forecasts) {
   State& s = *state_;
   s.last_poses = nullptr;
   const LabelledFrame labelled = s.judge->label(frame, s.poses);
-  s.targets.judge(frame.targets, labelled);
+  s.targets.judge(frame.targets, labelled, forecasts);
   s.targets.track(frame.targets, labelled);
   s.last_poses = labelled.poses;
   return s.report_of(frame, labelled);
@@ -142,7 +142,7 @@ const FrameReport& Pipeline::State::report_of(const Frame& frame, const Labelled
   report.T_root_camera.reset();
   report.T_root_link = {};
   report.near_links = {};
-  report.links = poses.links();
+  report.links = at.links;
   report.missing_links = at.missing_links;
   attached.clear();
   for (const PlacedBody& body : at.attached) attached.push_back(body.link);

@@ -67,7 +67,8 @@ class Pipeline {
   /// Judges one frame; the report is valid until the next call. Faults of the frame are its status;
   /// images of an earlier frame are never returned. Throws InputError for uncertain_links that do
   /// not exist, and DeviceError if the graphics device fails.
-  const FrameReport& process(const Frame& frame);
+  /// `forecasts`: TargetReport::forecast of each target; empty: there are none.
+  const FrameReport& process(const Frame& frame, std::span<const Forecast> forecasts = {});
 
   /// Returns a target of the last frame as a body that `link` carries from that frame on: a 3-D box
   /// or mesh, or the ball of a point. To be called when the gripper closes; put the body into

@@ -13,11 +13,10 @@ namespace penumbra {
 
 /// Judges a 3-D box, or a point with its radius, on a labelled scan with rays, as TargetJudge does,
 /// each ray that meets it in place of a pixel. Rays without a measurement do not exist.
-/// `link_count`: that have values in the link image. `T_points_frame`: from the target's frame.
-/// Throws InputError for other shapes.
+/// `T_points_frame`: from the target's frame. Throws InputError for other shapes.
 [[nodiscard]] Judgement judge_on_rays(const Scan& scan, const LabelledImages& images,
-                                      std::size_t link_count, const Tolerance& tolerance,
-                                      const Target& target, const Eigen::Isometry3d& T_points_frame,
+                                      const Tolerance& tolerance, const Target& target,
+                                      const Eigen::Isometry3d& T_points_frame,
                                       TargetMemory& memory);
 
 }  // namespace penumbra

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/ray_targets-inl.hpp>
@@ -89,16 +88,13 @@ PixelState state_of(Label label, double range, const DepthLimits& limits, bool b
 
 }  // namespace
 
-Judgement judge_on_rays(const Scan& scan, const LabelledImages& images, std::size_t link_count,
-                        const Tolerance& tolerance, const Target& target,
-                        const Eigen::Isometry3d& T_points_frame, TargetMemory& memory) {
+Judgement judge_on_rays(const Scan& scan, const LabelledImages& images, const Tolerance& tolerance,
+                        const Target& target, const Eigen::Isometry3d& T_points_frame,
+                        TargetMemory& memory) {
   const Eigen::Vector3d& origin = *scan.origin;
   const RayTarget shape(target.shape, T_points_frame, origin);
   const std::uint8_t* const labels = images.labels.labels.data;
-  Visibility seen;
-  LinkCounts links(link_count);
-  seen.links = &links;
-  seen.is_expected = true;
+  ExtentTally tally(images.link_names.size());
   const Eigen::Vector3f start = origin.cast<float>();
   for (std::size_t i = 0; i < scan.points.count; ++i) {
     const Eigen::Vector3f point = scan.points[i];
@@ -113,22 +109,16 @@ Judgement judge_on_rays(const Scan& scan, const LabelledImages& images, std::siz
                              static_cast<float>(*entry + margin)};
     const PixelState state =
         state_of(static_cast<Label>(labels[i]), range, limits, target.thresholds.beyond_hides);
-    ++seen.inside;
-    ++seen.pixels[state];
-    if (state == PixelState::occluded) links.add(images.virtual_depth.links.data[i], 1);
-    if (state != PixelState::clear && state != PixelState::front) continue;
-    ++seen.measured;
-    if (range > static_cast<double>(limits.far)) ++seen.past;
+    ++tally.pixels[state];
+    if (state == PixelState::occluded) tally.links.add(images.virtual_depth.links.data[i], 1);
+    if (!is_seen(state)) continue;
+    ++tally.measured;
+    if (range > static_cast<double>(limits.far)) ++tally.past;
   }
-  seen.covered = seen.inside;
-  const bool is_met = seen.inside >= target.thresholds.point_min_pixels;
-  TargetMemory unchanged = memory;
-  Judgement judgement = seen.judge(target.thresholds, is_met ? memory : unchanged);
-  if (!is_met) {
-    judgement.verdict = Verdict::unknown;
-    judgement.reason = std::to_string(seen.inside) + " measured rays of the scan meet it";
-  }
-  return judgement;
+  const std::size_t met = tally.pixels.total();
+  Visibility visibility(tally, Evidence::measured, met, met, true);
+  visibility.needed = target.thresholds.point_min_pixels;
+  return visibility.judge(images, target.thresholds, memory);
 }
 
 }  // namespace penumbra

@@ -75,7 +75,7 @@ class ScanLabeller final : public FrameJudge {
   std::vector<std::size_t> numbers_;              // of the carried, in the report's links
   std::vector<Ball> reaches_;                     // where links of unknown pose can be
   std::vector<float> ranges_;
-  std::size_t parts_ = 1, link_count_ = 0;
+  std::size_t parts_ = 1;
   Labels now_;             // of the last scan
   PoseResult begin_ = {};  // the poses at its begin
   std::int64_t history_;   // nanoseconds

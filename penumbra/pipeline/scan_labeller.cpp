@@ -223,7 +223,7 @@ Judgement ScanLabeller::judge(const LabelledFrame& frame, const Target& target,
   const auto at = placement_of(target.shape).value_or(ShapePlacement());
   TargetMemory none;
   return judge_on_rays(
-      *frame.scan, frame.images, link_count_, config_.rule.tolerance, target,
+      *frame.scan, frame.images, config_.rule.tolerance, target,
       frame.poses->T_root_camera.inverse() * pose_of(at.frame, *frame.poses, robot_),
       memory != nullptr ? *memory : none);
 }
@@ -263,6 +263,8 @@ LabelledFrame ScanLabeller::frame_of(const Labels& scan, const PoseResult& poses
   frame.labels.labels = row(scan.labels);
   for (const std::uint8_t label : scan.labels) ++frame.labels.pixels[label];
   frame.images.virtual_depth.links = row(scan.links);
+  frame.images.link_names = poses.links;
+  if (!poses.reaches.empty()) frame.images.fault = frame.fault();
   if (!scan.are_known) return frame;
   frame.images.labels = frame.labels;
   frame.images.labels.pixels[unknown_label] = 0;  // they need not be the robot's
@@ -293,7 +295,6 @@ LabelledFrame ScanLabeller::label(const Frame& frame, PoseStage& poses) {
   }
   begin_.stamp = frame.stamp;
   if (!has_pose(now_.status)) begin_.status = now_.status;  // unknown in a part is unknown
-  link_count_ = poses.links().size();
   LabelledFrame out = frame_of(now_, begin_);
   out.classify_ms = classify_ms;
   return out;

@@ -72,18 +72,12 @@ class CameraPredictor {
   [[nodiscard]] double motion_of(std::size_t body, const Sample& a, const Sample& b) const;
 
  private:
-  /// A link or attached body.
-  struct Part {
-    std::string name;
-    Eigen::AlignedBox3d bounds;  // in its frame; empty if it is not drawn
-  };
   void place_bodies(const PoseResult& poses, Sample& sample);
   const SeenTarget& show(std::size_t target, const PoseResult& poses, double time);
   void fill(std::size_t target, const PoseResult& poses, SeenTarget& shown);
-  void set_limits(const TargetView& view, double depth, SeenTarget& shown);
+  void set_extent(const TargetView& view, double depth, SeenTarget& shown);
   void move(std::size_t target, double time);
   [[nodiscard]] Prediction judge(std::size_t target, bool is_near);
-  [[nodiscard]] Visibility tally(const SeenTarget& shown);
   const Robot& robot_;
   std::span<const AnchoredTarget> anchored_;
   std::vector<Target> targets_;           // at the sample's time
@@ -97,7 +91,8 @@ class CameraPredictor {
   RobotPose pose_;
   std::vector<AttachedBody> carried_;
   PoseStage poses_;
-  std::vector<Part> parts_;
+  std::vector<std::string> names_;           // of links, then attached bodies
+  std::vector<Eigen::AlignedBox3d> bounds_;  // of each in its frame; empty if it is not drawn
   std::unique_ptr<DepthRenderer> renderer_;
   NearPlaneCheck near_plane_;
   std::vector<Eigen::Isometry3d> T_camera_body_;
@@ -108,8 +103,8 @@ class CameraPredictor {
   SeenPixels seen_pixels_;
   RegionSpans spans_;
   std::vector<SeenTarget> shown_;  // by target
-  VirtualDepthView drawn_;
-  LinkCounts links_;
+  LabelledImages images_;          // the robot
+  ExtentTally tally_;
   Clearance clearance_of_;
 };
 

@@ -143,12 +143,16 @@ CameraPredictor::CameraPredictor(const Robot& robot, const ForecastCamera& camer
       seen_pixels_(rectification_ ? UncoveredPixels(rectification_->pinhole_to_raw()).mask()
                                   : ImageView<const std::uint8_t>{}),
       spans_(camera_.intrinsics.width(), camera_.intrinsics.height()),
-      links_(robot.links().size() + max_attached) {
+      tally_(robot.links().size() + max_attached),
+      clearance_of_(label_rule_) {
   rule_.check();
   for (const Body& body : bodies_with(robot, start.attached)) {
-    Part& part = parts_.emplace_back(Part{std::string(body.name), {}});
-    for (const PreparedMesh& mesh : body.meshes) part.bounds.extend(mesh.bounds);
+    names_.emplace_back(body.name);
+    bounds_.emplace_back();
+    for (const PreparedMesh& mesh : body.meshes) bounds_.back().extend(mesh.bounds);
   }
+  images_.evidence = Evidence::assumed_free;
+  images_.link_names = names_;
   carried_ = start.attached;
   std::ranges::copy_if(carried_, std::back_inserter(pose_.attached), is_drawn);
   static_cast<void>(set(targets, start));
@@ -194,7 +198,9 @@ Sample CameraPredictor::at(double time, std::span<const double> positions) {
         sample.bodies, [&](const SeenBody& body) { return !overlap(body.pixels, window).empty(); });
     if (is_near[i]) drawn = drawn.empty() ? window : drawn.united(window);
   }
-  if (!drawn.empty()) drawn_ = renderer_->render(T_camera_body_, drawn);
+  if (!drawn.empty()) images_.virtual_depth = renderer_->render(T_camera_body_, drawn);
+  images_.labels.touched = images_.virtual_depth.touched;
+  images_.undrawn = unknown_reason_;
   for (std::size_t i = 0; i < targets_.size(); ++i) {
     const auto is_target = [&](const AttachedBody& body) { return body.name == targets_[i].name; };
     sample.predictions[i] = std::ranges::any_of(pose_.attached, is_target)
@@ -207,12 +213,11 @@ Sample CameraPredictor::at(double time, std::span<const double> positions) {
 void CameraPredictor::place_bodies(const PoseResult& poses, Sample& sample) {
   T_camera_body_ = poses.T_camera_link;
   for (const PlacedBody& body : poses.attached) T_camera_body_.push_back(body.T_camera_body);
-  for (std::size_t i = 0; i < parts_.size(); ++i)
+  for (std::size_t i = 0; i < bounds_.size(); ++i)
     sample.bodies.push_back(
-        {T_camera_body_[i],
-         parts_[i].bounds.isEmpty() || !T_camera_body_[i].matrix().allFinite()
-             ? PixelRectangle{}
-             : pixels_of(parts_[i].bounds, T_camera_body_[i], camera_.intrinsics)});
+        {T_camera_body_[i], bounds_[i].isEmpty() || !T_camera_body_[i].matrix().allFinite()
+                                ? PixelRectangle{}
+                                : pixels_of(bounds_[i], T_camera_body_[i], camera_.intrinsics)});
   unknown_reason_ = always_unknown_.empty() ? poses.message : always_unknown_;
   if (!near_plane_.find(T_camera_body_).empty())
     unknown_reason_ = "a part of the robot is too near to the camera to be drawn";
@@ -285,7 +290,7 @@ void CameraPredictor::fill(std::size_t target, const PoseResult& poses, SeenTarg
       throw InputError("it reaches the plane of the camera's lens");
     view.region = std::move(polygon);
     view.expected_depth = depth;
-    if (is_in_range(depth)) set_limits(view, depth, shown);
+    if (is_in_range(depth)) set_extent(view, depth, shown);
     return;
   }
   const auto placement = placement_of(targets_[target].shape);
@@ -299,34 +304,36 @@ void CameraPredictor::fill(std::size_t target, const PoseResult& poses, SeenTarg
         "give a box or polygon and its expected_depth");
   }
   if (const auto view = views_.view(targets_[target], {}, poses))
-    set_limits(*view, placement ? depth : view->expected_depth.value_or(depth), shown);
+    set_extent(*view, placement ? depth : view->expected_depth.value_or(depth), shown);
 }
 
-/// Fills in the pixels of the target's region, and how near the robot must be there to hide it.
-/// `depth`: of its middle, metres; infinite: not known.
-void CameraPredictor::set_limits(const TargetView& view, double depth, SeenTarget& shown) {
+/// Fills in the pixels of the target's region and their depths. `depth`: of its middle, metres;
+/// infinite: not known.
+void CameraPredictor::set_extent(const TargetView& view, double depth, SeenTarget& shown) {
   check_view(view);
   spans_.fill(view.region);
   spans_.keep(seen_pixels_);
   shown.spans.assign(spans_.spans().begin(), spans_.spans().end());
   if (shown.spans.empty()) return;
   shown.region = box_of_spans(shown.spans);
-  shown.whole = {
-      .evidence = Evidence::assumed_free, .covered = spans_.covered(), .inside = spans_.inside()};
-  shown.whole.pixels[PixelState::clear] = spans_.inside();
-  shown.whole.is_expected = std::isfinite(depth);
-  const LimitRule rule(label_rule_, view.depth_margin);
-  constexpr float anywhere = std::numeric_limits<float>::infinity();
-  shown.before = shown.whole.is_expected ? rule.at(static_cast<float>(depth)).near : anywhere;
+  shown.covered = spans_.covered();
+  shown.inside = spans_.inside();
+  if (!std::isfinite(depth)) return;
+  shown.before = LimitRule(label_rule_, view.depth_margin).at(static_cast<float>(depth)).near;
+  shown.expected.margin = view.depth_margin;
   const auto* const rendered = std::get_if<RenderedRegion>(&view.region);
+  if (rendered == nullptr) {
+    shown.expected.constant = static_cast<float>(*view.expected_depth);
+    return;
+  }
+  const auto [u0, v0, u1, v1] = shown.region;
+  shown.depth = Image<float>(u1 - u0, v1 - v0);
   for (const RowSpan& span : shown.spans)
-    for (int u = span.u0; u < span.u1; ++u) {
-      const DepthLimits limits =
-          rule.at(rendered != nullptr ? rendered->depth.view(u, span.v)
-                                      : static_cast<float>(view.expected_depth.value_or(anywhere)));
-      shown.near.push_back(shown.whole.is_expected ? limits.near : anywhere);
-      shown.far.push_back(shown.whole.is_expected ? limits.far : anywhere);
-    }
+    std::copy_n(rendered->depth.view.row(span.v) + span.u0, span.u1 - span.u0,
+                &shown.depth(span.u0 - u0, span.v - v0));
+  shown.expected.image = std::as_const(shown.depth).view();
+  shown.expected.u0 = u0;
+  shown.expected.v0 = v0;
 }
 
 Prediction CameraPredictor::judge(std::size_t target, bool is_near) {
@@ -334,57 +341,28 @@ Prediction CameraPredictor::judge(std::size_t target, bool is_near) {
   if (!shown.fault.empty()) return {.reason = shown.fault};
   Prediction prediction{.verdict = Verdict::out_of_view, .clearance = free_};
   if (shown.spans.empty()) return prediction;
-  links_.clear();
-  Visibility visibility = is_near ? tally(shown) : shown.whole;
-  visibility.links = &links_;
+  tally_.clear();
+  tally_.pixels[PixelState::clear] = shown.inside;
+  if (is_near)
+    tally_extent({images_, label_rule_, true}, shown.spans, shown.expected, false, nullptr, tally_);
+  const bool is_expected = shown.expected.known();
+  const Visibility visibility(tally_, images_.evidence, shown.covered, shown.inside, is_expected);
   TargetMemory none;
-  Judgement judgement = visibility.judge(targets_[target].thresholds, none);
+  Judgement judgement = visibility.judge(images_, targets_[target].thresholds, none);
+  distrust(images_, judgement);
   prediction.verdict = judgement.verdict;
   prediction.hidden = judgement.occluded;
   prediction.reason = std::move(judgement.reason);
-  if (prediction.hidden > 0.0) prediction.by = parts_[judgement.blame.front().link].name;
-  const PixelState blocked = visibility.is_expected ? PixelState::occluded : PixelState::unknown;
+  if (!judgement.blame.empty()) prediction.by = std::move(judgement.blame.front().name);
+  const PixelState blocked = is_expected ? PixelState::occluded : PixelState::unknown;
   if (is_near && clearance_ > 0)
-    prediction.clearance =
-        clearance_of_.measure(shown, drawn_, visibility.pixels[blocked] > 0, clearance_);
-  if (!unknown_reason_.empty() &&
-      (prediction.verdict == Verdict::visible || prediction.verdict == Verdict::partial)) {
-    prediction.verdict = Verdict::unknown;
-    prediction.reason = unknown_reason_;
-  }
+    prediction.clearance = clearance_of_.measure(shown, images_.virtual_depth,
+                                                 visibility.pixels[blocked] > 0, clearance_);
   return prediction;
 }
 
-/// Counts the target's pixels, and the links that hide them.
-Visibility CameraPredictor::tally(const SeenTarget& shown) {
-  Visibility visibility = shown.whole;
-  std::size_t first = 0;              // of the span's pixels
-  std::size_t before = 0, close = 0;  // to the target's depth
-  for (const RowSpan& span : shown.spans) {
-    const auto pixels = static_cast<std::size_t>(span.u1 - span.u0);
-    const float* const robot = drawn_.depth.row(span.v) + span.u0;
-    const std::uint16_t* const links = drawn_.links.row(span.v) + span.u0;
-    const float *const near = &shown.near[first], *const far = &shown.far[first];
-    std::int32_t hidden = 0, unknown = 0;  // as wide as a depth, to vectorise
-    for (std::size_t i = 0; i < pixels; ++i) {
-      const bool is_robot = robot[i] > 0.0F, hides = robot[i] < near[i];
-      hidden += is_robot & hides;
-      unknown += is_robot & !hides & (robot[i] <= far[i]);
-    }
-    for (std::size_t i = 0; i < pixels && hidden > 0; ++i)
-      if (robot[i] > 0.0F && robot[i] < near[i]) links_.add(links[i], 1);
-    before += static_cast<std::size_t>(hidden);
-    close += static_cast<std::size_t>(unknown);
-    first += pixels;
-  }
-  visibility.pixels[PixelState::occluded] = visibility.is_expected ? before : 0;
-  visibility.pixels[PixelState::unknown] = visibility.is_expected ? close : before;
-  visibility.pixels[PixelState::clear] = visibility.inside - before - close;
-  return visibility;
-}
-
 double CameraPredictor::motion_of(std::size_t body, const Sample& a, const Sample& b) const {
-  const Eigen::AlignedBox3d& bounds = parts_[body].bounds;
+  const Eigen::AlignedBox3d& bounds = bounds_[body];
   const Eigen::Isometry3d& Ta = a.bodies[body].T_camera_body;
   const Eigen::Isometry3d& Tb = b.bodies[body].T_camera_body;
   double most = 0.0, nearest = std::numeric_limits<double>::infinity();

@@ -12,7 +12,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/targets/target_visibility.hpp>
+#include <penumbra/targets/extent_tally.hpp>
 
 namespace penumbra::planning {
 
@@ -24,17 +24,20 @@ struct SeenTarget {
   Eigen::Isometry3d T_camera_frame =
       Eigen::Isometry3d::Identity();  ///< that it was made for: of its reference frame
   double time = std::numeric_limits<double>::quiet_NaN();  ///< of a target that moves; else 0
-  std::string fault = {};                  ///< why it is unknown; empty: it is known
-  std::vector<RowSpan> spans = {};         ///< none: it is not in view
-  PixelRectangle region = {};              ///< around them
-  std::vector<float> near = {}, far = {};  ///< metres, by pixel: robot before `near` hides it
-  float before = 0.0F;                     ///< metres: robot nearer than that is before its middle
-  Visibility whole = {};                   ///< without the robot
+  std::string fault = {};               ///< why it is unknown; empty: it is known
+  std::vector<RowSpan> spans = {};      ///< none: it is not in view
+  std::size_t covered = 0, inside = 0;  ///< pixels
+  PixelRectangle region = {};           ///< around the spans
+  Image<float> depth = {};              ///< metres, of the region; empty: one depth, or unknown
+  ExpectedDepth expected = {};          ///< that image or depth
+  float before = std::numeric_limits<float>::infinity();  ///< metres: robot nearer is before it
 };
 
 /// Measures how far targets are from the robot before them. Serves one thread at a time.
 class Clearance {
  public:
+  explicit Clearance(const labelling::Rule& rule) : rule_(rule) {}
+
   /// Returns Prediction::clearance of a target in an image of the robot. `is_hidden`: a pixel of it
   /// is. `most`: pixels, up to max_clearance.
   [[nodiscard]] double measure(const SeenTarget& target, const VirtualDepthView& drawn,
@@ -52,6 +55,7 @@ class Clearance {
   [[nodiscard]] double hidden_depth(const SeenTarget& target, const PixelRectangle& window,
                                     int most);
 
+  labelling::Rule rule_;
   std::vector<std::uint8_t> blocked_;  // of a window: the robot could hide the target there
   std::vector<std::int16_t> columns_;  // of a window: rows to the nearest pixel that is not blocked
   std::vector<std::int16_t> squares_, nearest_;  // of a row: squared distances

@@ -38,15 +38,16 @@ void Clearance::mark_blocked(const SeenTarget& target, const VirtualDepthView& d
         row[u] = static_cast<std::uint8_t>((depth[u] > 0.0F) & (depth[u] < target.before));
     }
   });
-  const float* near = target.near.data();
-  for (const RowSpan& span : target.spans) {
-    const float* const depth = drawn.depth.row(span.v) + span.u0;
-    std::uint8_t* const row = &blocked_[index(window, span.u0, span.v)];
-    const int width = span.u1 - span.u0;
-    for (int u = 0; u < width; ++u)
-      row[u] = static_cast<std::uint8_t>((depth[u] > 0.0F) & (depth[u] < near[u]));
-    near += width;
-  }
+  if (target.depth.empty()) return;
+  const LimitRule rule(rule_, target.expected.margin);
+  for (const RowSpan& span : target.spans)
+    for_each_part(drawn.touched, span, [&](int u0, int u1, bool touched) {
+      const float* const depth = drawn.depth.row(span.v) + u0;
+      const float* const of = &target.depth(u0 - target.region.u0, span.v - target.region.v0);
+      std::uint8_t* const row = &blocked_[index(window, u0, span.v)];
+      for (int u = 0; touched && u < u1 - u0; ++u)
+        row[u] = static_cast<std::uint8_t>((depth[u] > 0.0F) & (depth[u] < rule.at(of[u]).near));
+    });
 }
 
 /// Returns the distance from the target's region to the nearest blocked pixel, `most` at most; 0

@@ -144,7 +144,7 @@ class Sampler {
 };
 
 /// Adds an interval, or extends the last one of the same verdict.
-void add(std::vector<VerdictInterval>& intervals, VerdictInterval next) {
+void add(Forecast& intervals, VerdictInterval next) {
   if (intervals.empty() || intervals.back().verdict != next.verdict) {
     intervals.push_back(std::move(next));
     return;
@@ -167,8 +167,8 @@ int order_of(Verdict verdict) {
 
 bool is_seen(Verdict verdict) { return order_of(verdict) <= order_of(Verdict::partial); }
 
-std::vector<VerdictInterval> intervals_of(const CameraForecast& forecast) {
-  std::vector<VerdictInterval> intervals;
+Forecast intervals_of(const CameraForecast& forecast) {
+  Forecast intervals;
   for (std::size_t i = 0; i < forecast.times.size(); ++i) {
     const Prediction& prediction = forecast.predictions[i];
     const bool is_last = i + 1 == forecast.times.size();
@@ -185,11 +185,11 @@ std::vector<VerdictInterval> intervals_of(const CameraForecast& forecast) {
 }
 
 /// What the camera that sees most sees.
-std::vector<VerdictInterval> together(const std::vector<CameraForecast>& cameras) {
+Forecast together(const std::vector<CameraForecast>& cameras) {
   std::set<double> borders;
   for (const CameraForecast& camera : cameras)
     for (const VerdictInterval& each : camera.intervals) borders.insert({each.begin, each.end});
-  std::vector<VerdictInterval> intervals;
+  Forecast intervals;
   std::vector<std::size_t> at(cameras.size());  // of each camera's intervals
   for (auto border = borders.begin(); border != borders.end(); ++border) {
     const auto next = std::next(border);

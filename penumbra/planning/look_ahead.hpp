@@ -55,8 +55,8 @@ struct Prediction {
 
 /// What a camera, or all of them together, will see of a target.
 struct CameraForecast {
-  std::vector<VerdictInterval> intervals;  ///< of all of the motion, without gaps
-  std::vector<double> times;               ///< of `predictions`; empty for all cameras together
+  Forecast intervals;         ///< of all of the motion
+  std::vector<double> times;  ///< of `predictions`; empty for all cameras together
   std::vector<Prediction> predictions;
 
   /// Seconds until it gets hidden, and until it is seen again; null: never.

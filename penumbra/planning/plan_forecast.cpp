@@ -7,7 +7,6 @@
 #include <sstream>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include <penumbra/base/error.hpp>
@@ -19,9 +18,8 @@ namespace penumbra {
 namespace {
 
 /// What lies within `from` to `until`, in seconds from then.
-std::vector<VerdictInterval> cut(std::span<const VerdictInterval> intervals, double from,
-                                 double until) {
-  std::vector<VerdictInterval> cut;
+Forecast cut(const Forecast& intervals, double from, double until) {
+  Forecast cut;
   for (VerdictInterval each : intervals) {
     const double length = each.end - each.begin;
     each.begin = std::max(each.begin, from) - from;
@@ -31,23 +29,6 @@ std::vector<VerdictInterval> cut(std::span<const VerdictInterval> intervals, dou
     cut.push_back(std::move(each));
   }
   return cut;
-}
-
-/// When a target will be lost that is hidden for longer than its timeout. At the end of a plan the
-/// robot stays where it is.
-std::optional<double> lost_in(const Target& target, const TargetReport& report) {
-  const double timeout = std::visit(
-      [](const auto& handling) {
-        if constexpr (requires { handling.timeout; }) return handling.timeout;
-        return std::numeric_limits<double>::infinity();
-      },
-      target.handling);
-  for (const VerdictInterval& each : report.forecast) {
-    if (each.verdict != Verdict::hidden) continue;
-    const double lost = timeout + (each.begin > 0.0 ? each.begin : -report.handled->age);
-    if (lost < each.end) return std::max(lost, 0.0);
-  }
-  return std::nullopt;
 }
 
 }  // namespace
@@ -62,7 +43,6 @@ struct PlanForecast::State {
                .rule = config.rule},
         positions(robot.variables().size()) {}
 
-  void add(const Frame& frame, std::span<TargetReport> reports);
   [[nodiscard]] std::string follow(const Frame& frame);
   [[nodiscard]] std::string look(const Frame& frame);
 
@@ -76,6 +56,7 @@ struct PlanForecast::State {
   std::optional<double> looked_at;
   std::optional<std::int64_t> looked_stamp;
   std::vector<TargetForecast> forecasts;  // from then on, in seconds of the plan
+  std::vector<Forecast> of_targets;       // of the frame's
   std::vector<double> positions;
 };
 
@@ -85,33 +66,29 @@ PlanForecast::~PlanForecast() = default;
 PlanForecast::PlanForecast(PlanForecast&&) noexcept = default;
 PlanForecast& PlanForecast::operator=(PlanForecast&&) noexcept = default;
 
-void PlanForecast::add(const Frame& frame, std::span<TargetReport> reports) {
-  state_->add(frame, reports);
-}
-
-void PlanForecast::State::add(const Frame& frame, std::span<TargetReport> reports) {
-  if (frame.plan != given) {
-    given = frame.plan;
-    now = 0.0;
-    has_ended = false;
-    looked_at.reset();
+std::span<const Forecast> PlanForecast::of(const Frame& frame) {
+  State& s = *state_;
+  if (frame.plan != s.given) {
+    s.given = frame.plan;
+    s.now = 0.0;
+    s.has_ended = false;
+    s.looked_at.reset();
   }
-  if (!given || has_ended || reports.empty()) return;
-  std::string reason = follow(frame);
-  if (has_ended) return;
-  if (reason.empty()) reason = look(frame);
-  const double until = std::min(now + horizon, given->duration());
-  for (TargetReport& report : reports) {
-    const auto found = std::ranges::find(forecasts, report.name, &TargetForecast::name);
+  s.of_targets.clear();
+  if (!s.given || s.has_ended || frame.targets.empty()) return {};
+  std::string reason = s.follow(frame);
+  if (s.has_ended) return {};
+  if (reason.empty()) reason = s.look(frame);
+  const double until = std::min(s.now + horizon, s.given->duration());
+  for (const Target& target : frame.targets) {
+    Forecast& forecast = s.of_targets.emplace_back();
+    const auto found = std::ranges::find(s.forecasts, target.name, &TargetForecast::name);
     if (!reason.empty())
-      report.forecast = {
-          {.end = until - now, .verdict = Verdict::unknown, .by = {}, .reason = reason}};
-    else if (found != forecasts.end())
-      report.forecast = cut(found->any.intervals, now, until);
-    const auto target = std::ranges::find(frame.targets, report.name, &Target::name);
-    if (report.handled && target != frame.targets.end())
-      report.handled->lost_in = lost_in(*target, report);
+      forecast = {{.end = until - s.now, .verdict = Verdict::unknown, .by = {}, .reason = reason}};
+    else if (found != s.forecasts.end())
+      forecast = cut(found->any.intervals, s.now, until);
   }
+  return s.of_targets;
 }
 
 /// Finds where on the plan the robot is, not before where it was. Returns why it is nowhere.

@@ -26,9 +26,9 @@ class PlanForecast {
   PlanForecast(PlanForecast&&) noexcept;
   PlanForecast& operator=(PlanForecast&&) noexcept;
 
-  /// Sets TargetReport::forecast of a frame's targets. Does nothing without a plan, and once the
-  /// robot is at its end.
-  void add(const Frame& frame, std::span<TargetReport> reports);
+  /// Returns TargetReport::forecast of each of a frame's targets; empty without a plan, and once
+  /// the robot is at its end. Valid until the next call.
+  [[nodiscard]] std::span<const Forecast> of(const Frame& frame);
 
  private:
   struct State;

@@ -45,6 +45,7 @@ PoseStage::PoseStage(const Robot& robot, const std::string& camera_parent,
       parent_(find_camera_parent(robot, camera_parent)),
       camera_inside_(is_camera ? bodies_of(robot) : std::vector<Body>()),
       reach_(reach_of_links(robot)) {
+  links_.reserve(links_.size() + max_attached);
   result_.T_root_link.resize(robot.links().size());
   result_.T_camera_link.resize(robot.links().size());
   if (!is_rigid(T_parent_camera))
@@ -81,6 +82,7 @@ const PoseResult& PoseStage::place(const RobotPose& pose, std::optional<std::int
   if (has_pose(status)) status = worse(status, place_uncertain());
   if (has_pose(status)) status = worse(status, place_bodies(pose.attached));
   if (has_pose(status)) take_out_uncertain();
+  result_.links = links_;
   return result_;
 }
 

@@ -43,6 +43,7 @@ struct PoseResult {
   std::vector<std::string> missing_links = {};  ///< as in FrameReport
   std::vector<std::size_t> uncertain_links = {};
   std::string uncertain_reason = {};
+  std::span<const std::string> links = {};  ///< as in FrameReport
   std::optional<double> kinematics_ms = {};
 
   [[nodiscard]] bool known() const { return has_pose(status); }
@@ -93,9 +94,6 @@ class PoseStage {
   const PoseResult& place(const RobotPose& pose, std::optional<std::int64_t> stamp,
                           FrameStatus status, std::string_view message);
 
-  /// As FrameReport::links.
-  [[nodiscard]] std::span<const std::string> links() const { return links_; }
-
  private:
   void check_uncertain(std::span<const std::size_t> links) const;
   FrameStatus given(FrameStatus status, std::string_view message);
@@ -115,7 +113,7 @@ class PoseStage {
   const Robot& robot_;
   std::vector<std::string> missing_links_;
   std::string without_links_;          // the message about them
-  std::vector<std::string> links_;     // the robot's, then attached bodies'
+  std::vector<std::string> links_;     // the robot's, then attached bodies'; never reallocated
   std::vector<std::size_t> last_use_;  // of the latter: number of the frame
   std::size_t frames_ = 0;
   std::size_t parent_;

@@ -38,7 +38,9 @@ const Diagnosis& Session::diagnosis() const { return warnings_->diagnosis(); }
 std::size_t Session::poses() const { return warnings_->poses(); }
 
 const FrameReport& Session::process(const Frame& frame) {
-  const FrameReport& report = pipeline_.process(frame);
+  const bool has_forecasts = frame.plan && forecast_;
+  const FrameReport& report =
+      pipeline_.process(frame, has_forecasts ? forecast_->of(frame) : std::span<const Forecast>());
   warnings_->add(report, frame);
   if (scan_ && scan_->take(report, frame)) {
     warnings_->add(*scan_);
@@ -48,12 +50,7 @@ const FrameReport& Session::process(const Frame& frame) {
   }
   if (watch_ && !scan_) watch_->add(report);
   if (calibration_ != nullptr) calibration_->take(frame, drift());
-  if (!frame.plan || !forecast_) return report;
-  targets_.assign(report.targets.begin(), report.targets.end());
-  forecast_->add(frame, targets_);
-  report_ = report;
-  report_.targets = targets_;
-  return report_;
+  return report;
 }
 
 const Drift& Session::drift() const {

@@ -78,8 +78,6 @@ class Session {
   std::optional<CalibrationWatch> watch_;
   RunningCalibration* calibration_ = nullptr;
   std::unique_ptr<PlanForecast> forecast_;  // of a camera
-  FrameReport report_;                      // with forecasts
-  std::vector<TargetReport> targets_;
 };
 
 }  // namespace penumbra

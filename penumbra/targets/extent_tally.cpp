@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <bit>
 
 #include <penumbra/targets/extent_tally.hpp>
 #include <penumbra/targets/trusted_depth.hpp>
@@ -10,8 +9,6 @@ namespace {
 
 /// Fringe hides nothing, and its depth is not a measurement.
 bool is_fringe(std::uint8_t label) { return label == static_cast<std::uint8_t>(Label::fringe); }
-
-bool is_seen(PixelState state) { return state == PixelState::clear || state == PixelState::front; }
 
 PixelState state_without_depth(std::uint8_t label, bool beyond_hides) {
   switch (static_cast<Label>(label)) {
@@ -45,23 +42,6 @@ PixelState state_at_depth(std::uint8_t value, float z, float d, DepthLimits targ
   return z > target.far ? PixelState::clear : PixelState::unknown;
 }
 
-/// Calls f(u0, u1, touched) for the parts of a span inside and outside the tiles.
-template <typename F>
-void for_each_part(const TileMask* tiles, const RowSpan& span, F&& f) {
-  if (tiles == nullptr) return f(span.u0, span.u1, true);
-  const int shift = std::countr_zero(static_cast<unsigned>(tiles->tile_width));
-  const std::uint64_t row = tiles->rows[static_cast<std::size_t>(span.v / TileMask::tile_height)];
-  for (int u = span.u0; u < span.u1;) {
-    const int tile = u >> shift;
-    const std::uint64_t bits = row >> tile;
-    const bool touched = (bits & 1) != 0;
-    const int count = touched ? std::countr_one(bits) : std::countr_zero(bits);
-    const int end = tile + count >= 64 ? span.u1 : std::min(span.u1, (tile + count) << shift);
-    f(u, end, touched);
-    u = end;
-  }
-}
-
 template <typename T>
 int end_of_run(const T* row, int u, int end) {
   const T value = row[u];
@@ -73,18 +53,63 @@ constexpr double golden_ratio = 0.6180339887498949;
 
 int next_multiple(int number, int step) { return (number + step - 1) / step * step; }
 
-/// Counts pixels and collects depths. `limits_of(v)` returns the limits of a row's pixels by u,
-/// `depths_of(v)` their measurements.
-template <typename Limits, typename Depths>
+/// Returns whether only a link of unknown pose could be at a pixel. It hides nothing for sure.
+bool is_unplaced(const LabelledImages& images, std::uint16_t link) {
+  return std::ranges::find(images.unplaced, link) != images.unplaced.end();
+}
+
+/// Counts pixels where nothing is measured, by the robot's depth: run by run of a link, in loops
+/// that vectorise.
+template <typename Limits>
+void count_robot(const LabelledImages& images, const RowSpan& span, const Limits& limits_of,
+                 ExtentTally& tally) {
+  const auto limits = limits_of(span.v);
+  const float* const robot = images.virtual_depth.depth.row(span.v);
+  const bool has_links = !images.virtual_depth.links.empty();
+  const bool has_labels = !images.labels.labels.empty();
+  const std::uint16_t* const links = has_links ? images.virtual_depth.links.row(span.v) : nullptr;
+  const std::uint8_t* const labels = has_labels ? images.labels.labels.row(span.v) : nullptr;
+  std::size_t all_hidden = 0, all_unknown = 0;
+  for_each_part(images.labels.touched, span, [&](int u0, int u1, bool touched) {
+    for (int u = u0, end = u0; touched && u < u1; u = end) {
+      end = has_links ? end_of_run(links, u, u1) : u1;
+      const std::uint16_t link = has_links ? links[u] : 0;
+      std::int32_t hidden = 0, unknown = 0;  // as wide as a depth
+      if (is_unplaced(images, link)) {
+        unknown = end - u;
+      } else if (link != 0 || !has_links) {
+        for (int i = u; i < end; ++i) {
+          const bool is_robot = robot[i] > 0.0F, hides = robot[i] < limits(i).near;
+          hidden += is_robot & hides;
+          unknown += is_robot & !hides & (robot[i] <= limits(i).far);
+        }
+      }
+      if (link == 0 && has_labels)  // outside the lens model
+        for (int i = u; i < end; ++i)
+          unknown += !(robot[i] > 0.0F) & (labels[i] == static_cast<std::uint8_t>(Label::unknown));
+      tally.links.add(hidden > 0 ? link : 0, static_cast<std::size_t>(hidden));
+      all_hidden += static_cast<std::size_t>(hidden);
+      all_unknown += static_cast<std::size_t>(unknown);
+    }
+  });
+  tally.pixels[PixelState::occluded] += all_hidden;
+  tally.pixels[PixelState::unknown] += all_unknown;
+  tally.pixels[PixelState::clear] +=
+      static_cast<std::size_t>(span.u1 - span.u0) - all_hidden - all_unknown;
+}
+
+/// Counts pixels and collects depths of a frame with measurements. `limits_of(v)` returns the
+/// limits of a row's pixels by u.
+template <typename Limits, typename Depth>
 class ExtentReader {
  public:
   ExtentReader(const TalliedFrame& frame, bool has_depth, bool beyond_hides,
-               const Limits& limits_of, const Depths& depths_of, ExtentTally& tally)
+               const Limits& limits_of, const Measured<Depth>& depths, ExtentTally& tally)
       : images_(frame.images),
         has_depth_(has_depth),
         beyond_hides_(beyond_hides),
         limits_of_(limits_of),
-        depths_of_(depths_of),
+        depths_(depths),
         tally_(tally) {}
 
   void count(const RowSpan& span) {
@@ -102,7 +127,7 @@ class ExtentReader {
   /// `robot`: null if it is not near.
   void sample(const RowSpan& span, int step, RobotSurroundings* robot) {
     const auto limits = limits_of_(span.v);
-    const auto depths = depths_of_(span.v);
+    const auto depths = depths_.row(span.v);
     const std::uint8_t* const labels = images_.labels.labels.row(span.v);
     const int shift = static_cast<int>(golden_ratio * step * span.v) % step;
     RobotSurroundings::Depths of_robot;
@@ -132,7 +157,7 @@ class ExtentReader {
   /// Counts pixels of one state, except those with a measurement in front of the target.
   void count_seen(PixelState state, int v, int u0, int u1) {
     const auto limits = limits_of_(v);
-    const auto depths = depths_of_(v);
+    const auto depths = depths_.row(v);
     std::int32_t all = 0, nearer = 0, farther = 0;  // as wide as a depth, to vectorise
     for (int u = u0; u < u1; ++u) all += depths.is_measured(u) ? 1 : 0;
     for (int u = u0; u < u1 && has_depth_; ++u) {
@@ -175,7 +200,7 @@ class ExtentReader {
 
   void count_pixels(int v, int u0, int u1) {
     const auto limits = limits_of_(v);
-    const auto depths = depths_of_(v);
+    const auto depths = depths_.row(v);
     const std::uint8_t* const labels = images_.labels.labels.row(v);
     const float* const robot = images_.virtual_depth.depth.row(v);
     const bool has_links = !images_.virtual_depth.links.empty();
@@ -186,7 +211,7 @@ class ExtentReader {
     for (int u = u0; u < u1; ++u) {
       const DepthLimits target = limits(u);
       const float d = depths[u];
-      const bool may_be_anywhere = has_unplaced && is_unplaced(links[u]);
+      const bool may_be_anywhere = has_unplaced && is_unplaced(images_, links[u]);
       const PixelState state =
           may_be_anywhere && labels[u] == static_cast<std::uint8_t>(Label::unknown)
               ? PixelState::unknown
@@ -207,11 +232,6 @@ class ExtentReader {
     tally_.past += past;
   }
 
-  /// Whether only a link of unknown pose could be at a pixel. It hides nothing for sure.
-  [[nodiscard]] bool is_unplaced(std::uint16_t link) const {
-    return std::ranges::find(images_.unplaced, link) != images_.unplaced.end();
-  }
-
   void add(const Run& run) {
     tally_.pixels[run.state] += run.pixels;
     if (run.pixels > 0) tally_.links.add(run.link, run.pixels);
@@ -221,7 +241,7 @@ class ExtentReader {
   bool has_depth_;
   bool beyond_hides_;
   const Limits& limits_of_;
-  const Depths& depths_of_;
+  const Measured<Depth>& depths_;
   ExtentTally& tally_;
 };
 
@@ -231,7 +251,9 @@ void with_limits(const labelling::Rule& label_rule, const ExpectedDepth& expecte
   const LimitRule rule(label_rule, expected.margin);
   if (expected.image) {
     f([&expected, rule](int v) {
-      return [z = expected.image->row(v), rule](int u) { return rule.at(z[u]); };
+      return [z = expected.image->row(v - expected.v0), u0 = expected.u0, rule](int u) {
+        return rule.at(z[u - u0]);
+      };
     });
   } else {
     const DepthLimits limits = expected.constant
@@ -239,24 +261,6 @@ void with_limits(const labelling::Rule& label_rule, const ExpectedDepth& expecte
                                    : DepthLimits{0.0f, std::numeric_limits<float>::infinity()};
     f([limits](int) { return [limits](int) { return limits; }; });
   }
-}
-
-struct NoDepths {
-  float operator[](int /*u*/) const { return 0.0f; }
-  [[nodiscard]] float raw(int /*u*/) const { return 0.0f; }
-  [[nodiscard]] bool is_measured(int /*u*/) const { return false; }
-};
-
-/// Calls f(depths_of): depths_of(v) are the measurements of a row by u.
-template <typename F>
-void with_depths(const TalliedFrame& frame, F&& f) {
-  if (!frame.is_measured()) return f([](int /*v*/) { return NoDepths{}; });
-  std::visit(
-      [&](const auto& image) {
-        const Measured measured(image, *frame.rule);
-        f([&](int v) { return measured.row(v); });
-      },
-      frame.images.measured);
 }
 
 }  // namespace
@@ -298,10 +302,11 @@ void LinkCounts::clear() {
   touched_.clear();
 }
 
-std::vector<Blame> LinkCounts::blame(std::size_t pixels) const {
+std::vector<Blame> LinkCounts::blame(std::size_t pixels, std::span<const std::string> names) const {
   std::vector<Blame> blame;
   for (const std::size_t link : touched_)
-    blame.push_back({link, static_cast<double>(counts_[link]) / static_cast<double>(pixels)});
+    blame.push_back({link, static_cast<double>(counts_[link]) / static_cast<double>(pixels),
+                     link < names.size() ? names[link] : std::string()});
   std::sort(blame.begin(), blame.end(), [](const Blame& a, const Blame& b) {
     return a.fraction != b.fraction ? a.fraction > b.fraction : a.link < b.link;
   });
@@ -329,14 +334,21 @@ void tally_extent(const TalliedFrame& frame, std::span<const RowSpan> spans,
   for (const RowSpan& span : spans) pixels += static_cast<std::size_t>(span.u1 - span.u0);
   tally.step = static_cast<int>((pixels + max_depth_samples - 1) / max_depth_samples);
   RobotSurroundings* const near = robot != nullptr ? robot_near(frame, spans, *robot) : nullptr;
-  with_depths(frame, [&](const auto& depths_of) {
-    with_limits(*frame.rule, expected, [&](const auto& limits_of) {
-      ExtentReader reader(frame, expected.known(), beyond_hides, limits_of, depths_of, tally);
-      for (const RowSpan& span : spans) {
-        reader.count(span);
-        if (robot != nullptr) reader.sample(span, tally.step, near);
-      }
-    });
+  with_limits(*frame.rule, expected, [&](const auto& limits_of) {
+    if (!frame.is_measured()) {
+      for (const RowSpan& span : spans) count_robot(frame.images, span, limits_of, tally);
+      return;
+    }
+    std::visit(
+        [&](const auto& image) {
+          const Measured depths(image, *frame.rule);
+          ExtentReader reader(frame, expected.known(), beyond_hides, limits_of, depths, tally);
+          for (const RowSpan& span : spans) {
+            reader.count(span);
+            if (robot != nullptr) reader.sample(span, tally.step, near);
+          }
+        },
+        frame.images.measured);
   });
 }
 

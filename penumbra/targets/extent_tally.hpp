@@ -2,12 +2,16 @@
 // Counts the pixels of an extent by state and collects their depths.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <penumbra/labels/rule.hpp>
@@ -19,6 +23,10 @@ namespace penumbra {
 /// The states of TargetJudge.
 enum class PixelState : std::uint8_t { clear, front, occluded, unknown, other };
 inline constexpr std::size_t state_count = 5;
+
+[[nodiscard]] inline bool is_seen(PixelState state) {
+  return state == PixelState::clear || state == PixelState::front;
+}
 
 /// Measurements and robot nearer than `near` hide the target; those farther than `far` are behind
 /// it. Metres.
@@ -39,7 +47,8 @@ struct LimitRule {
   float a, b, c, margin;
 };
 
-/// A frame to judge targets on.
+/// A frame to judge targets on. One whose evidence is not `measured` needs of its labels only the
+/// touched tiles, if all pixels lie within the lens model.
 struct TalliedFrame {
   /// `has_outside`: pixels that cannot be rendered are outside the camera's view (rectified
   /// images); else the robot may be there.
@@ -72,8 +81,9 @@ class LinkCounts {
     if (counts_[value - 1] == 0) touched_.push_back(value - 1);
     counts_[value - 1] += pixels;
   }
-  /// Returns the links with pixels, as fractions of `pixels`, largest first.
-  [[nodiscard]] std::vector<Blame> blame(std::size_t pixels) const;
+  /// Returns the links with pixels, as fractions of `pixels`, largest first. `names`: of links.
+  [[nodiscard]] std::vector<Blame> blame(std::size_t pixels,
+                                         std::span<const std::string> names) const;
 
  private:
   std::vector<std::size_t> counts_;
@@ -87,6 +97,9 @@ struct StateCounts {
   }
   [[nodiscard]] std::size_t operator[](PixelState state) const {
     return counts[static_cast<std::size_t>(state)];
+  }
+  [[nodiscard]] std::size_t total() const {
+    return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
   }
 
   std::array<std::size_t, state_count> counts{};
@@ -121,10 +134,28 @@ struct ExtentTally {
 struct ExpectedDepth {
   std::optional<float> constant;                ///< metres
   std::optional<ImageView<const float>> image;  ///< for every pixel of the extent
+  int u0 = 0, v0 = 0;                           ///< the image's first pixel
   double margin = 0;                            ///< metres
 
   [[nodiscard]] bool known() const { return constant || image; }
 };
+
+/// Calls f(u0, u1, touched) for the parts of a span inside and outside the tiles.
+template <typename F>
+void for_each_part(const TileMask* tiles, const RowSpan& span, F&& f) {
+  if (tiles == nullptr) return f(span.u0, span.u1, true);
+  const int shift = std::countr_zero(static_cast<unsigned>(tiles->tile_width));
+  const std::uint64_t row = tiles->rows[static_cast<std::size_t>(span.v / TileMask::tile_height)];
+  for (int u = span.u0; u < span.u1;) {
+    const int tile = u >> shift;
+    const std::uint64_t bits = row >> tile;
+    const bool touched = (bits & 1) != 0;
+    const int count = touched ? std::countr_one(bits) : std::countr_zero(bits);
+    const int end = tile + count >= 64 ? span.u1 : std::min(span.u1, (tile + count) << shift);
+    f(u, end, touched);
+    u = end;
+  }
+}
 
 class RobotSurroundings;
 

@@ -176,6 +176,9 @@ struct VerdictInterval {
   std::string reason = {};  ///< of the first unknown verdict
 };
 
+/// Intervals without gaps, of a motion or of the rest of it.
+using Forecast = std::vector<VerdictInterval>;
+
 /// The result for one target.
 struct TargetReport {
   std::string name;
@@ -191,9 +194,9 @@ struct TargetReport {
   std::optional<HandledTarget> handled;  ///< null without handling, or without stamps
   std::optional<Outcome> estimate;       ///< whether the target's estimate was accepted, or why
                                          ///< not; null without an estimate
-  /// What the rest of Frame::plan will hide of it, seconds from the frame on, without gaps. Empty:
-  /// there is no plan, or it has ended.
-  std::vector<VerdictInterval> forecast;
+  /// What the rest of Frame::plan will hide of it, seconds from the frame on. Empty: there is no
+  /// plan, or it has ended.
+  Forecast forecast;
   bool wants_stamp = false;  ///< not handled because the frame has no stamp
 };
 

@@ -189,9 +189,10 @@ Judgement TargetJudge::State::judge_at_depth(const TargetView& target, TargetMem
   const std::size_t unknown = visibility.pixels[PixelState::unknown];
   visibility.is_uncovered = unknown > 0 && !camera.distortion.is_none() &&
                             is_uncovered(frame, observer.seen().spans(), unknown);
-  Judgement judgement = visibility.judge(target.thresholds, memory);
+  Judgement judgement = visibility.judge(frame.images, target.thresholds, memory);
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
     observer.remember(target, memory);
+  distrust(frame.images, judgement);
   if (wants_depths) add_point(target, judgement);
   return judgement;
 }

@@ -36,6 +36,10 @@ struct LabelledImages {
   Evidence evidence = Evidence::measured;
   /// Values of the link image where a link of unknown pose could be: it may hide the target or not.
   std::span<const std::uint16_t> unplaced = {};
+  /// Why a part of the robot that is not drawn may hide what seems to be seen; empty: all is drawn.
+  std::string_view undrawn = {};
+  std::string fault = {};  ///< why what is unknown is so; empty: the judge says it
+  std::span<const std::string> link_names = {};  ///< by value in the link image - 1
 };
 
 /// The thresholds of verdicts, as fractions of the pixels inside the image.
@@ -126,7 +130,7 @@ struct TargetMemory {
 struct Blame {
   std::size_t link = 0;   ///< value in the link image - 1
   double fraction = 0;    ///< of the pixels inside the image
-  std::string name = {};  ///< of the link or attached body, in reports of the pipeline
+  std::string name = {};  ///< LabelledImages::link_names
 };
 
 /// The result for one target. Fractions are of the pixels inside the image; occluded, front,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
@@ -44,12 +45,21 @@ bool lacks_depth(const Judgement& judged, const TargetThresholds& thresholds) {
          *judged.measured < thresholds.min_measured * (judged.clear + judged.front);
 }
 
-/// The name of a link, or of an attached body, by its value in the link image - 1.
-std::string blamed_name(std::size_t link, const PoseResult& poses, const Robot& robot) {
-  if (link < robot.links().size()) return robot.links()[link];
-  for (const PlacedBody& body : poses.attached)
-    if (body.link == link) return body.name;
-  return {};
+/// Returns when a target will be lost that its forecast hides for longer than its timeout. At the
+/// end of a plan the robot stays where it is.
+std::optional<double> lost_in(const TargetHandling& handling, const TargetReport& report) {
+  const double timeout = std::visit(
+      [](const auto& how) {
+        if constexpr (requires { how.timeout; }) return how.timeout;
+        return std::numeric_limits<double>::infinity();
+      },
+      handling);
+  for (const VerdictInterval& each : report.forecast) {
+    if (each.verdict != Verdict::hidden) continue;
+    const double lost = timeout + (each.begin > 0.0 ? each.begin : -report.handled->age);
+    if (lost < each.end) return std::max(lost, 0.0);
+  }
+  return std::nullopt;
 }
 
 double seen_fraction(const std::optional<Judgement>& judgement) {
@@ -76,9 +86,10 @@ TargetStage::TargetStage(const Robot& robot, SampleJudge& judge,
       image_frame_(std::move(image_frame)),
       recent_poses_(poses_of_size(robot.links().size())) {}
 
-void TargetStage::judge(std::span<const Target> targets, const LabelledFrame& frame) {
+void TargetStage::judge(std::span<const Target> targets, const LabelledFrame& frame,
+                        std::span<const Forecast> forecasts) {
   const StageTimer timer(judge_ms_);
-  begin(targets, frame);
+  begin(targets, frame, forecasts);
   for (std::size_t i = 0; i < targets.size(); ++i)
     judge(targets[i], frame, *given_[i], reports_[i]);
 }
@@ -89,11 +100,14 @@ void TargetStage::track(std::span<const Target> targets, const LabelledFrame& fr
     Record& record = *given_[i];
     if (!record.track) continue;
     reports_[i].wants_stamp = !frame.stamp();
-    if (frame.stamp()) track(targets[i], *frame.poses, record, reports_[i]);
+    if (!frame.stamp()) continue;
+    track(targets[i], *frame.poses, record, reports_[i]);
+    reports_[i].handled->lost_in = lost_in(targets[i].handling, reports_[i]);
   }
 }
 
-void TargetStage::begin(std::span<const Target> targets, const LabelledFrame& frame) {
+void TargetStage::begin(std::span<const Target> targets, const LabelledFrame& frame,
+                        std::span<const Forecast> forecasts) {
   if (const auto stamp = frame.stamp()) {
     if (newest_stamp_ && is_clock_jump(*stamp, *newest_stamp_)) forget_all();
     newest_stamp_ = std::max(newest_stamp_.value_or(*stamp), *stamp);
@@ -112,6 +126,7 @@ void TargetStage::begin(std::span<const Target> targets, const LabelledFrame& fr
     record.call = calls_;
     given_.push_back(&record);
     reports_[i].name = targets[i].name;
+    if (!forecasts.empty()) reports_[i].forecast = forecasts[i];
   }
 }
 
@@ -130,13 +145,11 @@ void TargetStage::judge(const Target& target, const LabelledFrame& frame, Record
       hold(*body, seen, record, report);
     } else {
       Judgement judgement = judge_on(seen, target, record);
-      for (Blame& link : judgement.blame) link.name = blamed_name(link.link, *seen.poses, robot_);
       report.reason = judgement.reason;
       report.verdict = judgement.verdict;
       if (judgement.point) report.point = seen.poses->T_root_camera * *judgement.point;
       is_reliable = seen.status == FrameStatus::ok && !lacks_depth(judgement, target.thresholds);
       report.judgement = std::move(judgement);
-      lower_trust(seen, report);
     }
   } catch (const InputError& fault) {
     report.verdict = Verdict::unknown;
@@ -144,9 +157,6 @@ void TargetStage::judge(const Target& target, const LabelledFrame& frame, Record
     report.point.reset();
     report.reason = fault.what();
   }
-  const bool has_reason = report.verdict == Verdict::unknown || report.verdict == Verdict::held;
-  if (!has_reason) report.reason.clear();
-  if (report.judgement) report.judgement->reason = report.reason;
   if (report.stamp && record.track)
     record.track->add(*report.stamp,
                       {report.verdict, is_reliable, seen_fraction(report.judgement)});
@@ -202,26 +212,6 @@ Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target
   record.judged_poses = frame.poses;
   record.last_stamp = frame.stamp();
   return judgement;
-}
-
-/// With a missing link, anything that seems visible may be hidden by it, and any depth may be its
-/// own. Without depth, whatever the robot does not hide is unknown, and so is what a link of
-/// unknown pose could hide.
-void TargetStage::lower_trust(const LabelledFrame& frame, TargetReport& report) {
-  if ((frame.images.evidence == Evidence::none || !frame.poses->reaches.empty()) &&
-      report.verdict == Verdict::unknown)
-    report.reason = frame.fault();
-  if (frame.poses->missing_links.empty()) return;
-  Judgement& judgement = *report.judgement;
-  report.point.reset();
-  judgement.point.reset();
-  judgement.unknown += judgement.clear + judgement.front;
-  judgement.clear = judgement.front = 0.0;
-  judgement.measured.reset();
-  judgement.seen_past.reset();
-  if (report.verdict != Verdict::visible && report.verdict != Verdict::partial) return;
-  report.verdict = judgement.verdict = Verdict::unknown;
-  report.reason = frame.message;
 }
 
 std::optional<Eigen::Vector2d> TargetStage::track_pixel(const PoseResult& poses,

@@ -61,7 +61,9 @@ class TargetStage {
   TargetStage(const Robot& robot, SampleJudge& judge, std::optional<std::string> image_frame);
 
   /// Judges the targets on the frame, or late ones on an earlier frame. Stores the frame.
-  void judge(std::span<const Target> targets, const LabelledFrame& frame);
+  /// `forecasts`: TargetReport::forecast of each; empty: there are none.
+  void judge(std::span<const Target> targets, const LabelledFrame& frame,
+             std::span<const Forecast> forecasts = {});
 
   /// Feeds the estimates of the targets just judged to their trackers.
   void track(std::span<const Target> targets, const LabelledFrame& frame);
@@ -92,7 +94,8 @@ class TargetStage {
       return frame.stamp() && last_stamp && *frame.stamp() < *last_stamp;
     }
   };
-  void begin(std::span<const Target> targets, const LabelledFrame& frame);
+  void begin(std::span<const Target> targets, const LabelledFrame& frame,
+             std::span<const Forecast> forecasts);
   void judge(const Target& target, const LabelledFrame& frame, Record& record,
              TargetReport& report);
   void check(const Target& target, Record& record) const;
@@ -100,7 +103,6 @@ class TargetStage {
   static void hold(const PlacedBody& body, const LabelledFrame& frame, Record& record,
                    TargetReport& report);
   Judgement judge_on(const LabelledFrame& frame, const Target& target, Record& record);
-  static void lower_trust(const LabelledFrame& frame, TargetReport& report);
   [[nodiscard]] std::optional<Eigen::Vector2d> track_pixel(const PoseResult& poses,
                                                            const Record& record) const;
   void track(const Target& target, const PoseResult& poses, Record& record, TargetReport& report);

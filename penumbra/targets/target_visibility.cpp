@@ -41,6 +41,7 @@ bool is_seen_enough(const Visibility& visibility, Verdict level, const TargetThr
 
 Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
                TargetMemory& memory) {
+  if (visibility.inside < visibility.needed) return Verdict::unknown;
   if (is_out_of_view(visibility, thresholds)) return Verdict::out_of_view;
   if (!visibility.has_pose) return Verdict::unknown;
   const double hidden = visibility.hidden(thresholds.others_hide);
@@ -58,8 +59,11 @@ Verdict decide(const Visibility& visibility, const TargetThresholds& thresholds,
   return level;
 }
 
-std::string_view reason_for_unknown(const Visibility& visibility,
-                                    const TargetThresholds& thresholds) {
+std::string reason_for_unknown(const Visibility& visibility, const LabelledImages& images,
+                               const TargetThresholds& thresholds) {
+  if (!images.fault.empty()) return images.fault;
+  if (visibility.inside < visibility.needed)
+    return std::to_string(visibility.inside) + " measured rays of the scan meet it";
   if (!visibility.has_pose) return "the robot's pose is not known in this frame";
   if (!visibility.has_whole)
     return "it was not seen whole away from the robot: how much of it the robot hides is not "
@@ -72,7 +76,7 @@ std::string_view reason_for_unknown(const Visibility& visibility,
   if (visibility.is_expected && visibility.is_unmeasured(thresholds.min_measured))
     return "hardly anything is measured where it is expected; min_measured: 0 allows that";
   if (visibility.is_uncovered) return "too much of it lies where the lens model does not reach";
-  const bool is_assumed = visibility.evidence == Evidence::assumed_free;
+  const bool is_assumed = images.evidence == Evidence::assumed_free;
   if (visibility.is_expected)
     return is_assumed ? "too much of it is at the robot's own depth"
                       : "too much of it is robot without measurement, at the robot's own depth or "
@@ -122,6 +126,19 @@ bool is_covered(const Eigen::Array2d& size, const Eigen::Array2d& whole,
 
 }  // namespace
 
+Visibility::Visibility(const ExtentTally& tally, Evidence evidence, std::size_t all,
+                       std::size_t in_image, bool is_depth_known)
+    : covered(all),
+      inside(in_image),
+      pixels(tally.pixels),
+      measured(tally.measured),
+      past(tally.past),
+      is_expected(is_depth_known),
+      links(&tally.links) {
+  if (evidence == Evidence::measured) unmeasured = seen() - measured;
+  if (evidence == Evidence::none) mark_all_unknown();
+}
+
 double Visibility::share(std::size_t count) const {
   return inside == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(inside);
 }
@@ -145,17 +162,7 @@ Visibility ExtentObserver::observe_extent(const TargetInFrame& at, const RegionS
                                           RobotSurroundings* robot, ExtentTally& tally) {
   tally_extent(at.frame, extent.spans(), at.expected, at.target.thresholds.beyond_hides, robot,
                tally);
-  Visibility visibility{.evidence = at.frame.images.evidence,
-                        .covered = extent.covered(),
-                        .inside = extent.inside(),
-                        .pixels = tally.pixels,
-                        .measured = tally.measured,
-                        .past = tally.past,
-                        .is_expected = at.expected.known(),
-                        .links = &tally.links};
-  if (at.frame.is_measured()) visibility.unmeasured = visibility.seen() - visibility.measured;
-  if (visibility.evidence == Evidence::none) visibility.mark_all_unknown();
-  return visibility;
+  return {tally, at.frame.images.evidence, extent.covered(), extent.inside(), at.expected.known()};
 }
 
 std::optional<double> ExtentObserver::depth_by_height(const TargetInFrame& at,
@@ -179,12 +186,9 @@ std::optional<double> ExtentObserver::depth_by_height(const TargetInFrame& at,
 Visibility ExtentObserver::observe(const TargetInFrame& at, TargetMemory& memory) {
   if (!at.frame.has_pose()) {
     seen_tally_.clear();
-    Visibility none{.evidence = at.frame.images.evidence,
-                    .covered = seen_.covered(),
-                    .inside = seen_.inside(),
-                    .links = &seen_tally_.links,
-                    .has_pose = false};
-    none.pixels[PixelState::unknown] = seen_.inside();
+    seen_tally_.pixels[PixelState::unknown] = seen_.inside();
+    Visibility none(seen_tally_, Evidence::none, seen_.covered(), seen_.inside(), false);
+    none.has_pose = false;
     return none;
   }
   const Visibility now =
@@ -275,24 +279,36 @@ void ExtentObserver::remember(const TargetView& target, TargetMemory& memory) co
   memory.moved.setZero();
 }
 
-Judgement Visibility::judge(const TargetThresholds& thresholds, TargetMemory& memory) const {
+Judgement Visibility::judge(const LabelledImages& images, const TargetThresholds& thresholds,
+                            TargetMemory& memory) const {
   Judgement judgement;
   judgement.verdict = decide(*this, thresholds, memory);
   if (judgement.verdict == Verdict::unknown)
-    judgement.reason = reason_for_unknown(*this, thresholds);
+    judgement.reason = reason_for_unknown(*this, images, thresholds);
   judgement.covered = covered;
   judgement.inside = inside;
   judgement.occluded = fraction(PixelState::occluded);
   judgement.front = fraction(PixelState::front);
   judgement.unknown = fraction(PixelState::unknown);
   judgement.clear = fraction(PixelState::clear);
-  judgement.blame = links->blame(inside);
-  if (evidence != Evidence::measured || !has_pose) return judgement;
+  judgement.blame = links->blame(inside, images.link_names);
+  if (images.evidence != Evidence::measured || !has_pose) return judgement;
   judgement.measured = share(measured);
   if (!is_expected) return judgement;
   judgement.hidden_by_other = fraction(PixelState::other);
   judgement.seen_past = share(past);
   return judgement;
+}
+
+void distrust(const LabelledImages& images, Judgement& judgement) {
+  if (images.undrawn.empty()) return;
+  judgement.unknown += judgement.clear + judgement.front;
+  judgement.clear = judgement.front = 0.0;
+  judgement.measured.reset();
+  judgement.seen_past.reset();
+  if (judgement.verdict != Verdict::visible && judgement.verdict != Verdict::partial) return;
+  judgement.verdict = Verdict::unknown;
+  judgement.reason = images.undrawn;
 }
 
 }  // namespace penumbra

@@ -18,8 +18,13 @@ namespace penumbra {
 /// Throws InputError for numbers out of range, and for what a rendered region cannot have.
 void check_view(const TargetView& target);
 
-/// The visibility of an extent.
+/// What the robot and other objects leave of an extent: a tally of its pixels or rays, and the
+/// verdict.
 struct Visibility {
+  /// Of a tally, which must live as long.
+  Visibility(const ExtentTally& tally, Evidence evidence, std::size_t all, std::size_t in_image,
+             bool is_depth_known);
+
   [[nodiscard]] double fraction(PixelState state) const;
   /// Returns `count` as a fraction of the pixels inside.
   [[nodiscard]] double share(std::size_t count) const;
@@ -39,23 +44,28 @@ struct Visibility {
     return static_cast<double>(measured) < least * static_cast<double>(measured + unmeasured);
   }
   /// Returns the judgement by these thresholds, without a point, and updates `memory.level`.
-  [[nodiscard]] Judgement judge(const TargetThresholds& thresholds, TargetMemory& memory) const;
+  [[nodiscard]] Judgement judge(const LabelledImages& images, const TargetThresholds& thresholds,
+                                TargetMemory& memory) const;
   /// Turns up to `count` pixels of a state into unknown, and subtracts them from `count`.
   void mark_unknown(PixelState state, std::size_t& count);
   void mark_all_unknown();  ///< all clear and front pixels
 
-  Evidence evidence = Evidence::measured;
-  std::size_t covered = 0, inside = 0;
-  StateCounts pixels{};                ///< inside
-  std::size_t measured = 0, past = 0;  ///< as in ExtentTally
-  std::size_t unmeasured = 0;          ///< clear or front, and not measured, though depth is
-  bool is_expected = false;            ///< its depth is known
-  const LinkCounts* links = nullptr;
+  std::size_t covered, inside;
+  StateCounts pixels;          ///< inside
+  std::size_t measured, past;  ///< as in ExtentTally
+  std::size_t unmeasured = 0;  ///< clear or front, and not measured, though depth is
+  bool is_expected;            ///< its depth is known
+  const LinkCounts* links;
+  std::size_t needed = 0;  ///< of fewer pixels inside, nothing is known
   bool has_pose = true;
   bool has_whole = true;      ///< how much of it the robot may hide is known
   bool is_missing = false;    ///< its mask lacks pixels near the robot
   bool is_uncovered = false;  ///< most that is unknown lies where the lens model does not reach
 };
+
+/// Takes back what seems to be seen if a part of the robot is not drawn: it may be hidden by it,
+/// and any depth may be its own.
+void distrust(const LabelledImages& images, Judgement& judgement);
 
 /// A target and its frame.
 struct TargetInFrame {
