@@ -24,9 +24,9 @@ struct BagSourceOptions {
   std::optional<KnownCamera> camera = {};
   std::optional<CloudInputOptions> cloud = {};      ///< one of topics.clouds, in place of a camera
   std::vector<TransformMessage> static_transforms;  ///< see RobotInputOptions
-  std::optional<std::int64_t> first, end = {};  ///< the range of frames to read
-  std::string range_option = "--frames";        ///< that gave it, for messages
-  bool with_color = false;                      ///< with colour images, for pictures
+  std::optional<std::int64_t> first, end = {};      ///< the range of frames to read
+  std::string range_option = "--frames";            ///< that gave it, for messages
+  bool with_color = false;                          ///< with colour images, for pictures
 };
 
 /// Feeds a bag's messages to a FrameAssembler. Returns every depth image or cloud, numbered from 0

@@ -95,7 +95,8 @@ class SensorInput {
                   .camera_parent = mount.parent,
                   .camera_frame = mount.frame}};
     return std::make_shared<SensorSetup>(
-        robot_.posed(), std::move(sensor), std::move(mount), std::move(frame), queue, options.hidden_targets,
+        robot_.posed(), std::move(sensor), std::move(mount), std::move(frame), queue,
+        options.hidden_targets,
         [this](std::shared_ptr<Frame> of, DropReason reason) { drop(std::move(of), reason); },
         [this](const Frame& of, bool over) { return check(of, over); });
   }

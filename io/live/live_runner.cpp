@@ -104,8 +104,7 @@ CalibrationProgress LiveRunner::calibration_progress(std::size_t camera) {
   if (setup == nullptr || !setup->mount.frame.empty()) return of;  // its pose is TF's
   TransformAnswer tf;
   setup->posed->history.transforms().at(
-      0, inbox_.camera(camera).options().mount.frame_prefix + of.camera_parent, setup->frame,
-      tf);
+      0, inbox_.camera(camera).options().mount.frame_prefix + of.camera_parent, setup->frame, tf);
   if (tf.status == TransformStatus::ok)
     of.message += "; TF's pose is " + distance_text(*of.found, tf.T_target_source);
   return of;
