@@ -209,7 +209,7 @@ void ViewSource::print() {
   const CalibrationProgress of = calibration_->progress();
   std::cout << "calibration: " << of.message << '\n';
   if (!of.is_ready()) return;
-  const std::string& frame = judging_->camera().frame_id;
+  const std::string& frame = judging_->pipeline().report_camera().frame_id;
   std::cout << "ROS 2: "
             << io::static_transform_command(of.found->T_parent_camera, of.camera_parent,
                                             frame.empty() ? "camera_optical_frame" : frame)

@@ -22,7 +22,7 @@ class LiveWorker {
   /// those of each setup. `poses` guards the robot's poses; null: nobody changes them.
   /// `calibration` gets a camera's frames, too; may be null.
   LiveWorker(const LiveOptions& options, std::size_t sensor, PipelineConfig config,
-             std::mutex* poses, RunningCalibration* calibration)
+             std::mutex* poses, RunningCalibration* calibration = nullptr)
       : options_(options),
         sensor_(sensor),
         config_(std::move(config)),

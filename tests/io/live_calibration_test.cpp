@@ -89,12 +89,13 @@ class LiveCalibration : public testing::Test {
                     encoded(io::JointStateMessage{.header = {stamp_ + by * milliseconds, ""},
                                                   .names = {"turn", "elbow", "wrist"},
                                                   .positions = joints}));
+      const Image<std::uint8_t> grey(8, 8);
       if (with_depth)
         run_->say("/depth", encoded(io::image_message(io::MessageHeader{stamp_, "optical"}, "16UC1",
-                                                      depth.view())));
+                                                      std::as_const(depth).view())));
       else
         run_->say("/depth", encoded(io::image_message(io::MessageHeader{stamp_, "optical"}, "mono8",
-                                                      Image<std::uint8_t>(8, 8).view())));
+                                                      grey.view())));
       ++sent_;
       ASSERT_TRUE(wait_until([&] {
         return run_->with_inbox(
@@ -176,7 +177,7 @@ TEST_F(LiveCalibration, StartsFromTfAndIsAppliedWhenAsked) {
 
   const auto mount = [&] {
     return run_->with_inbox(
-        [](const io::LiveInbox& inbox) { return inbox.camera(0).setup()->sensor.mount; });
+        [](const io::LiveInbox& inbox) { return inbox.camera(0).setup()->mount; });
   };
   EXPECT_EQ(mount().source, "tf") << "nothing changes by itself";
   EXPECT_EQ(run_->apply_calibration(0), "");
