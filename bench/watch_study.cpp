@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Watches simulated cameras that stay, that are bumped, that drift, and whose clocks differ, beside
 // a swinging arm. Writes the tables of docs/calibration.md. usage: watch_study [FRAMES PER ROBOT
-// [MOTIONS PER ROBOT]]
+// [MOTIONS PER ROBOT]], or bumps [SEQUENCES PER ROBOT [still]]
 #include "simulated_cell.hpp"
 #include "study_page.hpp"
 
 #include <chrono>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <optional>
 
 #include <penumbra/calibration/watch.hpp>
@@ -232,12 +233,139 @@ class ClockStudy {
   std::vector<double> told_, off_;  // frames, milliseconds
 };
 
+/// Bumps of several sizes soon after the start, in whole images and in small ones, beside arms that
+/// swing all joints or only two.
+class BumpStudy {
+ public:
+  struct Case {
+    double position, rotation;      // metres, rad
+    int binned;                     // pixels that become one, in each direction
+    std::vector<double> told = {};  // frames after the bump
+    std::size_t false_alarms = 0, runs = 0;
+  };
+
+  explicit BumpStudy(const RobotChoice& choice) : choice_(choice) {}
+
+  void run(std::size_t sequences, std::vector<Case>& cases) {
+    for (std::size_t i = 0; i < sequences; ++i) follow(i, cases);
+  }
+
+ private:
+  static constexpr std::size_t looked_at = 4;  // the watch reads one depth image of so many
+  static constexpr std::size_t after = 300;    // frames
+
+  struct Bumped {
+    Camera camera;
+    Pipeline pipeline;
+    CalibrationWatch watch;
+    FrameReport report;
+    bool is_told = false;
+  };
+
+  void follow(std::size_t number, std::vector<Case>& cases) {
+    sim::Random random(number, 13);
+    const Setup setup{.name = "", .speed = random.uniform(0.1, 0.6)};
+    Cell cell(choice_, setup, number);
+    cell.start_swing();
+    const auto before = static_cast<std::size_t>(random.uniform(60.0, 300.0));
+    const auto any = [&] {
+      return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+    };
+    const Eigen::Vector3d direction = any(), axis = any();
+    std::vector<std::unique_ptr<Bumped>> all;
+    for (const Case& one : cases) {
+      const Intrinsics whole = Cell::intrinsics();
+      const auto by = static_cast<double>(one.binned);
+      const Camera camera{{whole.width() / one.binned, whole.height() / one.binned, whole.fx() / by,
+                           whole.fy() / by, whole.cx() / by, whole.cy() / by},
+                          {},
+                          {},
+                          {}};
+      all.push_back(std::make_unique<Bumped>(
+          Bumped{camera, Pipeline(cell.robot(), camera, {}), CalibrationWatch(camera), {}}));
+    }
+    std::vector<Eigen::Isometry3d> links(cell.robot().links().size());
+    KeptFrame frame;
+    for (std::size_t i = 0; i < before + after; ++i) {
+      frame.joints = cell.joints_at(1e-9 * static_cast<double>(period) * static_cast<double>(i));
+      if (number % 2 != 0) {
+        const std::vector<double> still = cell.joints_at(0.0);
+        for (std::size_t j = 2; j < frame.joints.size(); ++j) frame.joints[j] = still[j];
+      }
+      frame.index = i;
+      cell.robot().forward_kinematics(frame.joints, links);
+      if (i % looked_at == 0) cell.draw(frame);
+      for (std::size_t k = 0; k < cases.size(); ++k) {
+        Bumped& one = *all[k];
+        Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
+        if (i >= before) {
+          motion.translation() = cases[k].position * direction;
+          motion.linear() = Eigen::AngleAxisd(cases[k].rotation, axis).matrix();
+        }
+        const Eigen::Isometry3d said = cell.truth() * motion.inverse();
+        const auto stamp = period * static_cast<std::int64_t>(i);
+        Image<float> small;
+        if (i % looked_at == 0) {
+          small = binned(frame.depth, cases[k].binned);
+          one.report =
+              one.pipeline.process({.index = i,
+                                    .stamp = stamp,
+                                    .depth = std::as_const(small).view(),
+                                    .pose = {.positions = frame.joints, .T_parent_camera = said}});
+        }
+        one.report.index = i;
+        one.report.stamp = stamp;
+        one.report.T_root_link = links;  // of a fixed camera
+        one.report.T_root_camera = said;
+        one.watch.add(one.report);
+        const Drift& drift = one.watch.drift();
+        const bool is_told = drift.has_moved || drift.bumped_at;
+        if (i < before || cases[k].position == 0.0)
+          cases[k].false_alarms += is_told;
+        else if (is_told && !one.is_told)
+          cases[k].told.push_back(static_cast<double>(i - before + 1));
+        one.is_told |= is_told && i >= before;
+      }
+    }
+    for (Case& one : cases) ++one.runs;
+  }
+
+  static Image<float> binned(const Image<float>& depth, int by) {
+    Image<float> small(depth.width() / by, depth.height() / by);
+    for (int v = 0; v < small.height(); ++v)
+      for (int u = 0; u < small.width(); ++u) small(u, v) = depth(by * u, by * v);
+    return small;
+  }
+
+  const RobotChoice& choice_;
+};
+
+void study_bumps(std::size_t sequences, bool still) {
+  std::vector<BumpStudy::Case> cases;
+  for (const int binned : {1, 2})
+    for (const auto& [position, rotation] :
+         {std::pair{0.0, 0.0}, {0.003, 0.2}, {0.013, 1.25}, {0.03, 2.0}})
+      if (!still || position == 0.0) cases.push_back({position, rotation * degree, binned});
+  for (const RobotChoice& robot : robots()) BumpStudy(robot).run(sequences, cases);
+  for (BumpStudy::Case& one : cases)
+    std::cout << number(1e3 * one.position, 0) << " mm, " << number(one.rotation / degree, 2)
+              << " deg, binned " << one.binned << ": told " << one.told.size() << " of " << one.runs
+              << ", median " << number(median(one.told), 0) << ", 90 % "
+              << number(quantile(one.told, 0.9), 0) << ", most "
+              << number(quantile(one.told, 1.0), 0) << "; false in frames " << one.false_alarms
+              << std::endl;
+}
+
 void print(const std::vector<std::string>& row) {
   for (const std::string& cell : row) std::cout << cell << "  ";
   std::cout << std::endl;
 }
 
 int study_all(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "bumps") {
+    study_bumps(argc > 2 ? std::stoull(argv[2]) : 10, argc > 3);
+    return 0;
+  }
   const std::size_t frames = argc > 1 ? std::stoull(argv[1]) : 20000;
   const std::size_t motions = argc > 2 ? std::stoull(argv[2]) : 25;
   const auto page = std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md";

@@ -25,7 +25,7 @@ constexpr std::size_t period = 4;      // one of so many frames is compared, to 
 constexpr std::size_t samples = 80;    // pixels of the robot that are compared in it
 constexpr int least_step = 8;          // pixels between them
 constexpr float continuous = 0.02F;    // metres between neighbours of one surface
-constexpr double gate = 0.03;          // metres between measured and virtual depth
+constexpr double gate = 0.1;           // metres between measured and virtual depth
 constexpr float through = 0.05F;       // metres behind the surface
 constexpr double least_cosine = 0.35;  // of the angle between ray and normal
 constexpr double least_sigma = 5e-4;   // metres
@@ -34,7 +34,8 @@ constexpr double view_motion = 0.03;  // metres that a link moves in the camera 
 constexpr std::size_t view_frames = 8;
 constexpr double same_view = 0.01;  // metres
 constexpr std::size_t most_views = 256, least_views = 24;
-constexpr std::size_t solve_period = 5;  // frames
+constexpr std::size_t certain_views = 60;  // from so many on a motion without a bump is believed
+constexpr std::size_t solve_period = 5;    // frames
 
 constexpr double offset_prior = 0.01, scale_prior = 0.01, time_prior = 0.1;  // metres, 1, seconds
 
@@ -45,7 +46,8 @@ constexpr double time_step = 0.002, pose_step = 0.01;
 constexpr double clear_sigmas = 6.0;  // of the time offset, that chance does not reach
 constexpr double time_limit = 0.005;  // seconds: 5 mm of an arm at 1 m/s
 
-constexpr std::array<std::size_t, 6> recent{24, 32, 40, 48, 56, 64};  // views after a possible bump
+constexpr std::array<std::size_t, 7> recent{16, 20, 24, 32,
+                                            40, 52, 64};  // views after a possible bump
 constexpr double by_chance =
     56.0;  // squared Mahalanobis distance of six that chance does not reach
 
@@ -109,12 +111,15 @@ struct CalibrationWatch::State {
   void sample_at(int u, int v, const FrameReport& report);
   void accumulate(const FrameReport& report);
   void close(View& view);
+  void begin(View& view, std::size_t link, const FrameReport& report);
+  [[nodiscard]] std::vector<const View*> sorted_views() const;
   void estimate();
   void set(const Solution& pose, const Solution& clocks);
   [[nodiscard]] bool is_moved(const Solution& solution) const;
   [[nodiscard]] bool settle(const Solution& all);
   void look_for_bump();
-  void locate_bump(const Vector& before, const Vector& after);
+  void locate_bump(const std::vector<const View*>& sorted, const Vector& before,
+                   const Vector& after);
   [[nodiscard]] bool is_beyond_limits(const Twist& motion) const;
 
   Camera camera;
@@ -251,23 +256,42 @@ void CalibrationWatch::State::sample(const FrameReport& report) {
 }
 
 void CalibrationWatch::State::close(View& view) {
-  if (view.count > 0) {
-    const auto same = std::find_if(views.begin(), views.end(), [&](const View& other) {
-      return other.link == view.link &&
-             pose_difference(other.T_camera_link, view.T_camera_link) < same_view;
-    });
-    view.place = same == views.end() ? places++ : same->place;
-    views.push_back(view);
-    if (views.size() > most_views) views.pop_front();
-  }
+  if (view.count > 0) views.push_back(view);
+  if (views.size() > most_views) views.pop_front();
   view.count = 0;
+}
+
+void CalibrationWatch::State::begin(View& view, std::size_t link, const FrameReport& report) {
+  view = {};
+  view.link = link;
+  view.first_frame = frames;
+  view.index = report.index;
+  view.stamp = report.stamp;
+  view.T_camera_link = T_camera_link[link];
+  const auto same = std::ranges::find_if(views, [&](const View& other) {
+    return other.link == link &&
+           pose_difference(other.T_camera_link, view.T_camera_link) < same_view;
+  });
+  view.place = same == views.end() ? places++ : same->place;
+}
+
+/// Returns the views in the order of their first frames, open ones among them.
+std::vector<const View*> CalibrationWatch::State::sorted_views() const {
+  std::vector<const View*> all;
+  for (const View& view : views) all.push_back(&view);
+  for (const View& view : open)
+    if (view.count > 0) all.push_back(&view);
+  std::ranges::sort(all, {}, &View::first_frame);
+  return all;
 }
 
 void CalibrationWatch::State::accumulate(const FrameReport& report) {
   sizes.clear();
   for (const Sample& sample : found) sizes.push_back(std::abs(sample.value));
   if (sizes.empty()) return;
-  sigma += 0.05 * (std::max(least_sigma, detail::robust_sigma(sizes)) - sigma);
+  const double now = std::max(least_sigma, detail::robust_sigma(sizes));
+  sigma += 0.05 * (now - sigma);
+  const double scale = std::max(sigma, now);  // of a camera that was bumped, at once larger
   for (std::size_t link = 0; link < open.size(); ++link) {
     View& view = open[link];
     if (view.count == 0 || (frames - view.first_frame < view_frames &&
@@ -277,18 +301,11 @@ void CalibrationWatch::State::accumulate(const FrameReport& report) {
   }
   for (const Sample& sample : found) {
     const double inlier = detail::tukey_weight(
-        sample.value, detail::tukey_width * sigma + time_reach * std::abs(sample.row[time_offset]));
+        sample.value, detail::tukey_width * scale + time_reach * std::abs(sample.row[time_offset]));
     if (inlier == 0.0) continue;
     View& view = open[sample.link];
-    if (view.count == 0) {
-      view = {};
-      view.link = sample.link;
-      view.first_frame = frames;
-      view.index = report.index;
-      view.stamp = report.stamp;
-      view.T_camera_link = T_camera_link[sample.link];
-    }
-    const double weight = inlier / (sigma * sigma);
+    if (view.count == 0) begin(view, sample.link, report);
+    const double weight = inlier / (scale * scale);
     view.information += weight * sample.row * sample.row.transpose();
     view.gradient += weight * (sample.value - sample.row.dot(at)) * sample.row;
     view.last_index = report.index;
@@ -299,22 +316,20 @@ void CalibrationWatch::State::accumulate(const FrameReport& report) {
 /// Compares the last views with those long before, and forgets all but them if the camera has moved
 /// between.
 void CalibrationWatch::State::look_for_bump() {
-  if (views.size() < recent.back() + least_views) return;
-  std::vector<const View*> before, after;
-  for (auto view = views.begin(); view != views.end() - recent.back(); ++view)
-    before.push_back(&*view);
-  const auto earlier = solve(before, prior);
-  if (!earlier) return;
-  Prior sensor;  // its own errors stay
-  sensor.value.tail<3>() = earlier->value.tail<3>();
-  sensor.information.bottomRightCorner<3, 3>() =
-      earlier->covariance.bottomRightCorner<3, 3>().inverse();
+  const std::vector<const View*> all = sorted_views();
   for (const std::size_t last : recent) {
-    const std::size_t start = views[views.size() - last].first_frame;
-    after.clear();
-    for (const View& view : views)
-      if (view.first_frame >= start) after.push_back(&view);
-    const auto later = solve(after, sensor);
+    if (all.size() < last + least_views) return;
+    const auto from = all.end() - static_cast<std::ptrdiff_t>(last);
+    const std::size_t start = (*from)->first_frame;
+    const auto is_later = [&](const View* view) { return view->first_frame >= start; };
+    const auto first = std::ranges::find_if(all, is_later);
+    const auto earlier = solve({all.begin(), first}, prior);
+    if (!earlier) return;
+    Prior sensor;  // its own errors stay
+    sensor.value.tail<3>() = earlier->value.tail<3>();
+    sensor.information.bottomRightCorner<3, 3>() =
+        earlier->covariance.bottomRightCorner<3, 3>().inverse();
+    const auto later = solve({first, all.end()}, sensor);
     if (!later) continue;
     const Twist moved = (later->value - earlier->value).head<6>();
     if (!is_beyond_limits(moved) ||
@@ -322,19 +337,19 @@ void CalibrationWatch::State::look_for_bump() {
             by_chance)
       continue;
     is_bumped = true;
-    locate_bump(earlier->value, later->value);
+    locate_bump(all, earlier->value, later->value);
     prior = sensor;
     std::erase_if(views, [&](const View& view) { return view.first_frame < start; });
+    for (View& view : open)
+      if (view.first_frame < start) view.count = 0;
     return;
   }
 }
 
 /// Finds the frames at which the camera may have moved: where views change from one solution to the
 /// other.
-void CalibrationWatch::State::locate_bump(const Vector& before, const Vector& after) {
-  std::vector<const View*> sorted;
-  for (const View& view : views) sorted.push_back(&view);
-  std::ranges::sort(sorted, {}, &View::first_frame);
+void CalibrationWatch::State::locate_bump(const std::vector<const View*>& sorted,
+                                          const Vector& before, const Vector& after) {
   std::vector<double> squares{0.0};  // with the first so many views before
   for (const View* view : sorted)
     squares.push_back(squares.back() + view->rise(before) - view->rise(after));
@@ -372,15 +387,15 @@ bool CalibrationWatch::State::is_moved(const Solution& solution) const {
 }
 
 void CalibrationWatch::State::estimate() {
-  if (views.size() < least_views) return;
   if (is_settled && !drift.clocks_differ) look_for_bump();
-  std::vector<const View*> all;
-  for (const View& view : views) all.push_back(&view);
+  const std::vector<const View*> all = sorted_views();
+  if (all.size() < least_views) return;
   const auto both = solve(all, prior);
   if (!both || !settle(*both)) return;
   drift.is_known = true;
   set(*both, *both);
-  const bool is_off = is_moved(*both), is_late = is_beyond_chance(drift.time_offset);
+  const bool is_off = is_moved(*both) && (is_bumped || all.size() >= certain_views);
+  const bool is_late = is_beyond_chance(drift.time_offset);
   const bool is_unclear = is_off && is_late && both->is_both();
   const bool is_amount_known =
       drift.position() > drift.position_error() || drift.rotation() > drift.rotation_error();
