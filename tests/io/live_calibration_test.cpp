@@ -68,6 +68,7 @@ class LiveCalibration : public testing::Test {
 
   /// Shows the i-th pose twice, as an arm that stands still, and waits until it is judged.
   void play(int i, bool with_joints = true, bool with_depth = true) {
+    const Image<std::uint8_t> other(8, 8);
     std::vector<double> joints{0.5 * std::sin(1.7 * i), 0.8 * std::cos(1.1 * i),
                                0.9 * std::sin(0.6 * i)};
     std::vector<Isometry3d> poses(robot_.links().size());
@@ -89,13 +90,12 @@ class LiveCalibration : public testing::Test {
                     encoded(io::JointStateMessage{.header = {stamp_ + by * milliseconds, ""},
                                                   .names = {"turn", "elbow", "wrist"},
                                                   .positions = joints}));
-      const Image<std::uint8_t> grey(8, 8);
       if (with_depth)
         run_->say("/depth", encoded(io::image_message(io::MessageHeader{stamp_, "optical"}, "16UC1",
                                                       std::as_const(depth).view())));
       else
         run_->say("/depth", encoded(io::image_message(io::MessageHeader{stamp_, "optical"}, "mono8",
-                                                      grey.view())));
+                                                      other.view())));
       ++sent_;
       ASSERT_TRUE(wait_until([&] {
         return run_->with_inbox(
