@@ -2,6 +2,7 @@
 // Forecasts of a planned motion in the reports of frames, in a scene whose depth a formula tells.
 #include "slab_scene.hpp"
 
+#include <penumbra/planning/plan_forecast.hpp>
 #include <penumbra/session/session.hpp>
 
 namespace penumbra::test {
