@@ -87,14 +87,12 @@ io::RunInput open_one(const io::InputOptions& options, const io::LineSink& print
                    "); choose one with BagOptions.cloud_topics");
 }
 
-template <typename T>
-auto of_camera(T io::RunInput::*member) {
-  return [member](const Input& self) {
-    if (!self.camera)
-      throw py::value_error(
-          "the input is of a sensor of points and has no camera: Session(robot, cloud)");
-    return self.*member;
-  };
+/// Returns an input that has a camera.
+const Input& with_camera(const Input& self) {
+  if (!self.camera)
+    throw py::value_error(
+        "the input is of a sensor of points and has no camera: Session(robot, cloud)");
+  return self;
 }
 
 std::shared_ptr<Input> open(const std::filesystem::path& path, bool color,
@@ -192,8 +190,9 @@ void bind_input_classes(py::module_& m) {
   using I = Input;
   show_properties(
       input, Field{"robot", &I::robot, "The robot."},
-      Field{"camera", of_camera(&I::camera), "Of the judged images."},
-      Field{"config", of_camera(&I::config),
+      Field{"camera", [](const Input& self) { return *with_camera(self).camera; },
+            "Of the judged images."},
+      Field{"config", [](const Input& self) { return with_camera(self).config; },
             "Defaults of a session with the input's own settings."},
       Field{
           "cloud",
