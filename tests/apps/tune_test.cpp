@@ -161,9 +161,9 @@ TEST_F(TuneTest, FindsWhatTheUrdfLacks) {
 using Tune = TinyTest;
 
 TEST_F(Tune, RefusesWithOneLine) {
-  expect_all_refused([](const Words& line) { return penumbra(Words{"tune"} + line); },
-                     {{{path(), "-o", out(), "--frames", "0:1"}, "the arm does not move"},
-                      {{path()}, "--output"}});
+  expect_all_refused(
+      [](const Words& line) { return penumbra(Words{"tune"} + line); },
+      {{{path(), "-o", out(), "--frames", "0:1"}, "different poses"}, {{path()}, "--output"}});
 }
 
 using Extra = TinyTest;

@@ -86,7 +86,8 @@ TEST_F(LivePage, ShowsTheValuesThatWereJudged) {
   EXPECT_EQ(packet->json["live"]["dropped"], 0);
   EXPECT_EQ(packet->json["live"]["calibration"], nullptr);  // not known after one frame
   const json session = answer("/api/session");
-  EXPECT_EQ(session["parts"], json({"color", "labels", "links", "vdi", "depth", "cloud"}));
+  EXPECT_EQ(session["parts"],
+            json({"color", "labels", "links", "vdi", "depth", "outlines", "cloud"}));
   EXPECT_EQ(session["camera"]["width"], 64);
   EXPECT_EQ(session["links"], json({"base", "board"}));
 }
