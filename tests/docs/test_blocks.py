@@ -19,7 +19,7 @@ from penumbra import datasets
 from blocks import DOCUMENTS, ROOT, all_blocks, blocks_of
 from conftest import SHIPPED, in_folder
 
-KNOWN = ("", "sh", "python", "cpp", "cmake", "yaml", "json", "csv")
+KNOWN = ("", "sh", "python", "cpp", "cmake", "yaml", "json", "csv", "text")
 
 
 def test_every_block_is_of_a_language_that_is_tested():
