@@ -49,8 +49,9 @@ Diagnosis SetupCheck::diagnose() const {
 }
 
 std::vector<std::string> SetupCheck::missing_parts(int fringe_reach) const {
-  if (is_scanner_) return {};  // the fringe of scans has other causes
-  return penumbra::missing_parts(kept_.frames(), robot_, fringe_reach / kept_.block());
+  if (is_scanner_) return {};                      // the fringe of scans has other causes
+  const int reach = fringe_reach / kept_.block();  // of the kept images
+  return penumbra::missing_parts(kept_.frames(), robot_, reach);
 }
 
 }  // namespace penumbra
