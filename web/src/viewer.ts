@@ -97,9 +97,9 @@ export class Viewer {
   requestedParts(withValues: boolean): PartName[] {
     // Live, the page draws the overlay: labels are smaller than an image.
     const available = this.session.parts.filter((part) => !this.isLive || part !== 'overlay');
-    const layers = withValues ? valueParts : this.image.requestedParts(available);
-    const hasCloud = this.scene && !this.scene.hidden.has('cloud');
-    const parts = new Set<PartName>(hasCloud ? [...layers, 'cloud'] : layers);
+    const parts = new Set<PartName>(this.image.requestedParts(available));
+    if (withValues) for (const part of valueParts) parts.add(part);
+    if (this.scene && !this.scene.hidden.has('cloud')) parts.add('cloud');
     return available.filter((part) => parts.has(part)).sort();
   }
 

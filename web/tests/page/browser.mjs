@@ -64,8 +64,8 @@ export async function stopTime(context) {
 }
 
 /** Starts `penumbra view`, or another command, and waits until all frames are judged. */
-export async function serve(input, port = '0', command = 'view') {
-  const child = spawn(program, [command, input, '--port', port], {
+export async function serve(input, port = '0', command = 'view', ...options) {
+  const child = spawn(program, [command, input, '--port', port, ...options], {
     stdio: ['ignore', 'pipe', 'pipe'],
   });
   const lines = createInterface({ input: child.stdout });

@@ -8,6 +8,7 @@ import { test } from 'node:test';
 import {
   desktop,
   drawn,
+  example,
   open,
   root,
   serve,
@@ -189,6 +190,34 @@ test('without the robot, only clear and front points and pixels remain', () =>
     const alpha = await alphaOf(page, 'image-above');
     assert.ok(alpha.every((a) => a === 255));
   }));
+
+test('the overlay has the outlines of a calibration, also once values are there', async () => {
+  const server = await serve(example, '0', 'view', '--calibrate');
+  try {
+    const packetOf = async (parts) =>
+      (await (await fetch(new URL(`/api/frames/3/packet?with=${parts}`, server.url))).arrayBuffer())
+        .byteLength;
+    const withoutParts = await packetOf('');
+    // The pose is found after the frames were judged.
+    while ((await packetOf('outlines')) === withoutParts)
+      await new Promise((resolve) => setTimeout(resolve, 100));
+    const { page, faults, close } = await open(shared.browser, `${server.url}#frame=3`);
+    await showsFrame(page, 3);
+    const hasOutlines = async () => {
+      const legend = await page.locator('#image-legend').textContent();
+      assert.match(legend, /pose in use.*found pose/);
+    };
+    await hasOutlines();
+    const box = await page.locator('#image-frame').boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.waitForFunction(() => document.getElementById('read-measured').textContent !== '–');
+    await hasOutlines();
+    assert.deepEqual(faults, []);
+    await close();
+  } finally {
+    await server.stop();
+  }
+});
 
 test('the overlay has outlines and names of targets', () =>
   withPage('/#frame=3&target=cube', desktop, async (page) => {
