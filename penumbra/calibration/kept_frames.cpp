@@ -126,6 +126,10 @@ bool KeptFrames::wants(const KeptFrame& frame) const {
 void KeptFrames::add(KeptFrame frame) {
   frame.nearby.assign(recent_.begin(), recent_.end());
   const bool has_moved_only = !has_rested();
+  if (options_.choice == Choice::rest_first && frame.is_resting)
+    std::erase_if(frames_, [&](const KeptFrame& kept) {
+      return !kept.is_resting && pose_difference(kept.T_root_link, frame.T_root_link) < motion_;
+    });
   frames_.push_back(std::move(frame));
   if (has_moved_only && has_rested()) {
     std::erase_if(frames_, [](const KeptFrame& kept) { return !kept.is_resting; });

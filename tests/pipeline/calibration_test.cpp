@@ -308,6 +308,20 @@ TEST(KeptFrames, FramesAtRestAreTakenBeforeOthers) {
   EXPECT_TRUE(frames.notes().empty());
 }
 
+TEST(KeptFrames, OneAtRestTakesThePlaceOfAMovingOneOfItsPose) {
+  const Robot robot = load_arm();
+  const Image<float> depth(8, 6);
+  KeptFrames frames(robot, tiny_camera, {.choice = KeptFrames::Choice::rest_first});
+  std::vector<double> joints = robot.rest_positions();
+  for (int i = 0; i < 5; ++i) {
+    if (i == 1) joints[1] += 0.2;  // then it rests
+    auto kept = frames.pass(frame_at(i * 100 * ms, joints, &depth));
+    if (kept) frames.add(*std::move(kept));
+  }
+  ASSERT_EQ(frames.frames().size(), 2U) << "as many as different poses";
+  EXPECT_TRUE(frames.frames().back().is_resting);
+}
+
 TEST(CalibrationWatch, LimitsArePositive) {
   const Camera camera{Intrinsics(64, 48, 50, 50, 32, 24), {}, {}, {}};
   EXPECT_NO_THROW(CalibrationWatch watch(camera));

@@ -118,10 +118,9 @@ TEST_F(NodeTest, CalibratesWhileItRunsAndAppliesWhenAsked) {
   const auto resting = ask(false, false);
   ASSERT_TRUE(resting);
   EXPECT_TRUE(resting->success);
-  EXPECT_GE(resting->poses, 1U);  // more where images of other poses came first
-  if (resting->poses < 3) {
-    EXPECT_NE(resting->message.find("move the robot"), std::string::npos) << resting->message;
-  }
+  EXPECT_GE(resting->poses, 1U);
+  EXPECT_LE(resting->poses, 2U) << "one of start() may come late";
+  EXPECT_NE(resting->message.find("move the robot"), std::string::npos) << resting->message;
 
   for (std::size_t i = 0; i < player_->reader.size(); ++i) ASSERT_TRUE(labels_of(i)) << i;
   Calibrate::Response::SharedPtr found;
