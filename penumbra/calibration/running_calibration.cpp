@@ -36,7 +36,7 @@ std::string poses_text(std::size_t poses) {
 /// Tells what was found, where the given pose is, and what would help.
 std::string result_text(const Calibration& found, const std::optional<Eigen::Isometry3d>& given) {
   if (!found.is_good()) return "no good pose yet: " + joined(found.faults);
-  std::string text = "a good pose is found, within " +
+  std::string text = "a good pose is found by " + poses_text(found.frames.size()) + ", within " +
                      mm_and_degrees(found.position_error(), found.rotation_error()) + " (95 %)";
   if (given) text += "; the pose in use is " + distance_text(found, *given);
   return text + (found.notes.empty() ? "" : "; " + joined(found.notes));

@@ -5,7 +5,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/ray_targets-inl.hpp>
-#include <penumbra/targets/target_visibility.hpp>
+#include <penumbra/targets/extent_tally.hpp>
 
 namespace penumbra {
 namespace {
@@ -109,16 +109,16 @@ Judgement judge_on_rays(const Scan& scan, const LabelledImages& images, const To
                              static_cast<float>(*entry + margin)};
     const PixelState state =
         state_of(static_cast<Label>(labels[i]), range, limits, target.thresholds.beyond_hides);
+    tally.covered = ++tally.inside;
     ++tally.pixels[state];
     if (state == PixelState::occluded) tally.links.add(images.virtual_depth.links.data[i], 1);
     if (!is_seen(state)) continue;
     ++tally.measured;
     if (range > static_cast<double>(limits.far)) ++tally.past;
   }
-  const std::size_t met = tally.pixels.total();
-  Visibility visibility(tally, Evidence::measured, met, met, true);
-  visibility.needed = target.thresholds.point_min_pixels;
-  return visibility.judge(images, target.thresholds, memory);
+  tally.is_expected = true;
+  tally.needed = target.thresholds.point_min_pixels;
+  return judgement_of(tally, images, target.thresholds, memory);
 }
 
 }  // namespace penumbra

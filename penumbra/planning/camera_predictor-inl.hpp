@@ -24,7 +24,6 @@
 #include <penumbra/targets/object_renderers.hpp>
 #include <penumbra/targets/region_spans.hpp>
 #include <penumbra/targets/target_views.hpp>
-#include <penumbra/targets/target_visibility.hpp>
 
 namespace penumbra::planning {
 

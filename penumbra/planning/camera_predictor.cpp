@@ -341,23 +341,25 @@ Prediction CameraPredictor::judge(std::size_t target, bool is_near) {
   if (!shown.fault.empty()) return {.reason = shown.fault};
   Prediction prediction{.verdict = Verdict::out_of_view, .clearance = free_};
   if (shown.spans.empty()) return prediction;
-  tally_.clear();
-  tally_.pixels[PixelState::clear] = shown.inside;
-  if (is_near)
+  if (is_near) {
     tally_extent({images_, label_rule_, true}, shown.spans, shown.expected, false, nullptr, tally_);
-  const bool is_expected = shown.expected.known();
-  const Visibility visibility(tally_, images_.evidence, shown.covered, shown.inside, is_expected);
+  } else {
+    tally_.clear();
+    tally_.inside = tally_.pixels[PixelState::clear] = shown.inside;
+    tally_.is_expected = shown.expected.known();
+  }
+  tally_.covered = shown.covered;
   TargetMemory none;
-  Judgement judgement = visibility.judge(images_, targets_[target].thresholds, none);
+  Judgement judgement = judgement_of(tally_, images_, targets_[target].thresholds, none);
   distrust(images_, judgement);
   prediction.verdict = judgement.verdict;
   prediction.hidden = judgement.occluded;
   prediction.reason = std::move(judgement.reason);
   if (!judgement.blame.empty()) prediction.by = std::move(judgement.blame.front().name);
-  const PixelState blocked = is_expected ? PixelState::occluded : PixelState::unknown;
+  const PixelState blocked = tally_.is_expected ? PixelState::occluded : PixelState::unknown;
   if (is_near && clearance_ > 0)
-    prediction.clearance = clearance_of_.measure(shown, images_.virtual_depth,
-                                                 visibility.pixels[blocked] > 0, clearance_);
+    prediction.clearance =
+        clearance_of_.measure(shown, images_.virtual_depth, tally_.pixels[blocked] > 0, clearance_);
   return prediction;
 }
 

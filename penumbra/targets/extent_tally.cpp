@@ -329,10 +329,10 @@ void tally_extent(const TalliedFrame& frame, std::span<const RowSpan> spans,
                   const ExpectedDepth& expected, bool beyond_hides, RobotSurroundings* robot,
                   ExtentTally& tally) {
   tally.clear();
+  tally.is_expected = expected.known();
+  for (const RowSpan& span : spans) tally.inside += static_cast<std::size_t>(span.u1 - span.u0);
   if (spans.empty()) return;
-  std::size_t pixels = 0;
-  for (const RowSpan& span : spans) pixels += static_cast<std::size_t>(span.u1 - span.u0);
-  tally.step = static_cast<int>((pixels + max_depth_samples - 1) / max_depth_samples);
+  tally.step = static_cast<int>((tally.inside + max_depth_samples - 1) / max_depth_samples);
   RobotSurroundings* const near = robot != nullptr ? robot_near(frame, spans, *robot) : nullptr;
   with_limits(*frame.rule, expected, [&](const auto& limits_of) {
     if (!frame.is_measured()) {
@@ -349,7 +349,10 @@ void tally_extent(const TalliedFrame& frame, std::span<const RowSpan> spans,
           }
         },
         frame.images.measured);
+    tally.unmeasured = tally.seen() - tally.measured;
   });
+  if (std::size_t all = tally.inside; frame.images.evidence == Evidence::none)
+    tally.mark_unknown(PixelState::clear, all);
 }
 
 }  // namespace penumbra

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the pixels of an extent by state and collects their depths.
+// Counts the pixels of an extent by state, collects their depths, and says the verdict.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -98,9 +97,6 @@ struct StateCounts {
   [[nodiscard]] std::size_t operator[](PixelState state) const {
     return counts[static_cast<std::size_t>(state)];
   }
-  [[nodiscard]] std::size_t total() const {
-    return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
-  }
 
   std::array<std::size_t, state_count> counts{};
 };
@@ -109,26 +105,66 @@ struct StateCounts {
 /// their spread.
 inline constexpr std::size_t max_depth_samples = 1000;
 
-/// The counts and depths of an extent.
+/// What the robot and other objects leave of an extent: numbers of pixels, or of rays, and depths.
 struct ExtentTally {
   explicit ExtentTally(std::size_t link_count) : links(link_count) {
     depths.reserve(2 * max_depth_samples);  // enough for any outline
   }
 
-  void clear() {
-    pixels = {};
-    measured = past = 0;
-    links.clear();
-    depths.clear();
+  void clear();
+  /// Returns `count` as a fraction of the pixels inside.
+  [[nodiscard]] double share(std::size_t count) const {
+    return inside == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(inside);
   }
+  [[nodiscard]] double fraction(PixelState state) const { return share(pixels[state]); }
+  [[nodiscard]] double hidden(bool others_hide) const {
+    return fraction(PixelState::occluded) + (others_hide ? fraction(PixelState::other) : 0.0);
+  }
+  [[nodiscard]] std::size_t seen() const {
+    return pixels[PixelState::clear] + pixels[PixelState::front];
+  }
+  /// Returns whether at least `limit` of the measured pixels are behind the expected depth.
+  [[nodiscard]] bool is_passed(double limit) const {
+    return past > 0 && limit < 1 &&
+           static_cast<double>(past) >= limit * static_cast<double>(measured);
+  }
+  /// Returns whether less than `least` of what is seen is measured.
+  [[nodiscard]] bool is_unmeasured(double least) const {
+    return static_cast<double>(measured) < least * static_cast<double>(measured + unmeasured);
+  }
+  [[nodiscard]] bool is_out_of_view(const TargetThresholds& thresholds) const {
+    return static_cast<double>(inside) <= thresholds.min_inside * static_cast<double>(covered);
+  }
+  /// Turns up to `count` pixels of a state into unknown, and subtracts them from `count`.
+  void mark_unknown(PixelState state, std::size_t& count);
 
-  StateCounts pixels;
-  std::size_t measured = 0;   ///< clear or front, and measured
-  std::size_t past = 0;       ///< of these, behind the expected depth
-  LinkCounts links;           ///< that hide
-  std::vector<float> depths;  ///< metres; trusted depths of one pixel in `step`
+  std::size_t covered = 0, inside = 0;  ///< as in Judgement
+  StateCounts pixels;                   ///< inside
+  std::size_t measured = 0;             ///< clear or front, and measured
+  std::size_t past = 0;                 ///< of these, behind the expected depth
+  std::size_t unmeasured = 0;           ///< clear or front, and not measured, though depth is
+  LinkCounts links;                     ///< that hide
+  std::vector<float> depths;            ///< metres; trusted depths of one pixel in `step`
   int step = 1;
+  std::size_t needed = 0;    ///< of fewer pixels inside, nothing is known
+  bool is_expected = false;  ///< its depth is known
+  bool has_pose = true;
+  bool has_whole = true;      ///< how much of it the robot may hide is known
+  bool is_missing = false;    ///< its mask lacks pixels near the robot
+  bool is_uncovered = false;  ///< most that is unknown lies where the lens model does not reach
 };
+
+/// Returns the judgement of a tally by these thresholds, without a point, and updates
+/// `memory.level`.
+[[nodiscard]] Judgement judgement_of(const ExtentTally& tally, const LabelledImages& images,
+                                     const TargetThresholds& thresholds, TargetMemory& memory);
+
+/// Takes back what seems to be seen if a part of the robot is not drawn: it may be hidden by it,
+/// and any depth may be its own.
+void distrust(const LabelledImages& images, Judgement& judgement);
+
+/// Throws InputError for numbers out of range, and for what a rendered region cannot have.
+void check_view(const TargetView& target);
 
 /// A target's expected depth, checked.
 struct ExpectedDepth {
@@ -159,9 +195,9 @@ void for_each_part(const TileMask* tiles, const RowSpan& span, F&& f) {
 
 class RobotSurroundings;
 
-/// Counts the pixels of an extent; the frame's pose must be known. If `robot` is not null, also
-/// collects depths that are labelled clear or front, lie within the limits of the expected depth
-/// and cannot be the robot's.
+/// Counts the pixels of an extent, all but `covered`; the frame's pose must be known. If `robot` is
+/// not null, also collects depths that are labelled clear or front, lie within the limits of the
+/// expected depth and cannot be the robot's.
 void tally_extent(const TalliedFrame& frame, std::span<const RowSpan> spans,
                   const ExpectedDepth& expected, bool beyond_hides, RobotSurroundings* robot,
                   ExtentTally& tally);

@@ -5,19 +5,54 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <span>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include <penumbra/base/statistics-inl.hpp>
+#include <penumbra/targets/extent_tally.hpp>
 #include <penumbra/targets/target_judge.hpp>
-#include <penumbra/targets/target_visibility.hpp>
 #include <penumbra/targets/trusted_depth.hpp>
 
 namespace penumbra {
 namespace {
+
+/// Accuracy of masks, pixels: networks produce them at a quarter of the image's size.
+constexpr int mask_error = 4;
+
+/// Rounding of widths and heights, pixels.
+constexpr int rounding = 1;
+
+/// By which a remembered extent is scaled at most, to stay within integers.
+constexpr double largest_scale = 100.0;
+
+Eigen::Array2d first_of(const PixelRectangle& box) { return {box.u0, box.v0}; }
+Eigen::Array2d end_of(const PixelRectangle& box) { return {box.u1, box.v1}; }
+Eigen::Array2d size_of(const PixelRectangle& box) { return end_of(box) - first_of(box); }
+
+/// Returns the factor from a remembered extent to its size at the target's depth; 1 if a depth is
+/// unknown.
+double scale_of(const TargetMemory& memory, const TargetView& target) {
+  if (!memory.depth || !target.expected_depth) return 1.0;
+  return std::clamp(*memory.depth / *target.expected_depth, 1 / largest_scale, largest_scale);
+}
+
+/// Returns whether a size exceeds that of the whole object in a direction, so that it is another's.
+bool outgrows(const Eigen::Array2d& size, const Eigen::Array2d& whole, const TargetThresholds& t) {
+  return (size > (1 + 0.5 * t.partial_enter) * whole + rounding).any();
+}
+
+/// Returns whether a size lacks more in one direction than in the other, so that something covers
+/// the object. One that moves away shrinks in both.
+bool is_covered(const Eigen::Array2d& size, const Eigen::Array2d& whole,
+                const TargetThresholds& t) {
+  const Eigen::Array2d ratio = size / whole;
+  return !outgrows(size, whole, t) &&
+         ratio.maxCoeff() - ratio.minCoeff() > 2 * mask_error / whole.minCoeff();
+}
 
 LabelRule checked_rule(const LabelRule& rule) {
   rule.check();
@@ -77,45 +112,24 @@ float median_size(std::vector<float>& values) {
 
 }  // namespace
 
-void check_view(const TargetView& target) {
-  const bool rendered = std::holds_alternative<RenderedRegion>(target.region);
-  const std::optional<double>& depth = target.expected_depth;
-  const double most = static_cast<double>(RenderedRegion::max_depth);
-  if (rendered && target.extent == Extent::modal)
-    region_fault("a rendered region is the full extent: amodal");
-  if (rendered && depth) region_fault("a rendered region has its own expected depth: give none");
-  if (rendered && target.thresholds.min_inside > 0)
-    region_fault("min_inside ", target.thresholds.min_inside,
-                 ": what of a rendered region lies outside of the image is not known: must be 0");
-  if (depth && !(*depth > 0 && *depth <= most))
-    region_fault("expected depth ", *depth, " m: must be above 0 and up to ", most);
-  if (!(target.depth_margin >= 0 && target.depth_margin <= most))
-    region_fault("depth margin ", target.depth_margin, " m: must be 0 to ", most);
-  if (target.point_pixel && !target.point_pixel->allFinite())
-    region_fault("point pixel: must be numbers");
-  if (target.motion && !(target.motion->cwiseAbs().maxCoeff() <= max_coordinate))
-    region_fault("motion: must be numbers up to ", max_coordinate, " pixels");
-  target.thresholds.check();
-}
-
-void TargetThresholds::check() const {
-  check_settings(*this);
-  const auto check_order = [](const char* low_name, double low, const char* high_name,
-                              double high) {
-    if (low > high) region_fault(low_name, ' ', low, ": must not exceed ", high_name, ' ', high);
-  };
-  check_order("partial_leave", partial_leave, "partial_enter", partial_enter);
-  check_order("hidden_leave", hidden_leave, "hidden_enter", hidden_enter);
-  check_order("partial_enter", partial_enter, "hidden_enter", hidden_enter);
-  check_order("partial_leave", partial_leave, "hidden_leave", hidden_leave);
-}
-
 struct TargetJudge::State {
   State(const Camera& camera_, const LabelRule& rule, std::size_t links,
         ImageView<const std::uint8_t> unseen);
 
   Judgement judge(const TargetView& target, TargetMemory& memory);
   Judgement judge_at_depth(const TargetView& target, TargetMemory& memory);
+  void fill(const Region& region);
+  [[nodiscard]] std::optional<double> depth_by_height(const TargetView& target,
+                                                      const TargetMemory& memory) const;
+  ExtentTally& observe(const TargetView& target, const ExpectedDepth& expected,
+                       TargetMemory& memory);
+  ExtentTally& observe_modal(const TargetView& target, const ExpectedDepth& expected,
+                             TargetMemory& memory);
+  [[nodiscard]] bool place_whole(const TargetView& target, const TargetMemory& memory,
+                                 const PixelRectangle& box);
+  [[nodiscard]] bool holds_robot(const ExpectedDepth& expected, const PixelRectangle& box) const;
+  [[nodiscard]] bool reaches_border() const;
+  void remember(const TargetView& target, TargetMemory& memory) const;
   void add_point(const TargetView& target, Judgement& judgement);
 
   Camera camera;
@@ -123,7 +137,13 @@ struct TargetJudge::State {
   TalliedFrame frame;
   bool has_frame = false;
   RobotSurroundings robot;
-  ExtentObserver observer;
+  SeenPixels seen_pixels;
+  RegionSpans seen, whole;  // the given extent, and the remembered one
+  ExtentTally seen_tally, whole_tally;
+  // Of the last modal extent:
+  Eigen::Array2d whole_size{0, 0};  // pixels, of the remembered extent; 0: none
+  Eigen::Vector2d moved{0, 0};      // of that
+  bool is_near_robot = false;
 };
 
 TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, std::size_t links,
@@ -132,7 +152,11 @@ TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, st
       rule(checked_rule(label_rule)),
       frame({}, rule, !unseen.empty()),
       robot(camera.intrinsics.width(), camera.intrinsics.height(), label_rule),
-      observer(camera.intrinsics.width(), camera.intrinsics.height(), links, SeenPixels(unseen)) {}
+      seen_pixels(unseen),
+      seen(camera.intrinsics.width(), camera.intrinsics.height()),
+      whole(seen),
+      seen_tally(links),
+      whole_tally(links) {}
 
 TargetJudge::TargetJudge(const Camera& camera, const LabelRule& rule, std::size_t links,
                          ImageView<const std::uint8_t> unseen)
@@ -174,40 +198,174 @@ Judgement TargetJudge::judge(const TargetView& target) {
 Judgement TargetJudge::State::judge(const TargetView& target, TargetMemory& memory) {
   check_view(target);
   if (!target.height || target.expected_depth) return judge_at_depth(target, memory);
-  observer.fill(target.region);
+  fill(target.region);
   TargetView placed = target;
-  placed.expected_depth =
-      observer.depth_by_height({frame, target, {}, robot, false}, memory, camera.intrinsics.fy());
+  placed.expected_depth = depth_by_height(target, memory);
   return judge_at_depth(placed, memory);
 }
 
 Judgement TargetJudge::State::judge_at_depth(const TargetView& target, TargetMemory& memory) {
-  const ExpectedDepth expected = expected_of(target);
-  observer.fill(target.region);
-  const bool wants_depths = target.wants_point && frame.is_measured();
-  Visibility visibility = observer.observe({frame, target, expected, robot, wants_depths}, memory);
-  const std::size_t unknown = visibility.pixels[PixelState::unknown];
-  visibility.is_uncovered = unknown > 0 && !camera.distortion.is_none() &&
-                            is_uncovered(frame, observer.seen().spans(), unknown);
-  Judgement judgement = visibility.judge(frame.images, target.thresholds, memory);
+  fill(target.region);
+  ExtentTally& tally = observe(target, expected_of(target), memory);
+  const std::size_t unknown = tally.pixels[PixelState::unknown];
+  tally.is_uncovered =
+      unknown > 0 && !camera.distortion.is_none() && is_uncovered(frame, seen.spans(), unknown);
+  Judgement judgement = judgement_of(tally, frame.images, target.thresholds, memory);
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
-    observer.remember(target, memory);
+    remember(target, memory);
   distrust(frame.images, judgement);
-  if (wants_depths) add_point(target, judgement);
+  if (target.wants_point && frame.is_measured()) add_point(target, judgement);
   return judgement;
+}
+
+void TargetJudge::State::fill(const Region& region) {
+  seen.fill(region);
+  seen.keep(seen_pixels);
+}
+
+/// Returns whether robot that may hide the target lies in a box, which is clipped to the image.
+bool TargetJudge::State::holds_robot(const ExpectedDepth& expected,
+                                     const PixelRectangle& box) const {
+  const auto& depth = expected.constant;
+  const float far = depth ? LimitRule(rule, expected.margin).at(*depth).far
+                          : std::numeric_limits<float>::infinity();
+  if (!frame.robot_may_lie_in(box)) return false;
+  const auto [u0, v0, u1, v1] = overlap(box, frame.image());
+  for (int v = v0; v < v1; ++v)
+    if (frame.robot_lies_in({v, u0, u1}, far)) return true;
+  return false;
+}
+
+/// Returns the expected depth of an object of known height, metres, or the remembered one where a
+/// modal region may be cut.
+std::optional<double> TargetJudge::State::depth_by_height(const TargetView& target,
+                                                          const TargetMemory& memory) const {
+  if (seen.spans().empty() || !frame.has_pose()) return memory.depth;
+  const PixelRectangle box = box_of_spans(seen.spans());
+  if (target.extent == Extent::modal) {
+    // As in observe_modal, which judges what is near the robot by the whole extent alone.
+    Eigen::Array2d around(robot.reach(), robot.reach());
+    if (!memory.whole.empty())
+      around = 2 * around + (size_of(box_of_spans(memory.whole)) - size_of(box)).max(0);
+    const PixelRectangle near =
+        grown(box, static_cast<int>(around.x()), static_cast<int>(around.y()));
+    if (reaches_border() || holds_robot({}, near)) return memory.depth;
+  }
+  const auto* const exact = std::get_if<PixelBox>(&target.region);
+  const double height = exact != nullptr ? exact->height : size_of(box).y();
+  return camera.intrinsics.fy() * *target.height / height;
+}
+
+/// Returns the tally of the region of fill(), or of the whole extent that it is a part of. Forgets
+/// the remembered extent if the region is of another object.
+ExtentTally& TargetJudge::State::observe(const TargetView& target, const ExpectedDepth& expected,
+                                         TargetMemory& memory) {
+  ExtentTally& tally = seen_tally;
+  if (frame.has_pose()) {
+    const bool wants_depths = target.wants_point && frame.is_measured();
+    tally_extent(frame, seen.spans(), expected, target.thresholds.beyond_hides,
+                 wants_depths ? &robot : nullptr, tally);
+  } else {
+    tally.clear();
+    tally.inside = tally.pixels[PixelState::unknown] = seen.inside();
+    tally.has_pose = false;
+  }
+  tally.covered = seen.covered();
+  const bool is_modal = target.extent == Extent::modal && frame.has_pose();
+  return is_modal ? observe_modal(target, expected, memory) : tally;
+}
+
+/// What is missing of the last whole extent is unknown where the robot may hide it.
+ExtentTally& TargetJudge::State::observe_modal(const TargetView& target,
+                                               const ExpectedDepth& expected,
+                                               TargetMemory& memory) {
+  is_near_robot = false;
+  if (seen_tally.is_out_of_view(target.thresholds)) return seen_tally;
+  const PixelRectangle box = box_of_spans(seen.spans());
+  const bool is_there = place_whole(target, memory, box);
+  // Masks may keep away from what hides their targets, and shrink before it touches them.
+  const int reach = memory.whole.empty() ? robot.reach() : 2 * robot.reach();
+  const Eigen::Array2d around = (whole_size - size_of(box)).max(0) + reach;
+  is_near_robot =
+      holds_robot(expected, grown(box, static_cast<int>(around.x()), static_cast<int>(around.y())));
+  const bool is_other = outgrows(size_of(box), whole_size, target.thresholds);
+  if (is_near_robot ? is_other : !is_there) memory.whole.clear();
+  if (!is_near_robot) return seen_tally;
+  if (is_other || !is_there || reaches_border()) {
+    seen_tally.has_whole = false;
+    return seen_tally;
+  }
+  const auto all = static_cast<double>(whole.covered());
+  // What it exceeds the extent in one direction does not make up for what lacks in the other.
+  const double excess = (size_of(box) / whole_size).max(1).prod();
+  const double missing = all - static_cast<double>(seen.inside()) / excess;
+  if (missing <= target.thresholds.partial_enter * all) return seen_tally;
+  tally_extent(frame, whole.spans(), expected, target.thresholds.beyond_hides, nullptr,
+               whole_tally);
+  whole_tally.covered = whole.covered();
+  whole_tally.is_missing = true;
+  const std::size_t known = whole_tally.inside - whole_tally.seen();
+  const auto lacks = static_cast<std::size_t>(missing);
+  std::size_t uncertain = lacks - std::min(lacks, known);
+  whole_tally.mark_unknown(PixelState::clear, uncertain);
+  whole_tally.mark_unknown(PixelState::front, uncertain);
+  return whole_tally;
+}
+
+/// Scales the last whole extent to the target's depth, moves it by the target's track, and then as
+/// little as lets it hold what is seen. Returns whether anything is seen where it is expected.
+bool TargetJudge::State::place_whole(const TargetView& target, const TargetMemory& memory,
+                                     const PixelRectangle& box) {
+  whole_size.setZero();
+  if (memory.whole.empty()) return false;
+  const PixelRectangle last = box_of_spans(memory.whole);
+  const double scale = scale_of(memory, target);
+  whole_size = scale * size_of(last);
+  moved = memory.moved + target.motion.value_or(Eigen::Vector2d::Zero());
+  const Eigen::Array2d expected =
+      first_of(last) + 0.5 * (size_of(last) - whole_size) + moved.array();
+  const Eigen::Array2d a = first_of(box), b = end_of(box) - whole_size;
+  const Eigen::Array2d first = expected.max(a.min(b)).min(a.max(b));
+  moved += (first - expected).matrix();
+  whole.fill_scaled(memory.whole, scale, first - scale * first_of(last));
+  whole.keep(seen_pixels);
+  return (expected - mask_error <= end_of(box)).all() &&
+         (expected + whole_size + mask_error >= first_of(box)).all();
+}
+
+bool TargetJudge::State::reaches_border() const {
+  return std::ranges::any_of(seen.spans(), [&](const RowSpan& span) {
+    for (const int dv : {-mask_error, 0, mask_error}) {
+      const RowSpan around{span.v + dv, span.u0 - mask_error, span.u1 + mask_error};
+      if (!seen_pixels.hold(around, frame.width, frame.height)) return true;
+    }
+    return false;
+  });
+}
+
+/// Stores the modal extent of the last call, which was visible.
+void TargetJudge::State::remember(const TargetView& target, TargetMemory& memory) const {
+  const bool has_whole = !memory.whole.empty();
+  const Eigen::Array2d size = size_of(box_of_spans(seen.spans()));
+  if (has_whole) memory.moved = moved;
+  if (is_near_robot || reaches_border()) return;
+  if (has_whole && is_covered(size, whole_size, target.thresholds)) return;
+  memory.whole.assign(seen.spans().begin(), seen.spans().end());
+  memory.depth = target.expected_depth;
+  memory.moved.setZero();
 }
 
 void TargetJudge::State::add_point(const TargetView& target, Judgement& judgement) {
   if (judgement.verdict != Verdict::visible && judgement.verdict != Verdict::partial) return;
-  ExtentTally& tally = observer.tally();
-  const std::size_t inside = observer.seen().inside();
+  ExtentTally& tally = seen_tally;
+  const std::size_t inside = seen.inside();
   const std::size_t trusted =
       std::min(inside, tally.depths.size() * static_cast<std::size_t>(tally.step));
   const double least = target.thresholds.point_min_fraction * static_cast<double>(inside);
   if (trusted == 0 || trusted < target.thresholds.point_min_pixels ||
       static_cast<double>(trusted) < least)
     return;
-  const Eigen::Vector2d pixel = target.point_pixel.value_or(observer.seen().middle());
+  const Eigen::Vector2d pixel = target.point_pixel.value_or(seen.middle());
   const Intrinsics& pinhole = camera.intrinsics;
   const Eigen::Vector2d distorted = pinhole.ray(pixel.x(), pixel.y()).head<2>();
   const auto ray = camera.distortion.undistort(distorted);

@@ -114,9 +114,9 @@ class LiveCalibration : public testing::Test {
     CalibrationProgress of;
     EXPECT_TRUE(wait_until([&] {
       of = now();
-      // The robot rests: what is not solved yet is solved after some frames without a new pose.
-      if (of.is_ready() && of.found->frames.size() < poses) play(9);
-      return of.is_ready() && of.found->frames.size() >= poses;
+      const bool is_done = of.is_ready() && of.found->frames.size() >= poses;
+      if (!is_done) play(9);  // a camera goes on while the robot rests
+      return is_done;
     })) << of.message;
     return of;
   }
@@ -188,6 +188,7 @@ TEST_F(LiveCalibration, StartsFromTfAndIsAppliedWhenAsked) {
 }
 
 TEST_F(LiveCalibration, FindsACameraThatTfLacks) {
+  if (!is_full_run()) GTEST_SKIP() << "skipped: a search takes a while: PENUMBRA_FULL=1";
   start();
   calibration().begin(false);
   play(0);

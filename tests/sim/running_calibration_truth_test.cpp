@@ -97,9 +97,11 @@ TEST_F(RunningCalibrationTruth, FindsThePoseFromTfAndAsCalibrateDoes) {
   cell.expect_truth(of);
   EXPECT_TRUE(holds(of.message, "beyond that")) << of.message;
   EXPECT_EQ(of.poses, of.found->frames.size());
+  EXPECT_TRUE(cell.again(of, false).T_parent_camera.isApprox(of.found->T_parent_camera, 1e-3));
 }
 
 TEST_F(RunningCalibrationTruth, FindsThePoseFromNothing) {
+  if (!is_full_run()) GTEST_SKIP() << "skipped: a search takes a while: PENUMBRA_FULL=1";
   Cell cell(moved(0.5, 0.2, 0.1, 60));
   cell.calibration.begin(true);
   cell.expect_truth(cell.run(150));
