@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include <penumbra/tracking/gaussian-inl.hpp>
+#include <penumbra/tracking/gaussian.hpp>
 #include <penumbra/tracking/track_history-inl.hpp>
 #include <penumbra/tracking/trackers.hpp>
 
@@ -69,7 +69,7 @@ PointFilter::State PointFilter::predicted(const State& state, double seconds) co
 double PointFilter::distance(const State& state, const Measurement& measurement) const {
   const Eigen::Matrix3d total = state.covariance.topLeftCorner<3, 3>() + measurement.covariance;
   const Eigen::Vector3d residual = measurement.position - state.position;
-  return squared_distance<3>(total, residual);
+  return squared_distance(total, residual);
 }
 
 void PointFilter::correct(State& state, const Measurement& measurement) const {
@@ -79,7 +79,7 @@ void PointFilter::correct(State& state, const Measurement& measurement) const {
   }
   const Eigen::Vector3d residual = measurement.position - state.position;
   const Eigen::Matrix<double, 6, 1> change =
-      kalman_correction<6, 3>(state.covariance, measurement.covariance, residual);
+      kalman_correction(state.covariance, measurement.covariance, residual);
   state.position += change.head<3>();
   state.velocity += change.tail<3>();
 }
@@ -110,7 +110,7 @@ Outcome PointTracker::update(const PointEstimate& estimate, Verdict verdict) {
   const double variance = state_->config.sigma * state_->config.sigma;
   const Eigen::Matrix3d covariance =
       estimate.covariance.value_or(variance * Eigen::Matrix3d::Identity());
-  if (!estimate.position.allFinite() || !detail::is_covariance<3>(covariance)) {
+  if (!estimate.position.allFinite() || !detail::is_covariance(covariance)) {
     return Outcome::refused_invalid;
   }
   if (!detail::good_enough(verdict, state_->config.worst)) return Outcome::refused_verdict;
@@ -125,7 +125,7 @@ TrackedPoint PointTracker::at(std::int64_t stamp) const {
   point.age = recall->age;
   point.position = recall->state.position;
   point.velocity = recall->state.velocity;
-  point.covariance = detail::symmetric<3>(recall->state.covariance.topLeftCorner<3, 3>());
+  point.covariance = detail::symmetric(recall->state.covariance.topLeftCorner<3, 3>());
   return point;
 }
 

@@ -5,7 +5,7 @@
 // integrated exactly for constant angular velocity (angular_noise). After a correction the error is
 // counted from the new estimate, which turns its covariance by the left Jacobian (Sola,
 // "Quaternion kinematics for the error-state Kalman filter", arXiv 1711.02508, section 6.3).
-#include <penumbra/tracking/gaussian-inl.hpp>
+#include <penumbra/tracking/gaussian.hpp>
 #include <penumbra/tracking/pose_filter-inl.hpp>
 
 namespace penumbra::detail {
@@ -190,14 +190,14 @@ void PoseFilter::add_noise(Matrix12d& covariance, const Eigen::Vector3d& turning
 double PoseFilter::distance(const State& state, const Measurement& measurement) const {
   const Innovation innovation = innovation_of(state, measurement);
   const Matrix6d total = state.covariance.topLeftCorner<6, 6>() + innovation.noise;
-  return squared_distance<6>(total, innovation.residual) / measurement.weight;
+  return squared_distance(total, innovation.residual) / measurement.weight;
 }
 
 void PoseFilter::correct(State& state, const Measurement& measurement) const {
   const Innovation innovation = innovation_of(state, measurement);
   const Matrix6d noise = innovation.noise / measurement.weight;
   const Eigen::Matrix<double, 12, 1> change =
-      kalman_correction<12, 6>(state.covariance, noise, innovation.residual);
+      kalman_correction(state.covariance, noise, innovation.residual);
   const Eigen::Vector3d turn = change.segment<3>(3);
   state.position += change.head<3>();
   state.orientation = (rotation_of(turn) * state.orientation).normalized();

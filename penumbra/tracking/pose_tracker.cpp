@@ -7,7 +7,7 @@
 #include <Eigen/LU>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/tracking/gaussian-inl.hpp>
+#include <penumbra/tracking/gaussian.hpp>
 #include <penumbra/tracking/pose_filter-inl.hpp>
 #include <penumbra/tracking/track_history-inl.hpp>
 #include <penumbra/tracking/trackers.hpp>
@@ -89,7 +89,7 @@ Outcome PoseTracker::update(const PoseEstimate& estimate, Verdict verdict) {
   const auto orientation = nearest_rotation(estimate.pose.linear());
   const Matrix6d covariance = estimate.covariance.value_or(state_->covariance);
   const double seen = estimate.seen.value_or(1.0);
-  if (!position.allFinite() || !orientation || !detail::is_covariance<6>(covariance) ||
+  if (!position.allFinite() || !orientation || !detail::is_covariance(covariance) ||
       !(seen >= 0.0 && seen <= 1.0)) {
     return Outcome::refused_invalid;
   }
@@ -110,7 +110,7 @@ TrackedPose PoseTracker::at(std::int64_t stamp) const {
   pose.pose.translation() = recall->state.position;
   pose.pose.linear() = recall->state.orientation.toRotationMatrix();
   pose.twist = recall->state.twist;
-  pose.covariance = detail::symmetric<6>(recall->state.covariance.topLeftCorner<6, 6>());
+  pose.covariance = detail::symmetric(recall->state.covariance.topLeftCorner<6, 6>());
   return pose;
 }
 
