@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Penumbra)
 
-foreach(name penumbra cloud setup planning session io live)
+foreach(name penumbra cloud diagnosis setup planning session io live)
   set(library penumbra_${name})
   if(name STREQUAL penumbra)
     set(library penumbra)
@@ -31,8 +31,8 @@ set(public_headers
   calibration/calibration.hpp calibration/kept_frames.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
   tuning/cloud_tuning.hpp planning/look_ahead.hpp planning/view_planning.hpp fusion/target_fusion.hpp
   session/session.hpp)
-set(component_of_calibration setup)
-set(component_of_diagnosis setup)
+set(component_of_calibration diagnosis)
+set(component_of_diagnosis diagnosis)
 set(component_of_tuning setup)
 set(component_of_planning planning)
 set(component_of_fusion planning)

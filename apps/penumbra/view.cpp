@@ -69,6 +69,16 @@ std::vector<std::string> cameras_of(const io::InputOptions& input) {
   return io::cameras_of(input.path);
 }
 
+/// Gives an input's frames to a calibration.
+struct CalibrationSink final : io::Sink {
+  void take(const Frame& frame, const FrameReport& /*report*/) override {
+    calibration.take(frame, input->drift());
+  }
+
+  const io::InputSession* input = nullptr;
+  RunningCalibration calibration;
+};
+
 /// The content of the viewer: an input, which is judged meanwhile, or the results of a run.
 class ViewSource {
  public:
@@ -96,7 +106,7 @@ class ViewSource {
   void judge();
 
   std::vector<std::string> cameras_;
-  std::optional<RunningCalibration> calibration_;
+  std::optional<CalibrationSink> calibration_;
   std::optional<io::InputSession> judging_;
   std::optional<io::PoseOutlines> outlines_;
   std::optional<io::FrameStore> store_;
@@ -142,10 +152,12 @@ void ViewSource::open_input(const ViewArguments& arguments, const std::string& c
   const Pipeline& pipeline = judging_->pipeline();
   store_.emplace(pipeline, judging_->head());
   if (arguments.calibrate) {
-    judging_->calibrate(calibration_.emplace());
-    calibration_->begin(arguments.search);
+    RunningCalibration& calibration = calibration_.emplace().calibration;
+    calibration_->input = &*judging_;
+    judging_->set_up(calibration);
+    calibration.begin(arguments.search);
     outlines_.emplace(pipeline.robot(), pipeline.report_camera());
-    store_->outline(*outlines_, *calibration_);
+    store_->outline(*outlines_, calibration);
   }
   if (!cameras_.empty()) recorder_.emplace(camera, pipeline);
   const auto links = pipeline.robot().links();
@@ -189,8 +201,9 @@ void ViewSource::judge() {
   try {
     io::Sinks sinks{&*store_};
     if (recorder_) sinks.insert(sinks.begin(), &*recorder_);
+    if (calibration_) sinks.insert(sinks.begin(), &*calibration_);
     result_ = judging_->run(sinks, [this] { return !stop_; });
-    if (calibration_) calibration_->finish();
+    if (calibration_) calibration_->calibration.finish();
   } catch (...) {
     error_ = std::current_exception();
   }
@@ -206,7 +219,7 @@ void ViewSource::print() {
   print_result(result_, judging_->pipeline().robot(),
                "all frames are judged; Ctrl-C ends the viewer");
   if (!calibration_) return;
-  const CalibrationProgress of = calibration_->progress();
+  const CalibrationProgress of = calibration_->calibration.progress();
   std::cout << "calibration: " << of.message << '\n';
   if (!of.is_ready()) return;
   const std::string& frame = judging_->pipeline().report_camera().frame_id;

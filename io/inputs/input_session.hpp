@@ -61,9 +61,11 @@ class InputSession {
     return input_.made_files;
   }
 
-  /// See Session; of a camera.
-  void calibrate(RunningCalibration& calibration) {
-    session_.calibrate(calibration, *input_.camera);
+  [[nodiscard]] const Drift& drift() const { return session_.drift(); }
+  /// Tells a calibration of the camera's pose what the frames are of.
+  void set_up(RunningCalibration& calibration) const {
+    calibration.follow(input_.robot, *input_.camera, input_.config.camera_parent,
+                       input_.config.T_parent_camera);
   }
 
   /// Judges the frames. Calls `go_on` after each frame and stops if it returns false. Throws

@@ -28,7 +28,8 @@ LiveWorker::Tools LiveWorker::make_tools(const SensorSetup& setup) const {
   Tools tools{.session = Session(robot, cameras.judged, config, options_.drift),
               .encoder = ResultEncoder(robot, cameras.judged, options_.points),
               .depth = DepthInput(cameras)};
-  if (calibration_ != nullptr) tools.session.calibrate(*calibration_, cameras.judged);
+  if (calibration_ != nullptr)
+    calibration_->follow(robot, cameras.judged, config.camera_parent, config.T_parent_camera);
   return tools;
 }
 
@@ -72,6 +73,7 @@ LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatche
   }
   tools_->encoder.encode(job, report, sink);
   outcome.drift = session.drift();
+  if (calibration_ != nullptr) calibration_->take(job, outcome.drift);
   if (watcher != nullptr) watcher->take(job, report, outcome.drift);
   outcome.is_published = true;
   outcome.status = report.status;

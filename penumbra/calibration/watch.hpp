@@ -104,7 +104,7 @@ struct CalibrationProgress {
 [[nodiscard]] std::string distance_text(const Calibration& found,
                                         const Eigen::Isometry3d& T_parent_camera);
 
-/// Calibrates a camera while its cell runs: a question that is asked of a session's frames. The
+/// Calibrates a camera while its cell runs: a question that is asked of judged frames. The
 /// robot is moved by others. New poses are solved on a thread of its own, at first all, once a good
 /// pose is found a few at a time. It begins by itself when the watch sees the camera move, and
 /// changes nothing. It keeps at most KeptFrames::Options::most images, and as many while it solves.
@@ -123,7 +123,7 @@ class RunningCalibration {
   void end(std::string why);
   [[nodiscard]] CalibrationProgress progress() const;
 
-  // Session calls these:
+  // Whoever judges the frames calls these:
   /// Sets what the next frames are of. If that changes, poses begin anew.
   void follow(const Robot& robot, const Camera& camera, const std::string& camera_parent,
               const Eigen::Isometry3d& T_parent_camera);

@@ -49,7 +49,6 @@ const FrameReport& Session::process(const Frame& frame) {
     watch_->add(scan_->report());
   }
   if (watch_ && !scan_) watch_->add(report);
-  if (calibration_ != nullptr) calibration_->take(frame, drift());
   return report;
 }
 
@@ -63,11 +62,6 @@ std::vector<std::string> Session::warnings() const {
   const std::string moved = drift().message();
   if (!moved.empty() && diagnosis().cause == Diagnosis::Cause::none) lines.push_back(moved);
   return lines;
-}
-
-void Session::calibrate(RunningCalibration& calibration, const Camera& camera) {
-  calibration.follow(pipeline_.robot(), camera, config_->camera_parent, config_->T_parent_camera);
-  calibration_ = &calibration;
 }
 
 std::function<std::vector<std::string>()> Session::take_warnings() {

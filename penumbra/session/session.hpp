@@ -51,10 +51,6 @@ class Session {
   /// Returns how far the camera has moved from its calibration.
   [[nodiscard]] const Drift& drift() const;
 
-  /// Gives the frames from now on to `calibration`, too, which must outlive this. `camera`: of the
-  /// frames' images. Not for scans.
-  void calibrate(RunningCalibration& calibration, const Camera& camera);
-
   /// Returns what finds the warnings about the frames since the last call, and begins them anew.
   /// For a stream without an end; any thread may call the result.
   [[nodiscard]] std::function<std::vector<std::string>()> take_warnings();
@@ -76,7 +72,6 @@ class Session {
   DriftLimits limits_;
   std::unique_ptr<Warnings> warnings_;
   std::optional<CalibrationWatch> watch_;
-  RunningCalibration* calibration_ = nullptr;
   std::unique_ptr<PlanForecast> forecast_;  // of a camera
 };
 

@@ -15,7 +15,9 @@ constexpr double near_truth = 0.004, near_turn = 0.004;  // metres, rad
 /// A session of the scene "random" whose TF has the camera 'off' from where it is.
 class Cell {
  public:
-  explicit Cell(const Isometry3d& off) : off_(off) { session_.calibrate(calibration, camera_); }
+  explicit Cell(const Isometry3d& off) : off_(off) {
+    calibration.follow(simulation_.robot(), camera_, {}, Isometry3d::Identity());
+  }
 
   /// Judges frames until `done`, at most so many.
   template <typename Done>
@@ -63,6 +65,7 @@ class Cell {
         .depth = next.depth.view(),
         .pose = {.positions = next.joints, .T_parent_camera = simulation_.T_base_camera() * off_}};
     session_.process(frame);
+    calibration.take(frame, session_.drift());
     if (!keeps) return;
     KeptFrame& one = kept[*frame.index];
     one.index = *frame.index;
