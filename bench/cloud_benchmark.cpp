@@ -11,7 +11,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include <penumbra/cloud/cloud_labels.hpp>
+#include <penumbra/cloud/scan.hpp>
 #include <penumbra/mesh/triangle_tree.hpp>
 
 namespace penumbra::bench {

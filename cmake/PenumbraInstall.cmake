@@ -24,9 +24,9 @@ set(public_headers
   mesh/prepared_mesh.hpp robot/robot.hpp robot/trajectory.hpp
   time/joint_buffer.hpp time/pose_history.hpp time/transform_buffer.hpp
   camera/camera.hpp camera/rectification.hpp camera/registration.hpp
-  render/depth_renderer.hpp labels/labels.hpp poses/pose_lookup.hpp poses/robot_pose.hpp
-  tracking/trackers.hpp targets/region.hpp targets/target.hpp targets/target_judge.hpp
-  cloud/cloud_labels.hpp cloud/scan.hpp
+  render/depth_renderer.hpp labels/labels.hpp poses/robot_pose.hpp
+  tracking/trackers.hpp targets/target.hpp targets/target_judge.hpp
+  cloud/scan.hpp
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
   calibration/calibration.hpp calibration/kept_frames.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
   tuning/cloud_tuning.hpp planning/look_ahead.hpp planning/view_planning.hpp fusion/target_fusion.hpp

@@ -11,7 +11,7 @@
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/poses/pose_lookup.hpp>
+#include <penumbra/poses/robot_pose.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/time/joint_buffer.hpp>

@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/targets/region.hpp>
+#include <penumbra/targets/target_judge.hpp>
 
 #include <research/cell.hpp>
 #include <sim/simulation.hpp>

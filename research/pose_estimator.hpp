@@ -13,7 +13,7 @@
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/labels/labels.hpp>
-#include <penumbra/targets/region.hpp>
+#include <penumbra/targets/target_judge.hpp>
 #include <penumbra/tracking/trackers.hpp>
 
 #include <io/files/png.hpp>

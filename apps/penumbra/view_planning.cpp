@@ -116,8 +116,8 @@ int execute(const ViewPlanningArguments& arguments) {
   const CandidateViews views = [&] {
     Progress progress(renders);
     try {
-      return judge_candidates(input.input.robot, {*input.input.camera, input.input.config.rule},
-                              input.candidates, input.motion, threads, [&] { progress.step(); });
+      return judge_candidates(input.input.robot, input.candidates, input.motion, threads,
+                              [&] { progress.step(); });
     } catch (const LensError& error) {
       throw InputError(input.input.camera_info.string() + ": " + error.what());
     }

@@ -23,6 +23,13 @@ struct ImageCounts {
   std::array<std::size_t, drop_reasons> dropped{};
   std::optional<DropReason> last_dropped = {};  ///< why the last of the dropped was
 
+  // Targets that were never judged:
+  std::size_t targets_replaced = 0;  ///< by newer targets of the same name
+  /// Sums TargetInbox::discarded, the targets that waited when the setup changed, and the targets
+  /// of frames that failed.
+  std::size_t targets_discarded = 0;
+  std::size_t early_targets = 0;  ///< messages received before robot and sensor were known
+
   [[nodiscard]] std::size_t of(DropReason reason) const {
     return dropped[static_cast<std::size_t>(reason)];
   }

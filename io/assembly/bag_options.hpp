@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <penumbra/poses/pose_lookup.hpp>
+#include <penumbra/poses/robot_pose.hpp>
 
 namespace penumbra::io {
 

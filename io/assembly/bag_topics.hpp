@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/poses/pose_lookup.hpp>
+#include <penumbra/poses/robot_pose.hpp>
 
 #include <io/assembly/bag_options.hpp>
 #include <io/assembly/input_topic.hpp>

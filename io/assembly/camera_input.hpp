@@ -8,7 +8,7 @@
 #include <string>
 
 #include <penumbra/pipeline/frame_queue.hpp>
-#include <penumbra/poses/pose_lookup.hpp>
+#include <penumbra/poses/robot_pose.hpp>
 
 #include <io/assembly/camera_infos.hpp>
 #include <io/assembly/camera_mount.hpp>

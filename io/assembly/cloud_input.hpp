@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include <penumbra/poses/pose_lookup.hpp>
+#include <penumbra/poses/robot_pose.hpp>
 
 #include <io/assembly/camera_mount.hpp>
 #include <io/assembly/message_handler.hpp>

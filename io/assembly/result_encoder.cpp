@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -15,30 +16,35 @@ void ResultEncoder::write(Result result, std::int64_t stamp, const M& message, R
   sink.write(result, stamp, payload_);
 }
 
-void ResultEncoder::encode(const Frame& frame, const FrameReport& report, ResultSink& sink) {
+void ResultEncoder::encode(const Frame& frame, const FrameReport& report, ResultSink& sink,
+                           std::span<const Result> skipped) {
   if (images_)
-    encode_images(frame, report, sink);
+    encode_images(frame, report, sink, skipped);
   else
     encode_cloud(frame, report, sink);
 }
 
-void ResultEncoder::encode_images(const Frame& frame, const FrameReport& report, ResultSink& sink) {
+void ResultEncoder::encode_images(const Frame& frame, const FrameReport& report, ResultSink& sink,
+                                  std::span<const Result> skipped) {
   images_->set(report);
+  const auto wants = [&](Result result) {
+    return std::ranges::find(skipped, result) == skipped.end() && sink.wants(result);
+  };
   const auto put = [&](Result result, const auto& message) {
     write(result, message.header.stamp, message, sink);
   };
-  if (sink.wants(Result::virtual_depth))
+  if (wants(Result::virtual_depth))
     if (const auto virtual_depth = images_->virtual_depth())
       put(Result::virtual_depth, *virtual_depth);
-  if (sink.wants(Result::labels)) put(Result::labels, images_->labels());
-  if (sink.wants(Result::mask)) put(Result::mask, images_->mask());
-  if (sink.wants(Result::filtered_depth)) put(Result::filtered_depth, images_->filtered_depth());
-  if (sink.wants(Result::points)) put(Result::points, images_->points());
-  if (sink.wants(Result::targets))
+  if (wants(Result::labels)) put(Result::labels, images_->labels());
+  if (wants(Result::mask)) put(Result::mask, images_->mask());
+  if (wants(Result::filtered_depth)) put(Result::filtered_depth, images_->filtered_depth());
+  if (wants(Result::points)) put(Result::points, images_->points());
+  if (wants(Result::targets))
     put(Result::targets, targets_message(report, images_->header().frame_id, root_));
-  if (sink.wants(Result::robot_mask))
+  if (wants(Result::robot_mask))
     if (const auto mask = images_->robot_mask()) put(Result::robot_mask, *mask);
-  if (sink.wants(Result::overlay))
+  if (wants(Result::overlay))
     put(Result::overlay, png_message(images_->header(), painter_->draw(frame, report), data_));
 }
 

@@ -77,12 +77,14 @@ class ResultEncoder {
   /// Of scans.
   ResultEncoder(const Robot& robot, CloudOutput how) : root_(robot.links().front()), how_(how) {}
 
-  /// Encodes and writes the results of a frame; of a cloud that was not read, its targets. The
-  /// report of an image must have a stamp.
-  void encode(const Frame& frame, const FrameReport& report, ResultSink& sink);
+  /// Encodes and writes the results of a frame, except those `skipped`; of a cloud that was not
+  /// read, its targets. The report of an image must have a stamp.
+  void encode(const Frame& frame, const FrameReport& report, ResultSink& sink,
+              std::span<const Result> skipped = {});
 
  private:
-  void encode_images(const Frame& frame, const FrameReport& report, ResultSink& sink);
+  void encode_images(const Frame& frame, const FrameReport& report, ResultSink& sink,
+                     std::span<const Result> skipped);
   void encode_cloud(const Frame& frame, const FrameReport& report, ResultSink& sink);
   template <typename M>
   void write(Result result, std::int64_t stamp, const M& message, ResultSink& sink);

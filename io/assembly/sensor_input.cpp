@@ -39,8 +39,8 @@ void SensorInput::refresh() {
   if (only_frames_are_new && made && made->mount == setup_->mount) return;
   if (setup_) {
     counts_.drop(DropReason::changed, setup_->queue.waiting());
-    targets_.replaced += setup_->targets.replaced();
-    targets_.discarded += setup_->targets.discarded() + setup_->targets.waiting();
+    counts_.targets_replaced += setup_->targets.replaced();
+    counts_.targets_discarded += setup_->targets.discarded() + setup_->targets.waiting();
   }
   setup_ = std::move(made);
 }
@@ -98,21 +98,16 @@ bool SensorInput::next(std::int64_t now, bool with_color, AssembledFrame& next) 
 void SensorInput::done(bool is_judged, std::size_t unjudged_targets) {
   --counts_.in_work;
   ++(is_judged ? counts_.judged : counts_.failed);
-  targets_.discarded += unjudged_targets;
-}
-
-UnjudgedTargets SensorInput::targets() const {
-  UnjudgedTargets all = targets_;
-  if (setup_) {
-    all.replaced += setup_->targets.replaced();
-    all.discarded += setup_->targets.discarded();
-  }
-  return all;
+  counts_.targets_discarded += unjudged_targets;
 }
 
 ImageCounts SensorInput::counts() const {
   ImageCounts counts = counts_;
-  counts.waiting = (setup_ ? setup_->queue.waiting() : 0) + without_pose_.size();
+  counts.waiting = without_pose_.size();
+  if (!setup_) return counts;
+  counts.waiting += setup_->queue.waiting();
+  counts.targets_replaced += setup_->targets.replaced();
+  counts.targets_discarded += setup_->targets.discarded();
   return counts;
 }
 

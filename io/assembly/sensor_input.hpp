@@ -16,15 +16,6 @@
 
 namespace penumbra::io {
 
-/// Targets that were never judged.
-struct UnjudgedTargets {
-  std::size_t replaced = 0;  ///< replaced by newer targets of the same name
-  /// Sums TargetInbox::discarded, the targets that waited when the setup changed, and the targets
-  /// of frames that failed.
-  std::size_t discarded = 0;
-  std::size_t early = 0;  ///< messages received before robot and sensor were known
-};
-
 /// The messages of one sensor: keeps its images or clouds until their poses, and what comes with
 /// them, are known. Part of FrameAssembler; uses no threads and no clock. There are two policies.
 /// Lossless, for bags: each message becomes a frame of the one setup, and one without a pose says
@@ -40,7 +31,7 @@ class SensorInput {
     if (setup_)
       setup_->targets.add(topic, message);
     else
-      ++targets_.early;
+      ++counts_.early_targets;
   }
 
   /// Updates the setup. Call this when the robot may have changed.
@@ -60,7 +51,6 @@ class SensorInput {
   [[nodiscard]] const SensorSetup* setup() const { return setup_.get(); }
   [[nodiscard]] const std::string& setup_fault() const { return setup_fault_; }
   [[nodiscard]] const Arrivals& arrivals() const { return arrivals_; }  ///< of images or clouds
-  [[nodiscard]] UnjudgedTargets targets() const;
 
  protected:
   /// `name`: of what becomes a frame. `robot` must outlive this.
@@ -114,7 +104,7 @@ class SensorInput {
   std::size_t without_info_ = 0;    // consecutive images without camera_info
   bool with_color_ = false;         // of the last call of next()
   bool awaits_targets_ = false;
-  ImageCounts counts_;
+  ImageCounts counts_;  // its targets are of previous setups
 
  private:
   /// The inputs of a setup.
@@ -134,7 +124,6 @@ class SensorInput {
   std::string setup_fault_;
   std::deque<std::shared_ptr<Frame>> without_pose_;  // not in the queue
   Arrivals arrivals_;
-  UnjudgedTargets targets_;  // of previous setups
 };
 
 }  // namespace penumbra::io

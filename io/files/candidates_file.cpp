@@ -38,8 +38,7 @@ void check_candidate_header(const Cells& cells) {
     refuse_header("the header is '" + header + "'");
 }
 
-CameraCandidate candidate_of(const Cells& row, const Robot& robot) {
-  CameraCandidate candidate;
+ForecastCamera candidate_of(const Cells& row, const Robot& robot, ForecastCamera candidate) {
   candidate.name = row.front();
   check_name(candidate.name);
   std::vector<double> numbers;
@@ -50,26 +49,26 @@ CameraCandidate candidate_of(const Cells& row, const Robot& robot) {
                        "'; expected a number");
     numbers.push_back(*value);
   }
-  candidate.T_link_camera = isometry_of(numbers);
-  if (candidate.T_link_camera.translation().cwiseAbs().maxCoeff() > max_target_distance)
+  candidate.T_parent_camera = isometry_of(numbers);
+  if (candidate.T_parent_camera.translation().cwiseAbs().maxCoeff() > max_target_distance)
     throw InputError("is more than 1000 km away; expected metres");
   if (row.size() == link_column) return candidate;
-  candidate.link = row[link_column];
+  candidate.parent = row[link_column];
   const Cells known(robot.links().begin(), robot.links().end());
-  if (!candidate.link.empty() && !robot.find_link(candidate.link))
-    throw InputError("'" + printable(candidate.link) + "' is no link of the robot" +
-                     near_names(candidate.link, known));
+  if (!candidate.parent.empty() && !robot.find_link(candidate.parent))
+    throw InputError("'" + printable(candidate.parent) + "' is no link of the robot" +
+                     near_names(candidate.parent, known));
   return candidate;
 }
 
 }  // namespace
 
-std::vector<CameraCandidate> read_candidates(const std::filesystem::path& file,
-                                             const Robot& robot) {
+std::vector<ForecastCamera> read_candidates(const std::filesystem::path& file, const Robot& robot,
+                                            const ForecastCamera& camera) {
   const std::string text = read_csv(file);
   CsvLines lines(text);
   if (!lines.next()) refuse_header(file.string() + ": is empty");
-  std::vector<CameraCandidate> candidates;
+  std::vector<ForecastCamera> candidates;
   std::map<std::string, std::size_t, std::less<>> line_of;  // by name
   try {
     check_candidate_header(lines.cells());
@@ -78,7 +77,7 @@ std::vector<CameraCandidate> read_candidates(const std::filesystem::path& file,
       if (lines.cells().size() != columns)
         throw InputError("has " + std::to_string(lines.cells().size()) + " cells, the header " +
                          std::to_string(columns));
-      CameraCandidate candidate = candidate_of(lines.cells(), robot);
+      ForecastCamera candidate = candidate_of(lines.cells(), robot, camera);
       const auto [known, is_new] = line_of.emplace(candidate.name, lines.line());
       if (!is_new)
         throw InputError("the name '" + candidate.name + "' is that of line " +

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/targets/region.hpp>
+#include <penumbra/targets/target_judge.hpp>
 
 #include <io/files/frame_pattern.hpp>
 

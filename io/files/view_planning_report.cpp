@@ -31,10 +31,10 @@ Json seen_json(const ViewPlan& plan, std::size_t candidate) {
 }
 
 Json candidate_json(const ViewPlan& plan, std::size_t i) {
-  const CameraCandidate& candidate = plan.candidates[i];
+  const ForecastCamera& candidate = plan.candidates[i];
   return {{"name", candidate.name},
-          {"link", or_null(candidate.link)},
-          {"pose", pose_json(candidate.T_link_camera)},
+          {"link", or_null(candidate.parent)},
+          {"pose", pose_json(candidate.T_parent_camera)},
           {"targets", seen_json(plan, i)},
           {"first_unknown", or_null(plan.views.unknown(i))}};
 }
@@ -58,7 +58,7 @@ std::string ViewPlan::names(const CameraSet& set) const {
 
 std::string view_planning_json(const ViewPlan& plan) {
   Json frames = Json::array(), candidates = Json::array(), sets = Json::array();
-  for (const MotionFrame& frame : plan.motion) frames.push_back(frame.index);
+  for (const Frame& frame : plan.motion) frames.push_back(*frame.index);
   for (std::size_t i = 0; i < plan.candidates.size(); ++i)
     candidates.push_back(candidate_json(plan, i));
   for (const CameraSet& set : plan.best) sets.push_back(set_json(plan, set));

@@ -14,8 +14,8 @@ namespace penumbra::io {
 struct ViewPlan {
   std::string input;     ///< as the user named it
   std::size_t seen = 0;  ///< frames of the input
-  std::span<const CameraCandidate> candidates;
-  std::span<const MotionFrame> motion;
+  std::span<const ForecastCamera> candidates;
+  std::span<const Frame> motion;
   const CandidateViews& views;
   std::span<const CameraSet> best;  ///< by size
 

@@ -5,7 +5,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/poses/pose_lookup.hpp>
+#include <penumbra/poses/robot_pose.hpp>
 #include <penumbra/time/pose_history.hpp>
 
 #include <io/assembly/cloud_input.hpp>

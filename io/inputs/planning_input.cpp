@@ -53,7 +53,9 @@ PlanningInput read_planning_input(const PlanningOptions& options, const LineSink
                                   const std::function<void()>& step) {
   RunInput opened = open_input(options.input, print);
   TargetsFile targets = open_planned_targets(options.input.path, options.targets, opened);
-  std::vector<CameraCandidate> candidates = read_candidates(options.candidates, opened.robot);
+  std::vector<ForecastCamera> candidates =
+      read_candidates(options.candidates, opened.robot,
+                      {.name = {}, .camera = *opened.camera, .rule = opened.config.rule});
   PlanningInput read{.input = std::move(opened),
                      .targets = std::move(targets),
                      .candidates = std::move(candidates),
@@ -74,22 +76,22 @@ PlanningInput read_planning_input(const PlanningOptions& options, const LineSink
       if (fault.empty()) fault = "frame " + std::to_string(index) + ": " + why;
       continue;
     }
-    MotionFrame& kept = read.motion.emplace_back();
+    Frame& kept = read.motion.emplace_back();
     kept.index = index;
-    kept.T_root_link = frame.pose.T_root_link;
-    if (kept.T_root_link.empty()) {
-      kept.T_root_link.resize(robot.links().size());
-      robot.forward_kinematics(frame.pose.positions, kept.T_root_link);
+    std::vector<Eigen::Isometry3d>& T_root_link = kept.pose.T_root_link = frame.pose.T_root_link;
+    if (T_root_link.empty()) {
+      T_root_link.resize(robot.links().size());
+      robot.forward_kinematics(frame.pose.positions, T_root_link);
     }
-    kept.attached = frame.pose.attached;
-    kept.uncertain_links = frame.pose.uncertain_links;
+    kept.pose.attached = frame.pose.attached;
+    kept.pose.uncertain_links = frame.pose.uncertain_links;
     const Eigen::Isometry3d T_root_camera =
-        kept.T_root_link[parent] * frame.pose.T_parent_camera.value_or(config.T_parent_camera);
+        T_root_link[parent] * frame.pose.T_parent_camera.value_or(config.T_parent_camera);
     kept.targets = placed(read.targets.of_frame(static_cast<std::int64_t>(index)), T_root_camera,
                           read.targets.file());
     const auto T_camera_frame = [&](const ReferenceFrame& of) -> Eigen::Isometry3d {
       const auto link = of.kind == ReferenceFrame::Kind::link ? robot.find_link(of.link) : 0;
-      return T_root_camera.inverse() * kept.T_root_link[link.value_or(0)];
+      return T_root_camera.inverse() * T_root_link[link.value_or(0)];
     };
     for (const Target& target : kept.targets)
       if (note.empty()) note = millimetres_note(target, T_camera_frame);

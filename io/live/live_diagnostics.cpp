@@ -52,13 +52,13 @@ void add_counts(Status& status, const ImageCounts& counts) {
                 counts.dropped[i]);
 }
 
-void add_targets(Status& status, const UnjudgedTargets& targets) {
-  if (targets.early > 0)
-    add_count(status, "target messages before robot and sensor were known", targets.early);
-  if (targets.replaced > 0)
-    add_count(status, "targets not judged: newer ones came first", targets.replaced);
-  if (targets.discarded > 0)
-    add_count(status, "targets not judged: no frame came in time", targets.discarded);
+void add_targets(Status& status, const ImageCounts& counts) {
+  if (counts.early_targets > 0)
+    add_count(status, "target messages before robot and sensor were known", counts.early_targets);
+  if (counts.targets_replaced > 0)
+    add_count(status, "targets not judged: newer ones came first", counts.targets_replaced);
+  if (counts.targets_discarded > 0)
+    add_count(status, "targets not judged: no frame came in time", counts.targets_discarded);
 }
 
 void add_tally(Status& status, const LiveTally& tally) {
@@ -188,7 +188,7 @@ DiagnosticStatusMessage LiveDiagnostics::sensor_status(const LiveInbox& inbox, s
   add_tally(status, tally);
   if (is_camera && inbox.camera(number).camera_changes() > 0)
     add_count(status, "camera_info changed", inbox.camera(number).camera_changes());
-  add_targets(status, input.targets());
+  add_targets(status, counts);
   for (std::size_t i = 0; i < inbox.topics().size(); ++i) {
     const InputTopic& topic = inbox.topics()[i];
     const bool is_own = is_camera ? is_of_camera(topic.role) : topic.role == TopicRole::cloud;

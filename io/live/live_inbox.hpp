@@ -15,7 +15,7 @@
 #include <penumbra/calibration/watch.hpp>
 #include <penumbra/fusion/target_fusion.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
-#include <penumbra/poses/pose_lookup.hpp>
+#include <penumbra/poses/robot_pose.hpp>
 
 #include <io/assembly/frame_assembler.hpp>
 #include <io/files/report_json.hpp>

@@ -15,26 +15,6 @@ namespace {
 /// steps, and people look at them, so not every frame needs one.
 constexpr std::int64_t overlay_period = 200'000'000;
 
-/// Forwards results, overlays and points only when it is their time.
-class TimedResults final : public ResultSink {
- public:
-  TimedResults(ResultSink& to, bool with_overlay, bool with_points)
-      : to_(to), with_overlay_(with_overlay), with_points_(with_points) {}
-  [[nodiscard]] bool wants(Result result) const override {
-    if (result == Result::overlay && !with_overlay_) return false;
-    if (result == Result::points && !with_points_) return false;
-    return to_.wants(result);
-  }
-  void set_cloud_type(const std::string& type) override { to_.set_cloud_type(type); }
-  void write(Result result, std::int64_t stamp, std::span<const std::byte> payload) override {
-    to_.write(result, stamp, payload);
-  }
-
- private:
-  ResultSink& to_;
-  bool with_overlay_, with_points_;
-};
-
 template <typename Clock>
 std::int64_t nanoseconds_of() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch())
@@ -241,8 +221,10 @@ void LiveRunner::work(std::size_t sensor) {
         const bool is_late = begin > self.next_points + period;
         self.next_points = (is_late ? begin : self.next_points) + period;
       }
-      TimedResults sink(*self.sink, with_overlay, with_points);
-      LiveOutcome outcome = self.worker->judge(job, sink, self.watcher);
+      std::vector<Result> skipped;  // it is not their time
+      if (!with_overlay) skipped.push_back(Result::overlay);
+      if (!with_points) skipped.push_back(Result::points);
+      LiveOutcome outcome = self.worker->judge(job, *self.sink, self.watcher, skipped);
       if (fusion_ != nullptr && outcome.is_published && job.setup->cameras() != nullptr)
         fusion_->add(sensor, outcome.views, job.setup->posed->robot.links().front());
       const std::int64_t now = steady_now(), system = system_now();

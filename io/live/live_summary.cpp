@@ -32,10 +32,10 @@ Json counts_json(const LiveInbox& inbox, std::size_t sensor) {
           {"stamps_of_another_clock", tally.beyond_clock}};
 }
 
-Json unjudged_json(const UnjudgedTargets& targets) {
-  return {{"replaced", targets.replaced},
-          {"discarded", targets.discarded},
-          {"messages_before_setup", targets.early}};
+Json unjudged_json(const ImageCounts& counts) {
+  return {{"replaced", counts.targets_replaced},
+          {"discarded", counts.targets_discarded},
+          {"messages_before_setup", counts.early_targets}};
 }
 
 Json camera_json(const LiveInbox& inbox, std::size_t number, const WrittenResults& results) {
@@ -52,7 +52,7 @@ Json camera_json(const LiveInbox& inbox, std::size_t number, const WrittenResult
                  {"camera_info_changes", camera.camera_changes()},
                  {"warnings", inbox.warnings(number)},
                  {"calibration", drift_json(tally.last.drift)},
-                 {"targets_not_judged", unjudged_json(camera.targets())}});
+                 {"targets_not_judged", unjudged_json(camera.counts())}});
   return result;
 }
 
@@ -66,7 +66,7 @@ Json cloud_json(const LiveInbox& inbox, std::size_t number) {
                  {"most_poses_of_a_scan", tally.parts},
                  {"times", or_null(tally.time_note)},
                  {"warnings", inbox.warnings(sensor)},
-                 {"targets_not_judged", unjudged_json(cloud.targets())}});
+                 {"targets_not_judged", unjudged_json(cloud.counts())}});
   return result;
 }
 

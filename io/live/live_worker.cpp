@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
@@ -48,7 +49,8 @@ bool LiveWorker::follow(const std::shared_ptr<SensorSetup>& setup) {
   return tools_.has_value();
 }
 
-LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatcher* watcher) {
+LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatcher* watcher,
+                              std::span<const Result> skipped) {
   LiveOutcome outcome;
   outcome.stamp = job.stamp.value_or(0);
   outcome.arrived = job.arrived;
@@ -67,11 +69,12 @@ LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatche
   Session& session = tools_->session;
   const FrameReport& report = session.process(job);
   if (const Pipeline& pipeline = session.pipeline(); !job.scan) {
-    show_color(job, sink.wants(Result::overlay));
+    const bool draws = std::ranges::find(skipped, Result::overlay) == skipped.end();
+    show_color(job, draws && sink.wants(Result::overlay));
     outcome.views = views_of({{}, pipeline.intrinsics(), pipeline.rule().tolerance}, report);
     outcome.renderer = pipeline.renderer();
   }
-  tools_->encoder.encode(job, report, sink);
+  tools_->encoder.encode(job, report, sink, skipped);
   outcome.drift = session.drift();
   if (calibration_ != nullptr) calibration_->take(job, outcome.drift);
   if (watcher != nullptr) watcher->take(job, report, outcome.drift);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <penumbra/session/session.hpp>
@@ -29,10 +30,11 @@ class LiveWorker {
         poses_(poses),
         calibration_(calibration) {}
 
-  /// Writes a frame's results to the sink, then hands it to `watcher`, which may be null.
-  /// Unknown results are written as unknown. A new setup makes a new renderer. Throws DeviceError
-  /// like Pipeline.
-  LiveOutcome judge(AssembledFrame& job, ResultSink& sink, FrameWatcher* watcher = nullptr);
+  /// Writes a frame's results to the sink, except those `skipped`, then hands it to `watcher`,
+  /// which may be null. Unknown results are written as unknown. A new setup makes a new renderer.
+  /// Throws DeviceError like Pipeline.
+  LiveOutcome judge(AssembledFrame& job, ResultSink& sink, FrameWatcher* watcher = nullptr,
+                    std::span<const Result> skipped = {});
 
  private:
   /// The objects made for a setup.

@@ -11,7 +11,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
-#include <penumbra/cloud/cloud_labels.hpp>
+#include <penumbra/cloud/scan.hpp>
 
 #include <io/files/png.hpp>
 #include <io/web/web_types.hpp>

@@ -133,6 +133,8 @@ class Distortion {
 struct DepthRange {
   double near = 0.0;
   double far = std::numeric_limits<double>::infinity();
+
+  bool operator==(const DepthRange&) const = default;
 };
 
 /// A calibrated depth camera, without its pose.
@@ -141,6 +143,8 @@ struct Camera {
   Distortion distortion;  ///< of the image as received; none if it is already rectified
   DepthRange range;
   std::string frame_id;  ///< the optical frame; may be empty
+
+  bool operator==(const Camera&) const = default;
 
   /// Returns itself. Throws InputError, with the values, unless 0 <= near < far.
   const Camera& check() const {

@@ -10,8 +10,8 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/base/workers.hpp>
-#include <penumbra/cloud/cloud_labels.hpp>
 #include <penumbra/cloud/cube_face-inl.hpp>
+#include <penumbra/cloud/scan.hpp>
 #include <penumbra/mesh/triangle_tree.hpp>
 
 namespace penumbra {

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <penumbra/cloud/cloud_labels.hpp>
+#include <penumbra/cloud/scan.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::cloud {

@@ -61,6 +61,8 @@ struct Tolerance {
   /// Whether it is not negative at any depth, and each number is below 1: no sensor is as coarse as
   /// 1 m, and millimetres are taken for metres.
   [[nodiscard]] bool is_valid() const;
+
+  bool operator==(const Tolerance&) const = default;
 };
 
 /// The rule of labelling. docs/tuning.md describes how the defaults were measured and how to choose
@@ -111,6 +113,8 @@ struct LabelRule {
   int fringe_reach = 40;
   bool fold_beyond = false;  ///< label beyond as occluded
   DepthRange range;          ///< measured depths outside of it are no measurements
+
+  bool operator==(const LabelRule&) const = default;
 
   /// The settings that files, options and parameters have. The paper's rule folds beyond; the range
   /// is the camera's.

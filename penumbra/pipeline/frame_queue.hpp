@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <penumbra/pipeline/frame.hpp>
-#include <penumbra/poses/pose_lookup.hpp>
+#include <penumbra/poses/robot_pose.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/time/pose_history.hpp>
 

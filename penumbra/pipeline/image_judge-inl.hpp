@@ -3,13 +3,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <tuple>
 
 #include <Eigen/Core>
 
+#include <penumbra/base/recent_values.hpp>
 #include <penumbra/camera/rectification.hpp>
 #include <penumbra/pipeline/frame_judge-inl.hpp>
 #include <penumbra/pipeline/frame_labeller-inl.hpp>
-#include <penumbra/pipeline/recent_depth-inl.hpp>
 #include <penumbra/render/near_plane_check.hpp>
 #include <penumbra/targets/target_judge.hpp>
 #include <penumbra/targets/target_views.hpp>
@@ -31,12 +32,6 @@ class ImageJudge final : public FrameJudge {
   [[nodiscard]] const Rectification* rectification() const {
     return labeller_.rectifies() ? lens() : nullptr;
   }
-  /// Returns the links that reach into the near plane.
-  [[nodiscard]] std::span<const std::size_t> near_links(
-      std::span<const Eigen::Isometry3d> T_camera_link) {
-    return near_plane_.find(T_camera_link);
-  }
-
   Judgement judge(const LabelledFrame& frame, const Target& target, TargetMemory* memory,
                   const std::optional<Eigen::Vector2d>& motion) override;
   [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p) const override {
@@ -44,7 +39,7 @@ class ImageJudge final : public FrameJudge {
   }
   void begin(const LabelledFrame& frame) override;
   const LabelledFrame& earlier(std::int64_t stamp, const PoseResult* poses) override;
-  void forget() override { recent_depth_.clear(); }
+  void forget() override { recent_.clear(); }
 
  private:
   [[nodiscard]] const Rectification* lens() const {
@@ -59,7 +54,8 @@ class ImageJudge final : public FrameJudge {
   TargetJudge judge_;
   ObjectRenderers renderers_;
   TargetViews views_;
-  RecentDepth recent_depth_;
+  /// Images of earlier frames, each with a view of one of its copies; empty: it had none.
+  RecentValues<std::tuple<DepthView, Image<std::uint16_t>, Image<float>>> recent_;
   std::optional<FrameLabeller> late_labeller_;  // if target_history > 0
   std::optional<LabelledFrame> late_;           // the last late frame labelled in this call
   const LabelledFrame* judged_ = nullptr;       // the frame of the judge's begin()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -57,13 +58,16 @@ ImageJudge::ImageJudge(const Robot& robot, const Camera& camera, const PipelineC
                  labeller_.rectifies() ? nullptr : lens(), camera),
       views_(robot_, camera_, renderers_, labeller_.rule(),
              labeller_.rectifies() ? nullptr : lens()),
-      recent_depth_(history_span(config.target_history)) {
-  if (recent_depth_.is_enabled()) late_labeller_.emplace(robot_, camera, lens(), config);
+      recent_(history_span(config.target_history)) {
+  if (config.target_history > 0.0) late_labeller_.emplace(robot_, camera, lens(), config);
 }
 
 LabelledFrame ImageJudge::label(const Frame& frame, PoseStage& poses) {
-  return labeller_.label(frame.depth.view, poses.place(frame.pose, frame.stamp, frame.source_status,
-                                                       frame.source_message));
+  const PoseResult& placed =
+      poses.place(frame.pose, frame.stamp, frame.source_status, frame.source_message);
+  LabelledFrame labelled = labeller_.label(frame.depth.view, placed);
+  if (placed.known()) labelled.near_links = near_plane_.find(placed.T_camera_link);
+  return labelled;
 }
 
 Judgement ImageJudge::judge(const LabelledFrame& frame, const Target& target, TargetMemory* memory,
@@ -85,7 +89,20 @@ Judgement ImageJudge::judge(const LabelledFrame& frame, const Target& target, Ta
 void ImageJudge::begin(const LabelledFrame& frame) {
   judged_ = nullptr;
   late_.reset();
-  if (const auto stamp = frame.stamp()) recent_depth_.keep(*stamp, frame.depth);
+  const auto stamp = frame.stamp();
+  if (!late_labeller_ || !stamp) return;
+  std::visit(
+      [&]<typename T>(const ImageView<const T>& depth) {
+        constexpr std::size_t most = std::size_t{1} << 30U;  // bytes
+        const std::size_t bytes = sizeof(T) * static_cast<std::size_t>(depth.width) *
+                                  static_cast<std::size_t>(depth.height);
+        auto& kept = recent_.at(*stamp, most / std::max<std::size_t>(bytes, 1));
+        auto& copy = std::get<Image<T>>(kept);
+        copy.fit(depth.width, depth.height);
+        for (int v = 0; v < depth.height; ++v) std::copy_n(depth.row(v), depth.width, &copy(0, v));
+        std::get<DepthView>(kept) = std::as_const(copy).view();
+      },
+      frame.depth);
 }
 
 /// Labels a stored frame again.
@@ -93,10 +110,10 @@ const LabelledFrame& ImageJudge::earlier(std::int64_t stamp, const PoseResult* p
   if (!late_labeller_)
     throw InputError("its stamp is not the frame's, and no frames are stored (target_history)");
   if (late_ && late_->stamp() == stamp) return *late_;
-  const auto depth = recent_depth_.find(stamp);
-  if (!depth || poses == nullptr) throw InputError("no frame of its stamp is stored");
+  const auto* const kept = recent_.find(stamp);
+  if (kept == nullptr || poses == nullptr) throw InputError("no frame of its stamp is stored");
   judged_ = nullptr;
-  return late_.emplace(late_labeller_->label(*depth, *poses));
+  return late_.emplace(late_labeller_->label(std::get<DepthView>(*kept), *poses));
 }
 
 }  // namespace penumbra

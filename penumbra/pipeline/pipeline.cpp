@@ -9,10 +9,9 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/image_judge-inl.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/target_stage-inl.hpp>
 #include <penumbra/poses/pose_stage.hpp>
 #include <penumbra/robot/drawn_links.hpp>
-#include <penumbra/targets/attach_target.hpp>
-#include <penumbra/targets/target_stage.hpp>
 
 namespace penumbra {
 namespace {
@@ -62,7 +61,7 @@ struct Pipeline::State {
   std::vector<std::string> missing_links;
   PoseStage poses;
   std::unique_ptr<FrameJudge> judge;
-  ImageJudge* image_judge = nullptr;  // the same, of a camera
+  const ImageJudge* image_judge = nullptr;  // the same, of a camera
   TargetStage targets;
   const PoseResult* last_poses = nullptr;  // of the last frame, if it was judged
   std::size_t calls = 0;
@@ -73,7 +72,7 @@ struct Pipeline::State {
 Pipeline::Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config) {
   check_is_drawn(robot);
   auto judge = std::make_unique<ImageJudge>(robot, camera, config);
-  ImageJudge* images = judge.get();
+  const ImageJudge* const images = judge.get();
   state_ = std::make_unique<State>(std::move(robot), config.camera_parent, config.T_parent_camera,
                                    std::move(judge), camera.frame_id);
   state_->image_judge = images;
@@ -111,12 +110,7 @@ const FrameReport& Pipeline::process(const Frame& frame, std::span<const Forecas
 }
 
 AttachedBody Pipeline::attach_target(const Target& target, std::string_view link) const {
-  const State& s = *state_;
-  if (s.last_poses != nullptr)
-    for (const TargetReport& report : s.targets.reports())
-      if (report.name == target.name)
-        return penumbra::attach_target(target, link, *s.last_poses, report, s.robot);
-  throw InputError("target '" + target.name + "' was not in the last frame");
+  return state_->targets.attach(target, link, state_->last_poses);
 }
 
 void Pipeline::forget_target(std::string_view name) { state_->targets.forget(name); }
@@ -132,7 +126,7 @@ const FrameReport& Pipeline::State::report_of(const Frame& frame, const Labelled
   report.message = labelled.message;
   report.note = at.note;
   report.nothing_measured = labelled.nothing_measured;
-  report.parts = judge->parts();
+  report.parts = labelled.parts;
   report.pixels = counts_of(labelled);
   report.timing.kinematics = at.kinematics_ms;
   report.timing.render = labelled.render_ms;
@@ -141,7 +135,7 @@ const FrameReport& Pipeline::State::report_of(const Frame& frame, const Labelled
   if (!frame.targets.empty()) report.timing.targets = targets.elapsed_ms();
   report.T_root_camera.reset();
   report.T_root_link = {};
-  report.near_links = {};
+  report.near_links = labelled.near_links;
   report.links = at.links;
   report.missing_links = at.missing_links;
   attached.clear();
@@ -150,7 +144,6 @@ const FrameReport& Pipeline::State::report_of(const Frame& frame, const Labelled
   if (at.known()) {
     report.T_root_camera = at.T_root_camera;
     report.T_root_link = at.T_root_link;
-    if (image_judge != nullptr) report.near_links = image_judge->near_links(at.T_camera_link);
   }
   report.virtual_depth = labelled.images.virtual_depth;
   report.depth = labelled.images.measured;

@@ -4,8 +4,9 @@
 #include <optional>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/pipeline/ray_targets-inl.hpp>
+#include <penumbra/pipeline/scan_labeller-inl.hpp>
 #include <penumbra/targets/extent_tally.hpp>
+#include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
 namespace {
@@ -88,11 +89,20 @@ PixelState state_of(Label label, double range, const DepthLimits& limits, bool b
 
 }  // namespace
 
-Judgement judge_on_rays(const Scan& scan, const LabelledImages& images, const Tolerance& tolerance,
-                        const Target& target, const Eigen::Isometry3d& T_points_frame,
-                        TargetMemory& memory) {
+/// Judges a 3-D box, or a point with its radius, as TargetJudge does, each ray that meets it in
+/// place of a pixel. Rays without a measurement do not exist.
+Judgement ScanLabeller::judge(const LabelledFrame& frame, const Target& target,
+                              TargetMemory* memory,
+                              const std::optional<Eigen::Vector2d>& /*motion*/) {
+  const LabelledImages& images = frame.images;
+  const Scan& scan = *frame.scan;
+  if (images.labels.labels.empty()) throw InputError(frame.fault());
+  if (!scan.origin) throw InputError("clouds without rays do not show what is hidden");
   const Eigen::Vector3d& origin = *scan.origin;
-  const RayTarget shape(target.shape, T_points_frame, origin);
+  const auto at = placement_of(target.shape).value_or(ShapePlacement());
+  const RayTarget shape(
+      target.shape, frame.poses->T_root_camera.inverse() * pose_of(at.frame, *frame.poses, robot_),
+      origin);
   const std::uint8_t* const labels = images.labels.labels.data;
   ExtentTally tally(images.link_names.size());
   const Eigen::Vector3f start = origin.cast<float>();
@@ -104,7 +114,7 @@ Judgement judge_on_rays(const Scan& scan, const LabelledImages& images, const To
     if (!std::isfinite(range) || range < CloudLabeller::least_range) continue;
     const auto entry = shape.entry(ray / range);
     if (!entry) continue;
-    const double margin = tolerance.at(*entry) + target.depth_margin + shape.margin();
+    const double margin = config_.rule.tolerance.at(*entry) + target.depth_margin + shape.margin();
     const DepthLimits limits{static_cast<float>(*entry - margin),
                              static_cast<float>(*entry + margin)};
     const PixelState state =
@@ -118,7 +128,8 @@ Judgement judge_on_rays(const Scan& scan, const LabelledImages& images, const To
   }
   tally.is_expected = true;
   tally.needed = target.thresholds.point_min_pixels;
-  return judgement_of(tally, images, target.thresholds, memory);
+  TargetMemory none;
+  return judgement_of(tally, images, target.thresholds, memory != nullptr ? *memory : none);
 }
 
 }  // namespace penumbra

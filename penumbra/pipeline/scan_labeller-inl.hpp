@@ -3,13 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include <penumbra/base/recent_values.hpp>
 #include <penumbra/cloud/scan.hpp>
 #include <penumbra/pipeline/frame_judge-inl.hpp>
 #include <penumbra/robot/robot.hpp>
@@ -33,10 +33,9 @@ class ScanLabeller final : public FrameJudge {
                   const std::optional<Eigen::Vector2d>& motion) override;
   void begin(const LabelledFrame& frame) override;
   const LabelledFrame& earlier(std::int64_t stamp, const PoseResult* poses) override;
-  void forget() override { kept_.clear(); }
+  void forget() override { recent_.clear(); }
 
   void set_rule(const CloudRule& rule) override;
-  [[nodiscard]] std::size_t parts() const override { return parts_; }
 
  private:
   /// The labels of a scan, or why it has none.
@@ -47,10 +46,6 @@ class ScanLabeller final : public FrameJudge {
     bool are_known = false;  // not all unknown
     std::vector<std::uint8_t> labels = {};
     std::vector<std::uint16_t> links = {};
-  };
-  struct Kept {
-    std::int64_t stamp;
-    Labels scan;  // with points of its own
   };
 
   static LabelledFrame frame_of(const Labels& scan, const PoseResult& poses);
@@ -76,10 +71,9 @@ class ScanLabeller final : public FrameJudge {
   std::vector<Ball> reaches_;                     // where links of unknown pose can be
   std::vector<float> ranges_;
   std::size_t parts_ = 1;
-  Labels now_;             // of the last scan
-  PoseResult begin_ = {};  // the poses at its begin
-  std::int64_t history_;   // nanoseconds
-  std::deque<Kept> kept_;
+  Labels now_;                   // of the last scan
+  PoseResult begin_ = {};        // the poses at its begin
+  RecentValues<Labels> recent_;  // of scans with points of their own
   LabelledFrame late_;
 };
 

@@ -9,13 +9,10 @@
 #include <vector>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/base/recent_values.hpp>
 #include <penumbra/base/stamps.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/pipeline/ray_targets-inl.hpp>
 #include <penumbra/pipeline/scan_labeller-inl.hpp>
 #include <penumbra/robot/drawn_links.hpp>
-#include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
 namespace {
@@ -39,7 +36,7 @@ double radius_of(std::span<const PreparedMesh> meshes) {
 ScanLabeller::ScanLabeller(const Robot& robot, const CloudConfig& config)
     : robot_(robot),
       config_(config),
-      history_(span_nanoseconds(config.target_history, "target_history")) {
+      recent_(span_nanoseconds(config.target_history, "target_history")) {
   check_is_drawn(robot_);
   make_labeller();
 }
@@ -215,42 +212,24 @@ void ScanLabeller::take(const CloudLabels& found) {
   }
 }
 
-Judgement ScanLabeller::judge(const LabelledFrame& frame, const Target& target,
-                              TargetMemory* memory,
-                              const std::optional<Eigen::Vector2d>& /*motion*/) {
-  if (frame.images.labels.labels.empty()) throw InputError(frame.fault());
-  if (!frame.scan->origin) throw InputError("clouds without rays do not show what is hidden");
-  const auto at = placement_of(target.shape).value_or(ShapePlacement());
-  TargetMemory none;
-  return judge_on_rays(
-      *frame.scan, frame.images, config_.rule.tolerance, target,
-      frame.poses->T_root_camera.inverse() * pose_of(at.frame, *frame.poses, robot_),
-      memory != nullptr ? *memory : none);
-}
-
 void ScanLabeller::set_rule(const CloudRule& rule) {
   labeller_->set_rule(rule);
   config_.rule = rule;
 }
 
 void ScanLabeller::begin(const LabelledFrame& frame) {
-  if (history_ == 0 || !frame.stamp()) return;
-  const std::int64_t stamp = *frame.stamp();
-  std::erase_if(kept_, [&](const Kept& kept) {
-    return kept.stamp == stamp ||
-           stamp_distance(kept.stamp, stamp) > static_cast<std::uint64_t>(history_);
-  });
-  if (kept_.size() == remembered_stamps) kept_.pop_front();
-  Kept& kept = kept_.emplace_back(Kept{.stamp = stamp, .scan = now_});
-  kept.scan.scan = copy_of(now_.scan);
+  if (config_.target_history == 0.0 || !frame.stamp()) return;
+  Labels& kept = recent_.at(*frame.stamp());
+  kept = now_;
+  kept.scan = copy_of(now_.scan);
 }
 
 const LabelledFrame& ScanLabeller::earlier(std::int64_t stamp, const PoseResult* poses) {
-  if (history_ == 0)
+  if (config_.target_history == 0.0)
     throw InputError("its stamp is not the scan's, and no scans are stored (target_history)");
-  const auto kept = std::ranges::find(kept_, stamp, &Kept::stamp);
-  if (kept == kept_.end() || poses == nullptr) throw InputError("no scan of its stamp is stored");
-  return late_ = frame_of(kept->scan, *poses);
+  const Labels* const kept = recent_.find(stamp);
+  if (kept == nullptr || poses == nullptr) throw InputError("no scan of its stamp is stored");
+  return late_ = frame_of(*kept, *poses);
 }
 
 LabelledFrame ScanLabeller::frame_of(const Labels& scan, const PoseResult& poses) {
@@ -297,6 +276,7 @@ LabelledFrame ScanLabeller::label(const Frame& frame, PoseStage& poses) {
   if (!has_pose(now_.status)) begin_.status = now_.status;  // unknown in a part is unknown
   LabelledFrame out = frame_of(now_, begin_);
   out.classify_ms = classify_ms;
+  out.parts = parts_;
   return out;
 }
 

@@ -342,7 +342,7 @@ Prediction CameraPredictor::judge(std::size_t target, bool is_near) {
   Prediction prediction{.verdict = Verdict::out_of_view, .clearance = free_};
   if (shown.spans.empty()) return prediction;
   if (is_near) {
-    tally_extent({images_, label_rule_, true}, shown.spans, shown.expected, false, nullptr, tally_);
+    tally_.count(images_, label_rule_, shown.spans, shown.expected, false, nullptr);
   } else {
     tally_.clear();
     tally_.inside = tally_.pixels[PixelState::clear] = shown.inside;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <functional>
-#include <future>
 #include <iomanip>
 #include <limits>
 #include <set>
@@ -16,6 +13,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/planning/camera_predictor-inl.hpp>
 #include <penumbra/planning/look_ahead.hpp>
+#include <penumbra/planning/parallel-inl.hpp>
 #include <penumbra/robot/drawn_links.hpp>
 
 namespace penumbra {
@@ -23,6 +21,7 @@ namespace {
 
 using planning::AnchoredTarget;
 using planning::CameraPredictor;
+using planning::parallel_for;
 using planning::Sample;
 
 constexpr double least_step = 0.001;  // seconds
@@ -41,20 +40,6 @@ void check(const LookAheadConfig& config) {
   if (config.clearance < 0 || config.clearance > planning::max_clearance)
     fault("clearance is " + std::to_string(config.clearance) + " pixels; expected 0 to " +
           std::to_string(planning::max_clearance));
-}
-
-/// Calls work(thread, index) for each index below `count`, on some threads.
-void parallel_for(int threads, std::size_t count,
-                  const std::function<void(std::size_t, std::size_t)>& work) {
-  std::atomic<std::size_t> next = 0;
-  const auto take = [&](std::size_t thread) {
-    for (std::size_t i = next++; i < count; i = next++) work(thread, i);
-  };
-  std::vector<std::future<void>> others;
-  for (std::size_t i = 1; i < std::min(static_cast<std::size_t>(threads), count); ++i)
-    others.push_back(std::async(std::launch::async, take, i));
-  take(0);
-  for (std::future<void>& other : others) other.get();
 }
 
 /// One camera's samples of a part of a motion.

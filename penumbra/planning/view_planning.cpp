@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <functional>
-#include <future>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -14,75 +12,73 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/planning/parallel-inl.hpp>
 #include <penumbra/planning/view_planning.hpp>
 
 namespace penumbra {
 namespace {
 
-std::size_t link_of_candidate(const Robot& robot, const CameraCandidate& candidate) {
-  if (candidate.link.empty()) return 0;
-  if (const auto link = robot.find_link(candidate.link)) return *link;
-  throw InputError("candidate '" + candidate.name + "': '" + candidate.link +
+std::size_t link_of(const Robot& robot, const ForecastCamera& candidate) {
+  if (candidate.parent.empty()) return 0;
+  if (const auto link = robot.find_link(candidate.parent)) return *link;
+  throw InputError("candidate '" + candidate.name + "': '" + candidate.parent +
                    "' is not a link of robot '" + robot.name() + "'");
 }
 
-bool is_uncertain(const MotionFrame& motion, std::size_t link) {
-  const std::vector<std::size_t>& links = motion.uncertain_links;
-  return std::find(links.begin(), links.end(), link) != links.end();
+bool is_uncertain(const Frame& frame, std::size_t link) {
+  const std::vector<std::size_t>& links = frame.pose.uncertain_links;
+  return std::ranges::find(links, link) != links.end();
 }
 
-/// Judges frames with a pipeline of its own, by the robot's model alone.
+/// Judges frames as candidates with one camera would see them, by the robot's model alone.
 class CandidateJudge {
  public:
-  CandidateJudge(const Robot& robot, const PlannedCamera& planned)
-      : range_(planned.camera.range), pipeline_(robot, planned.camera, config_of(planned)) {}
+  CandidateJudge(const Robot& robot, const ForecastCamera& camera)
+      : camera_(camera), pipeline_(robot, camera.camera, config_of(camera)) {}
+
+  /// Returns whether a candidate is this camera in another place.
+  [[nodiscard]] bool serves(const ForecastCamera& candidate) const {
+    return candidate.camera == camera_.camera && candidate.rule == camera_.rule;
+  }
 
   /// Writes the verdicts of the frame's targets; returns why the first unknown one is.
-  std::string judge(const CameraCandidate& candidate, std::size_t link, const MotionFrame& motion,
+  std::string judge(const ForecastCamera& candidate, const Frame& motion,
                     const std::function<void(std::size_t, Verdict)>& write) {
+    const std::size_t link = link_of(pipeline_.robot(), candidate);
     if (is_uncertain(motion, link)) return "the pose of its link is not known";
-    set_targets(motion.targets);
-    Frame frame;
-    frame.pose.T_root_link = motion.T_root_link;
-    frame.pose.T_parent_camera = motion.T_root_link[link] * candidate.T_link_camera;
-    frame.targets = targets_;
-    frame.pose.attached = motion.attached;
-    frame.pose.uncertain_links = motion.uncertain_links;
+    Frame frame{.pose = motion.pose, .targets = motion.targets};
+    frame.pose.T_parent_camera = motion.pose.T_root_link[link] * candidate.T_parent_camera;
     frame.pose.uncertain_reason = "not known in this frame";
-    const FrameReport& report = pipeline_.process(frame);
-    std::string why;
-    for (std::size_t i = 0; i < targets_.size(); ++i) {
-      const auto [verdict, reason] = verdict_of(report, motion, i);
-      write(i, verdict);
-      if (verdict == Verdict::unknown && why.empty())
-        why = targets_[i].name + ": " + std::string(reason);
-    }
-    return why;
-  }
-
- private:
-  static PipelineConfig config_of(const PlannedCamera& planned) {
-    PipelineConfig config;
-    config.rule = planned.rule;
-    config.has_depth = false;
-    return config;
-  }
-
-  void set_targets(const std::vector<Target>& targets) {
-    targets_ = targets;
-    for (Target& target : targets_) {
+    for (Target& target : frame.targets) {
       target.has_identity = false;  // each frame is judged alone
       target.handling = {};
       target.estimate.reset();
       target.stamp.reset();
     }
+    const FrameReport& report = pipeline_.process(frame);
+    std::string why;
+    for (std::size_t i = 0; i < frame.targets.size(); ++i) {
+      const auto [verdict, reason] = verdict_of(report, frame, i);
+      write(i, verdict);
+      if (verdict == Verdict::unknown && why.empty())
+        why = frame.targets[i].name + ": " + std::string(reason);
+    }
+    return why;
+  }
+
+ private:
+  static PipelineConfig config_of(const ForecastCamera& camera) {
+    PipelineConfig config;
+    config.rule = camera.rule;
+    config.has_depth = false;
+    return config;
   }
 
   [[nodiscard]] std::pair<Verdict, std::string_view> verdict_of(const FrameReport& report,
-                                                                const MotionFrame& motion,
+                                                                const Frame& frame,
                                                                 std::size_t i) const {
     const TargetReport& target = report.targets[i];
-    if (is_out_of_range(report, motion, targets_[i].shape)) return {Verdict::out_of_view, {}};
+    if (is_out_of_range(report, frame, frame.targets[i].shape)) return {Verdict::out_of_view, {}};
     const bool seems_seen =
         target.verdict == Verdict::visible || target.verdict == Verdict::partial;
     if (seems_seen && !report.near_links.empty())
@@ -90,23 +86,22 @@ class CandidateJudge {
     return {target.verdict, target.reason};
   }
 
-  [[nodiscard]] bool is_out_of_range(const FrameReport& report, const MotionFrame& motion,
+  [[nodiscard]] bool is_out_of_range(const FrameReport& report, const Frame& frame,
                                      const TargetShape& shape) const {
     const auto placement = placement_of(shape);
     if (!placement || !report.T_root_camera) return false;
     Eigen::Vector3d p = placement->pose.translation();
     if (placement->frame.kind == ReferenceFrame::Kind::link) {
       const auto link = pipeline_.robot().find_link(placement->frame.link);
-      if (!link || is_uncertain(motion, *link)) return false;
+      if (!link || is_uncertain(frame, *link)) return false;
       p = report.T_root_link[*link] * p;
     }
     const double z = (report.T_root_camera->inverse() * p).z();
-    return z < range_.near || z > range_.far;
+    return z < camera_.camera.range.near || z > camera_.camera.range.far;
   }
 
-  DepthRange range_;
+  const ForecastCamera& camera_;
   Pipeline pipeline_;
-  std::vector<Target> targets_;
 };
 
 /// The pairs of target and frame that a candidate sees, a bit each.
@@ -197,38 +192,30 @@ double CandidateViews::share(std::size_t candidate, std::size_t target, Verdict 
   return static_cast<double>(count) / static_cast<double>(frames_);
 }
 
-CandidateViews judge_candidates(const Robot& robot, const PlannedCamera& camera,
-                                std::span<const CameraCandidate> candidates,
-                                std::span<const MotionFrame> motion, int threads,
+CandidateViews judge_candidates(const Robot& robot, std::span<const ForecastCamera> candidates,
+                                std::span<const Frame> motion, int threads,
                                 const std::function<void()>& step) {
-  std::vector<std::size_t> links(candidates.size());
-  std::transform(candidates.begin(), candidates.end(), links.begin(),
-                 [&](const CameraCandidate& each) { return link_of_candidate(robot, each); });
+  for (const ForecastCamera& each : candidates) static_cast<void>(link_of(robot, each));
   const std::size_t targets = motion.empty() ? 0 : motion.front().targets.size();
-  for (const MotionFrame& frame : motion)
-    if (frame.targets.size() != targets || frame.T_root_link.size() != robot.links().size())
+  for (const Frame& frame : motion)
+    if (frame.targets.size() != targets || frame.pose.T_root_link.size() != robot.links().size())
       throw std::invalid_argument("frames of a motion have different targets or links");
   CandidateViews views(candidates.size(), motion.size(), targets);
   std::mutex mutex;  // of step
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    CandidateJudge judge(robot, camera);
-    for (std::size_t c = next++; c < candidates.size(); c = next++)
-      for (std::size_t f = 0; f < motion.size(); ++f) {
-        const std::string why =
-            judge.judge(candidates[c], links[c], motion[f],
-                        [&](std::size_t t, Verdict verdict) { views.at(c, f, t) = verdict; });
-        if (!why.empty() && views.unknown(c).empty())
-          views.unknown(c) = "frame " + std::to_string(motion[f].index) + ": " + why;
-        const std::scoped_lock lock(mutex);
-        if (step) step();
-      }
-  };
-  std::vector<std::future<void>> workers;
-  const std::size_t most = std::min(static_cast<std::size_t>(threads), candidates.size());
-  for (std::size_t i = 1; i < most; ++i) workers.push_back(std::async(std::launch::async, work));
-  work();
-  for (std::future<void>& worker : workers) worker.get();
+  std::vector<std::optional<CandidateJudge>> judges(static_cast<std::size_t>(threads));
+  planning::parallel_for(threads, candidates.size(), [&](std::size_t thread, std::size_t c) {
+    std::optional<CandidateJudge>& judge = judges[thread];
+    if (!judge || !judge->serves(candidates[c])) judge.emplace(robot, candidates[c]);
+    for (std::size_t f = 0; f < motion.size(); ++f) {
+      const std::string why =
+          judge->judge(candidates[c], motion[f],
+                       [&](std::size_t t, Verdict verdict) { views.at(c, f, t) = verdict; });
+      if (!why.empty() && views.unknown(c).empty())
+        views.unknown(c) = "frame " + std::to_string(motion[f].index.value_or(f)) + ": " + why;
+      const std::scoped_lock lock(mutex);
+      if (step) step();
+    }
+  });
   return views;
 }
 

@@ -8,33 +8,12 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
-#include <penumbra/camera/camera.hpp>
 #include <penumbra/labels/labels.hpp>
+#include <penumbra/pipeline/frame.hpp>
+#include <penumbra/planning/look_ahead.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/targets/target.hpp>
-#include <penumbra/time/pose_history.hpp>
 
 namespace penumbra {
-
-/// A pose where a camera could be mounted.
-struct CameraCandidate {
-  std::string name;
-  std::string link;  ///< that would carry it; empty: the root
-  Eigen::Isometry3d T_link_camera = Eigen::Isometry3d::Identity();  ///< metres, optical frame
-};
-
-/// A frame of the robot's motion, and where the targets are then.
-struct MotionFrame {
-  std::size_t index = 0;                       ///< in its source
-  std::vector<Eigen::Isometry3d> T_root_link;  ///< of all links
-  std::vector<AttachedBody> attached = {};
-  std::vector<std::size_t> uncertain_links = {};  ///< as in Frame
-  /// In each frame the same number, in the same order. Their shapes are given in the root's or a
-  /// link's frame; std::monostate: not found in this frame.
-  std::vector<Target> targets = {};
-};
 
 /// What each candidate sees of each target in each frame.
 class CandidateViews {
@@ -72,22 +51,21 @@ class CandidateViews {
   std::vector<std::string> reasons_;
 };
 
-/// The camera that is planned with.
-struct PlannedCamera {
-  Camera camera;   ///< targets whose origin is outside its range are out_of_view
-  LabelRule rule;  ///< its tolerance separates robot and target
-};
-
 /// Judges each frame's targets as each candidate would see them if only the robot, and what it
 /// carries, could hide them: from renders, without depth images. Each frame is judged alone,
-/// without hysteresis. A camera inside a link, a part of the robot nearer than
-/// DepthRenderer::near_plane and a body that cannot be drawn make what would be seen unknown.
-/// `threads`: how many, at least 1; the result does not depend on it. Calls `step` after each
-/// candidate's frame, on any thread but never twice at once. Throws InputError for an unknown link
-/// and as Pipeline does, and std::invalid_argument for frames with different numbers of targets.
-[[nodiscard]] CandidateViews judge_candidates(const Robot& robot, const PlannedCamera& camera,
-                                              std::span<const CameraCandidate> candidates,
-                                              std::span<const MotionFrame> motion, int threads,
+/// without hysteresis. Targets whose origin is outside of a camera's range are out_of_view. A
+/// camera inside a link, a part of the robot nearer than DepthRenderer::near_plane and a body that
+/// cannot be drawn make what would be seen unknown.
+///
+/// `motion`: the poses of all links, what they carry and links whose pose is not known, and the
+/// targets: in each frame the same number, in the same order, with shapes in the root's or a link's
+/// frame; std::monostate: not found in this frame. `threads`: how many, at least 1; the result does
+/// not depend on it. Calls `step` after each candidate's frame, on any thread but never twice at
+/// once. Throws InputError for an unknown link and as Pipeline does, and std::invalid_argument for
+/// frames with different numbers of targets.
+[[nodiscard]] CandidateViews judge_candidates(const Robot& robot,
+                                              std::span<const ForecastCamera> candidates,
+                                              std::span<const Frame> motion, int threads,
                                               const std::function<void()>& step = {});
 
 /// Cameras that together see more than others.

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/poses/pose_lookup.hpp>
 #include <penumbra/poses/pose_stage.hpp>
+#include <penumbra/poses/robot_pose.hpp>
 
 namespace penumbra {
 namespace {

@@ -103,9 +103,9 @@ void count_robot(const LabelledImages& images, const RowSpan& span, const Limits
 template <typename Limits, typename Depth>
 class ExtentReader {
  public:
-  ExtentReader(const TalliedFrame& frame, bool has_depth, bool beyond_hides,
+  ExtentReader(const LabelledImages& images, bool has_depth, bool beyond_hides,
                const Limits& limits_of, const Measured<Depth>& depths, ExtentTally& tally)
-      : images_(frame.images),
+      : images_(images),
         has_depth_(has_depth),
         beyond_hides_(beyond_hides),
         limits_of_(limits_of),
@@ -263,18 +263,19 @@ void with_limits(const labelling::Rule& label_rule, const ExpectedDepth& expecte
   }
 }
 
+/// Returns null if the robot is too far from the spans to affect their depths.
+RobotSurroundings* robot_near(const LabelledImages& images, std::span<const RowSpan> spans,
+                              RobotSurroundings& robot) {
+  const int reach = robot.reach();
+  const bool is_near = robot_may_lie_in(images, grown(box_of_spans(spans), reach, reach));
+  return is_near ? &robot : nullptr;
+}
+
 }  // namespace
 
-TalliedFrame::TalliedFrame(const LabelledImages& judged, const labelling::Rule& label_rule,
-                           bool has_outside)
-    : images(judged),
-      rule(&label_rule),
-      width(judged.labels.labels.width),
-      height(judged.labels.labels.height),
-      is_outside_undrawn(has_outside) {}
-
-bool TalliedFrame::robot_may_lie_in(const PixelRectangle& box) const {
-  const auto [u0, v0, u1, v1] = overlap(box, image());
+bool robot_may_lie_in(const LabelledImages& images, const PixelRectangle& box) {
+  const auto& labels = images.labels.labels;
+  const auto [u0, v0, u1, v1] = overlap(box, {0, 0, labels.width, labels.height});
   if (u0 >= u1 || v0 >= v1) return false;
   const TileMask* const tiles = images.labels.touched;
   if (tiles == nullptr) return true;
@@ -282,18 +283,6 @@ bool TalliedFrame::robot_may_lie_in(const PixelRectangle& box) const {
   const std::uint64_t columns = upto & (~std::uint64_t{0} << (u0 / tiles->tile_width));
   for (int j = v0 / TileMask::tile_height; j <= (v1 - 1) / TileMask::tile_height; ++j)
     if ((tiles->rows[static_cast<std::size_t>(j)] & columns) != 0) return true;
-  return false;
-}
-
-bool TalliedFrame::robot_lies_in(const RowSpan& pixels, float far) const {
-  const std::uint8_t* const labels = images.labels.labels.row(pixels.v);
-  const float* const z = images.virtual_depth.depth.row(pixels.v);
-  for (int u = pixels.u0; u < pixels.u1; ++u) {
-    u += first_set(labels + u, pixels.u1 - u);
-    if (u < pixels.u1 && !is_fringe(labels[u]) && z[u] <= far &&
-        (z[u] > 0.0f || !is_outside_undrawn))
-      return true;
-  }
   return false;
 }
 
@@ -313,46 +302,34 @@ std::vector<Blame> LinkCounts::blame(std::size_t pixels, std::span<const std::st
   return blame;
 }
 
-namespace {
-
-/// Returns null if the robot is too far from the spans to affect their depths.
-RobotSurroundings* robot_near(const TalliedFrame& frame, std::span<const RowSpan> spans,
-                              RobotSurroundings& robot) {
-  const int reach = robot.reach();
-  const bool is_near = frame.robot_may_lie_in(grown(box_of_spans(spans), reach, reach));
-  return is_near ? &robot : nullptr;
-}
-
-}  // namespace
-
-void tally_extent(const TalliedFrame& frame, std::span<const RowSpan> spans,
-                  const ExpectedDepth& expected, bool beyond_hides, RobotSurroundings* robot,
-                  ExtentTally& tally) {
-  tally.clear();
-  tally.is_expected = expected.known();
-  for (const RowSpan& span : spans) tally.inside += static_cast<std::size_t>(span.u1 - span.u0);
+void ExtentTally::count(const LabelledImages& images, const labelling::Rule& rule,
+                        std::span<const RowSpan> spans, const ExpectedDepth& expected,
+                        bool beyond_hides, RobotSurroundings* robot) {
+  clear();
+  is_expected = expected.known();
+  for (const RowSpan& span : spans) inside += static_cast<std::size_t>(span.u1 - span.u0);
   if (spans.empty()) return;
-  tally.step = static_cast<int>((tally.inside + max_depth_samples - 1) / max_depth_samples);
-  RobotSurroundings* const near = robot != nullptr ? robot_near(frame, spans, *robot) : nullptr;
-  with_limits(*frame.rule, expected, [&](const auto& limits_of) {
-    if (!frame.is_measured()) {
-      for (const RowSpan& span : spans) count_robot(frame.images, span, limits_of, tally);
+  step = static_cast<int>((inside + max_depth_samples - 1) / max_depth_samples);
+  RobotSurroundings* const near = robot != nullptr ? robot_near(images, spans, *robot) : nullptr;
+  with_limits(rule, expected, [&](const auto& limits_of) {
+    if (images.evidence != Evidence::measured) {
+      for (const RowSpan& span : spans) count_robot(images, span, limits_of, *this);
       return;
     }
     std::visit(
         [&](const auto& image) {
-          const Measured depths(image, *frame.rule);
-          ExtentReader reader(frame, expected.known(), beyond_hides, limits_of, depths, tally);
+          const Measured of_image(image, rule);
+          ExtentReader reader(images, is_expected, beyond_hides, limits_of, of_image, *this);
           for (const RowSpan& span : spans) {
             reader.count(span);
-            if (robot != nullptr) reader.sample(span, tally.step, near);
+            if (robot != nullptr) reader.sample(span, step, near);
           }
         },
-        frame.images.measured);
-    tally.unmeasured = tally.seen() - tally.measured;
+        images.measured);
+    unmeasured = seen() - measured;
   });
-  if (std::size_t all = tally.inside; frame.images.evidence == Evidence::none)
-    tally.mark_unknown(PixelState::clear, all);
+  if (std::size_t all = inside; images.evidence == Evidence::none)
+    mark_unknown(PixelState::clear, all);
 }
 
 }  // namespace penumbra

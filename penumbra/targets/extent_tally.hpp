@@ -46,27 +46,9 @@ struct LimitRule {
   float a, b, c, margin;
 };
 
-/// A frame to judge targets on. One whose evidence is not `measured` needs of its labels only the
-/// touched tiles, if all pixels lie within the lens model.
-struct TalliedFrame {
-  /// `has_outside`: pixels that cannot be rendered are outside the camera's view (rectified
-  /// images); else the robot may be there.
-  TalliedFrame(const LabelledImages& judged, const labelling::Rule& label_rule, bool has_outside);
-
-  [[nodiscard]] bool has_pose() const { return !images.virtual_depth.depth.empty(); }
-  [[nodiscard]] bool is_measured() const { return images.evidence == Evidence::measured; }
-  /// Returns whether the robot may lie in a box, clipped to the image. It may lie anywhere outside
-  /// the lens model.
-  [[nodiscard]] bool robot_may_lie_in(const PixelRectangle& box) const;
-  /// The same for pixels of a row in the image, exactly, and for robot up to `far` metres.
-  [[nodiscard]] bool robot_lies_in(const RowSpan& pixels, float far) const;
-  [[nodiscard]] PixelRectangle image() const { return {0, 0, width, height}; }
-
-  LabelledImages images;
-  const labelling::Rule* rule;
-  int width, height;
-  bool is_outside_undrawn;
-};
+/// Returns whether the robot may lie in a box, clipped to the image. It may lie anywhere outside
+/// the lens model.
+[[nodiscard]] bool robot_may_lie_in(const LabelledImages& images, const PixelRectangle& box);
 
 /// Counts the pixels that each link hides.
 class LinkCounts {
@@ -105,6 +87,9 @@ struct StateCounts {
 /// their spread.
 inline constexpr std::size_t max_depth_samples = 1000;
 
+struct ExpectedDepth;
+class RobotSurroundings;
+
 /// What the robot and other objects leave of an extent: numbers of pixels, or of rays, and depths.
 struct ExtentTally {
   explicit ExtentTally(std::size_t link_count) : links(link_count) {
@@ -112,6 +97,13 @@ struct ExtentTally {
   }
 
   void clear();
+  /// Counts the pixels of an extent, all but `covered`; the frame's pose must be known. Images
+  /// whose evidence is not `measured` need of their labels only the touched tiles, if all pixels
+  /// lie within the lens model. If `robot` is not null, also collects depths that are labelled
+  /// clear or front, lie within the limits of the expected depth and cannot be the robot's.
+  void count(const LabelledImages& images, const labelling::Rule& rule,
+             std::span<const RowSpan> spans, const ExpectedDepth& expected, bool beyond_hides,
+             RobotSurroundings* robot);
   /// Returns `count` as a fraction of the pixels inside.
   [[nodiscard]] double share(std::size_t count) const {
     return inside == 0 ? 0.0 : static_cast<double>(count) / static_cast<double>(inside);
@@ -192,14 +184,5 @@ void for_each_part(const TileMask* tiles, const RowSpan& span, F&& f) {
     u = end;
   }
 }
-
-class RobotSurroundings;
-
-/// Counts the pixels of an extent, all but `covered`; the frame's pose must be known. If `robot` is
-/// not null, also collects depths that are labelled clear or front, lie within the limits of the
-/// expected depth and cannot be the robot's.
-void tally_extent(const TalliedFrame& frame, std::span<const RowSpan> spans,
-                  const ExpectedDepth& expected, bool beyond_hides, RobotSurroundings* robot,
-                  ExtentTally& tally);
 
 }  // namespace penumbra

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -27,6 +28,8 @@ struct LabelledFrame {
   LabelledImages images = {};     ///< for targets, which know why something is not drawn
   LabelView labels = {};          ///< the report's
   std::size_t uncovered = 0;      ///< PixelCounts::uncovered
+  std::size_t parts = 0;          ///< FrameReport::parts
+  std::span<const std::size_t> near_links = {};  ///< FrameReport::near_links
   std::optional<double> render_ms = {}, classify_ms = {};
 
   [[nodiscard]] std::optional<std::int64_t> stamp() const { return poses->stamp; }

@@ -17,7 +17,6 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/mesh/prepared_mesh.hpp>
-#include <penumbra/targets/region.hpp>
 #include <penumbra/targets/target_judge.hpp>
 #include <penumbra/tracking/trackers.hpp>
 

@@ -70,12 +70,13 @@ ExpectedDepth expected_of(const TargetView& target) {
 }
 
 /// Returns whether more than half of the unknown pixels lie outside the lens model.
-bool is_uncovered(const TalliedFrame& frame, std::span<const RowSpan> extent, std::size_t unknown) {
-  if (frame.images.virtual_depth.depth.empty()) return false;
+bool is_uncovered(const LabelledImages& images, std::span<const RowSpan> extent,
+                  std::size_t unknown) {
+  if (images.virtual_depth.depth.empty()) return false;
   std::size_t uncovered = 0;
   for (const RowSpan& span : extent) {
-    const std::uint8_t* const labels = frame.images.labels.labels.row(span.v);
-    const float* const z = frame.images.virtual_depth.depth.row(span.v);
+    const std::uint8_t* const labels = images.labels.labels.row(span.v);
+    const float* const z = images.virtual_depth.depth.row(span.v);
     for (int u = span.u0; u < span.u1; ++u)
       if (labels[u] == static_cast<std::uint8_t>(Label::unknown) && !(z[u] > 0.0f)) ++uncovered;
   }
@@ -127,6 +128,8 @@ struct TargetJudge::State {
                              TargetMemory& memory);
   [[nodiscard]] bool place_whole(const TargetView& target, const TargetMemory& memory,
                                  const PixelRectangle& box);
+  [[nodiscard]] bool has_pose() const { return !images.virtual_depth.depth.empty(); }
+  [[nodiscard]] bool is_measured() const { return images.evidence == Evidence::measured; }
   [[nodiscard]] bool holds_robot(const ExpectedDepth& expected, const PixelRectangle& box) const;
   [[nodiscard]] bool reaches_border() const;
   void remember(const TargetView& target, TargetMemory& memory) const;
@@ -134,8 +137,9 @@ struct TargetJudge::State {
 
   Camera camera;
   labelling::Rule rule;
-  TalliedFrame frame;
+  LabelledImages images;  // of the frame
   bool has_frame = false;
+  bool has_outside;  // as RobotSurroundings
   RobotSurroundings robot;
   SeenPixels seen_pixels;
   RegionSpans seen, whole;  // the given extent, and the remembered one
@@ -150,8 +154,8 @@ TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, st
                           ImageView<const std::uint8_t> unseen)
     : camera(camera_.check()),
       rule(checked_rule(label_rule)),
-      frame({}, rule, !unseen.empty()),
-      robot(camera.intrinsics.width(), camera.intrinsics.height(), label_rule),
+      has_outside(!unseen.empty()),
+      robot(camera.intrinsics.width(), camera.intrinsics.height(), label_rule, has_outside),
       seen_pixels(unseen),
       seen(camera.intrinsics.width(), camera.intrinsics.height()),
       whole(seen),
@@ -180,8 +184,8 @@ void TargetJudge::begin(const LabelledImages& images) {
   const bool is_measured = images.evidence == Evidence::measured;
   std::visit([&](const auto& depth) { check("depth image", depth, !is_measured); },
              images.measured);
-  state_->frame = TalliedFrame(images, state_->rule, state_->frame.is_outside_undrawn);
-  state_->robot.begin(state_->frame);
+  state_->images = images;
+  state_->robot.begin(state_->images);
   state_->has_frame = true;
 }
 
@@ -209,12 +213,12 @@ Judgement TargetJudge::State::judge_at_depth(const TargetView& target, TargetMem
   ExtentTally& tally = observe(target, expected_of(target), memory);
   const std::size_t unknown = tally.pixels[PixelState::unknown];
   tally.is_uncovered =
-      unknown > 0 && !camera.distortion.is_none() && is_uncovered(frame, seen.spans(), unknown);
-  Judgement judgement = judgement_of(tally, frame.images, target.thresholds, memory);
+      unknown > 0 && !camera.distortion.is_none() && is_uncovered(images, seen.spans(), unknown);
+  Judgement judgement = judgement_of(tally, images, target.thresholds, memory);
   if (target.extent == Extent::modal && judgement.verdict == Verdict::visible)
     remember(target, memory);
-  distrust(frame.images, judgement);
-  if (target.wants_point && frame.is_measured()) add_point(target, judgement);
+  distrust(images, judgement);
+  if (target.wants_point && is_measured()) add_point(target, judgement);
   return judgement;
 }
 
@@ -229,10 +233,19 @@ bool TargetJudge::State::holds_robot(const ExpectedDepth& expected,
   const auto& depth = expected.constant;
   const float far = depth ? LimitRule(rule, expected.margin).at(*depth).far
                           : std::numeric_limits<float>::infinity();
-  if (!frame.robot_may_lie_in(box)) return false;
-  const auto [u0, v0, u1, v1] = overlap(box, frame.image());
-  for (int v = v0; v < v1; ++v)
-    if (frame.robot_lies_in({v, u0, u1}, far)) return true;
+  if (!robot_may_lie_in(images, box)) return false;
+  const auto [u0, v0, u1, v1] =
+      overlap(box, {0, 0, camera.intrinsics.width(), camera.intrinsics.height()});
+  for (int v = v0; v < v1; ++v) {
+    const std::uint8_t* const labels = images.labels.labels.row(v);
+    const float* const z = images.virtual_depth.depth.row(v);
+    for (int u = u0; u < u1; ++u) {
+      u += first_set(labels + u, u1 - u);
+      if (u < u1 && labels[u] != static_cast<std::uint8_t>(Label::fringe) && z[u] <= far &&
+          (z[u] > 0.0f || !has_outside))
+        return true;
+    }
+  }
   return false;
 }
 
@@ -240,7 +253,7 @@ bool TargetJudge::State::holds_robot(const ExpectedDepth& expected,
 /// modal region may be cut.
 std::optional<double> TargetJudge::State::depth_by_height(const TargetView& target,
                                                           const TargetMemory& memory) const {
-  if (seen.spans().empty() || !frame.has_pose()) return memory.depth;
+  if (seen.spans().empty() || !has_pose()) return memory.depth;
   const PixelRectangle box = box_of_spans(seen.spans());
   if (target.extent == Extent::modal) {
     // As in observe_modal, which judges what is near the robot by the whole extent alone.
@@ -261,17 +274,17 @@ std::optional<double> TargetJudge::State::depth_by_height(const TargetView& targ
 ExtentTally& TargetJudge::State::observe(const TargetView& target, const ExpectedDepth& expected,
                                          TargetMemory& memory) {
   ExtentTally& tally = seen_tally;
-  if (frame.has_pose()) {
-    const bool wants_depths = target.wants_point && frame.is_measured();
-    tally_extent(frame, seen.spans(), expected, target.thresholds.beyond_hides,
-                 wants_depths ? &robot : nullptr, tally);
+  if (has_pose()) {
+    const bool wants_depths = target.wants_point && is_measured();
+    tally.count(images, rule, seen.spans(), expected, target.thresholds.beyond_hides,
+                wants_depths ? &robot : nullptr);
   } else {
     tally.clear();
     tally.inside = tally.pixels[PixelState::unknown] = seen.inside();
     tally.has_pose = false;
   }
   tally.covered = seen.covered();
-  const bool is_modal = target.extent == Extent::modal && frame.has_pose();
+  const bool is_modal = target.extent == Extent::modal && has_pose();
   return is_modal ? observe_modal(target, expected, memory) : tally;
 }
 
@@ -300,8 +313,7 @@ ExtentTally& TargetJudge::State::observe_modal(const TargetView& target,
   const double excess = (size_of(box) / whole_size).max(1).prod();
   const double missing = all - static_cast<double>(seen.inside()) / excess;
   if (missing <= target.thresholds.partial_enter * all) return seen_tally;
-  tally_extent(frame, whole.spans(), expected, target.thresholds.beyond_hides, nullptr,
-               whole_tally);
+  whole_tally.count(images, rule, whole.spans(), expected, target.thresholds.beyond_hides, nullptr);
   whole_tally.covered = whole.covered();
   whole_tally.is_missing = true;
   const std::size_t known = whole_tally.inside - whole_tally.seen();
@@ -337,7 +349,8 @@ bool TargetJudge::State::reaches_border() const {
   return std::ranges::any_of(seen.spans(), [&](const RowSpan& span) {
     for (const int dv : {-mask_error, 0, mask_error}) {
       const RowSpan around{span.v + dv, span.u0 - mask_error, span.u1 + mask_error};
-      if (!seen_pixels.hold(around, frame.width, frame.height)) return true;
+      if (!seen_pixels.hold(around, camera.intrinsics.width(), camera.intrinsics.height()))
+        return true;
     }
     return false;
   });

@@ -14,10 +14,12 @@ namespace penumbra {
 /// them. Computed on demand for cells of LabelRule::cell pixels squared.
 class RobotSurroundings {
  public:
-  RobotSurroundings(int width, int height, const LabelRule& rule);
+  /// `has_outside`: pixels that cannot be rendered are outside the camera's view (rectified
+  /// images); else the robot may be there.
+  RobotSurroundings(int width, int height, const LabelRule& rule, bool has_outside);
 
-  /// Sets the frame, which is read until the next call.
-  void begin(const TalliedFrame& frame);
+  /// Sets the frame's images, which are read until the next call.
+  void begin(const LabelledImages& images);
 
   /// Depths that may be the robot's within edge_margin pixels of a cell; none if from > to.
   struct Depths {
@@ -43,7 +45,9 @@ class RobotSurroundings {
 
   int cells_;  // margin in cells
   float beyond_factor_;
-  const TalliedFrame* frame_ = nullptr;
+  labelling::Rule rule_;
+  bool has_outside_;
+  const LabelledImages* images_ = nullptr;
   std::uint64_t number_ = 0;
   Image<Cell> cell_;
   Image<Around> around_;

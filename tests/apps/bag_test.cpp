@@ -4,10 +4,13 @@
 #include "../support/data.hpp"
 #include "fixtures.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <limits>
 
 #include <io/files/camera_info.hpp>
+#include <io/inputs/run_input.hpp>
 #include <io/mcap/compression.hpp>
 
 namespace penumbra::test {
@@ -249,6 +252,46 @@ TEST_F(BagTest, TakesPosesFromTransforms) {
 
   bag_.remove("/joint_states");
   expect_has(run().out, {"poses: from tf"});
+}
+
+/// Returns how many bytes this process has read from files.
+std::uint64_t bytes_read() {
+  std::string name;
+  std::uint64_t bytes = 0;
+  std::ifstream("/proc/self/io") >> name >> bytes;
+  return bytes;
+}
+
+/// Once a frame above both camera and robot is known, no link can come above the camera.
+TEST_F(BagTest, ACameraBesideTheRobotIsFoundWithoutReadingTheWholeBag) {
+  bag_.edit<io::TfMessage>("/tf_static", [](auto& tf) {
+    if (tf.transforms[0].header.frame_id == "base") tf.transforms[0].header.frame_id = "cell";
+  });
+  bag_.add("/tf_static", tiny_stamp(0) - 190'000'000,
+           io::TfMessage{{{{0, "cell"}, "base", Eigen::Isometry3d::Identity()}}});
+  bag_.sort();
+  const auto image =
+      std::ranges::find(bag_.messages, "/camera/depth/image_rect_raw", &TinyBag::Message::topic);
+  const TinyBag::Message first = *image;
+  for (int i = 0; i < 1000; ++i) {
+    bag_.messages.push_back(first);
+    bag_.messages.back().log_time = tiny_stamp(3 + i);
+  }
+  const fs::path file = tiny_mcap();
+  const std::uint64_t before = bytes_read();
+  io::InputOptions options;
+  options.path = file;
+  const io::RunInput input = io::open_input(options, [](const std::string&) {});
+  constexpr std::uint64_t part = 10;  // of the bag: its index and its begin
+  EXPECT_LT(bytes_read() - before, fs::file_size(file) / part);
+  EXPECT_EQ(input.config.camera_parent, "base");
+
+  const auto frames = input.frames();
+  Frame frame;
+  ASSERT_TRUE(frames->next(frame));
+  EXPECT_EQ(frame.pose.status, FrameStatus::ok);
+  ASSERT_TRUE(frame.pose.T_parent_camera);
+  EXPECT_TRUE(frame.pose.T_parent_camera->isApprox(Eigen::Isometry3d::Identity()));
 }
 
 TEST_F(BagTest, JointStatesOfTwoPublishersThatDisagreeAreReportedAndNotUsed) {

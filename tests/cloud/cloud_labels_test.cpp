@@ -6,7 +6,7 @@
 #include "scene.hpp"
 #include "shapes.hpp"
 
-#include <penumbra/cloud/cloud_labels.hpp>
+#include <penumbra/cloud/scan.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <penumbra/mesh/primitives.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
-#include <penumbra/poses/pose_lookup.hpp>
+#include <penumbra/poses/robot_pose.hpp>
 
 namespace penumbra::test {
 namespace {

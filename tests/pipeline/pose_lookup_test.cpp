@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slab_scene.hpp"
 
-#include <penumbra/poses/pose_lookup.hpp>
+#include <penumbra/poses/robot_pose.hpp>
 
 namespace penumbra::test {
 namespace {

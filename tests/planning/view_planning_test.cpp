@@ -25,17 +25,19 @@ const std::vector<Ball> balls = {{"behind the slab", {0.05, 0.02, 1.9}, 0.08},
                                  {"behind the plate", {0.55, 0.15, 2.4}, 0.05},
                                  {"beside", {-0.6, -0.3, 1.4}, 0.06}};
 
-PlannedCamera planned_camera(const DepthRange& range = {}) {
-  PlannedCamera planned{slab_camera(), {}};
-  planned.camera.range = range;
-  planned.rule.tolerance = planned_tolerance;
-  return planned;
+ForecastCamera candidate(const std::string& name, const std::string& link,
+                         const Isometry3d& T_link_camera, const DepthRange& range = {}) {
+  ForecastCamera camera{
+      .name = name, .camera = slab_camera(), .parent = link, .T_parent_camera = T_link_camera};
+  camera.camera.range = range;
+  camera.rule.tolerance = planned_tolerance;
+  return camera;
 }
 
-MotionFrame frame_at(const Robot& robot, double slide, const std::vector<Target>& targets) {
-  MotionFrame frame;
-  frame.T_root_link.resize(robot.links().size());
-  robot.forward_kinematics(std::vector{slide}, frame.T_root_link);
+Frame frame_at(const Robot& robot, double slide, const std::vector<Target>& targets) {
+  Frame frame;
+  frame.pose.T_root_link.resize(robot.links().size());
+  robot.forward_kinematics(std::vector{slide}, frame.pose.T_root_link);
   frame.targets = targets;
   return frame;
 }
@@ -87,15 +89,15 @@ std::optional<Verdict> verdict_by_rays(const Ball& ball, const Isometry3d& T_roo
 }
 
 /// Around the scene, looking at about its middle.
-std::vector<CameraCandidate> random_candidates(std::mt19937_64& random, std::size_t count) {
+std::vector<ForecastCamera> random_candidates(std::mt19937_64& random, std::size_t count) {
   std::uniform_real_distribution<double> side(-0.8, 0.8), behind(-0.9, 0.2), angle(-0.5, 0.5);
-  std::vector<CameraCandidate> candidates;
+  std::vector<ForecastCamera> candidates;
   for (std::size_t i = 0; i < count; ++i) {
     const Vector3d at(side(random), side(random), behind(random));
     const Vector3d ahead = (Vector3d(0.1 + angle(random), angle(random), 1.7) - at).normalized();
     const auto turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), ahead) *
                       AngleAxisd(angle(random), Vector3d::UnitZ());
-    candidates.push_back({std::to_string(i), "", Translation3d(at) * turn});
+    candidates.push_back(candidate(std::to_string(i), "", Translation3d(at) * turn));
   }
   return candidates;
 }
@@ -103,11 +105,11 @@ std::vector<CameraCandidate> random_candidates(std::mt19937_64& random, std::siz
 TEST(ViewPlanning, VerdictsAreThoseOfRays) {
   std::mt19937_64 random = seeded_random(20261);
   const Robot robot = slab_robot();
-  const std::vector<CameraCandidate> candidates = random_candidates(random, 40);
+  const std::vector<ForecastCamera> candidates = random_candidates(random, 40);
   const Vector3d part(0.3, 0.3, 0.1);
   const AttachedBody body{"part", "slab", std::make_shared<PreparedMesh>(make_box(part)),
                           at(-0.2, 0.1, 0.1)};
-  std::vector<MotionFrame> motion;
+  std::vector<Frame> motion;
   std::vector<std::vector<SlabBox>> boxes;
   for (int i = 0; i < 12; ++i) {
     const double slide = -0.3 + 0.08 * i;
@@ -115,17 +117,17 @@ TEST(ViewPlanning, VerdictsAreThoseOfRays) {
     boxes.push_back(
         {{{0.0, 0.0, 1.0 + slide}, {0.4, 0.2, 0.1}}, {{0.5, 0.1, 1.5}, {0.2, 0.2, 0.1}}});
     if (i % 2 == 0) continue;
-    motion.back().attached = {body};
+    motion.back().pose.attached = {body};
     boxes.back().push_back({{-0.2, 0.1, 1.1 + slide}, part});
   }
-  const CandidateViews views = judge_candidates(robot, planned_camera(), candidates, motion, 3);
+  const CandidateViews views = judge_candidates(robot, candidates, motion, 3);
   std::map<Verdict, int> compared;
   std::vector<std::vector<int>> visible(candidates.size(), std::vector<int>(balls.size()));
   for (std::size_t c = 0; c < candidates.size(); ++c)
     for (std::size_t f = 0; f < motion.size(); ++f)
       for (std::size_t t = 0; t < balls.size(); ++t) {
         visible[c][t] += views.at(c, f, t) == Verdict::visible;
-        const auto wanted = verdict_by_rays(balls[t], candidates[c].T_link_camera, boxes[f]);
+        const auto wanted = verdict_by_rays(balls[t], candidates[c].T_parent_camera, boxes[f]);
         if (!wanted) continue;
         ++compared[*wanted];
         EXPECT_EQ(views.at(c, f, t), *wanted)
@@ -138,7 +140,7 @@ TEST(ViewPlanning, VerdictsAreThoseOfRays) {
     for (std::size_t t = 0; t < balls.size(); ++t)
       EXPECT_DOUBLE_EQ(views.share(c, t, Verdict::visible), visible[c][t] / 12.0);
 
-  const CandidateViews alone = judge_candidates(robot, planned_camera(), candidates, motion, 1);
+  const CandidateViews alone = judge_candidates(robot, candidates, motion, 1);
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     EXPECT_EQ(alone.unknown(c), views.unknown(c));
     for (std::size_t f = 0; f < motion.size(); ++f)
@@ -148,12 +150,11 @@ TEST(ViewPlanning, VerdictsAreThoseOfRays) {
 }
 
 /// The verdicts of one candidate for targets at one pose of the robot.
-std::vector<Verdict> judged(const CameraCandidate& candidate, const std::vector<Target>& targets,
-                            double slide = 0.0, const PlannedCamera& camera = planned_camera(),
-                            std::string* why = nullptr) {
+std::vector<Verdict> judged(const ForecastCamera& camera, const std::vector<Target>& targets,
+                            double slide = 0.0, std::string* why = nullptr) {
   const Robot robot = slab_robot();
-  const std::vector<MotionFrame> motion{frame_at(robot, slide, targets)};
-  const CandidateViews views = judge_candidates(robot, camera, {&candidate, 1}, motion, 1);
+  const std::vector<Frame> motion{frame_at(robot, slide, targets)};
+  const CandidateViews views = judge_candidates(robot, {&camera, 1}, motion, 1);
   std::vector<Verdict> verdicts;
   for (std::size_t t = 0; t < targets.size(); ++t) verdicts.push_back(views.at(0, 0, t));
   if (why != nullptr) *why = views.unknown(0);
@@ -165,11 +166,11 @@ Target point_at(const Vector3d& position, const ReferenceFrame& frame, const cha
 }
 
 TEST(ViewPlanning, CamerasAndTargetsMoveWithTheirLinks) {
-  const CameraCandidate on_slab{"on slab", "slab", at(0.0, 0.0, 0.2)};
+  const ForecastCamera on_slab = candidate("on slab", "slab", at(0.0, 0.0, 0.2));
   const Target ahead = point_at({0.0, 0.0, 1.5}, ReferenceFrame::of_link("slab"));
   for (const double slide : {0.0, 0.5, -0.5})
     EXPECT_EQ(judged(on_slab, {ahead}, slide).front(), Verdict::visible) << slide;
-  const CameraCandidate at_root{"root", "", at(0.0, 0.0, 0.0)};
+  const ForecastCamera at_root = candidate("root", "", at(0.0, 0.0, 0.0));
   EXPECT_EQ(judged(at_root, {ahead}).front(), Verdict::hidden) << "by the slab itself";
   const Target box{.name = "box",
                    .shape = BoxTarget{at(0.0, 0.0, 2.0), {0.1, 0.1, 0.1}, ReferenceFrame::root()}};
@@ -178,17 +179,16 @@ TEST(ViewPlanning, CamerasAndTargetsMoveWithTheirLinks) {
 }
 
 TEST(ViewPlanning, WhatIsNotKnownIsNeverVisible) {
-  const CameraCandidate at_root{"root", "", at(0.0, 0.0, 0.0)};
+  const ForecastCamera at_root = candidate("root", "", at(0.0, 0.0, 0.0));
   const Target beside = point_at({-0.6, 0.0, 1.4}, ReferenceFrame::root());
   EXPECT_EQ(judged(at_root, {beside}).front(), Verdict::visible);
-  EXPECT_EQ(judged(at_root, {beside}, 0.0, planned_camera({0.3, 1.3})).front(),
-            Verdict::out_of_view);
-  EXPECT_EQ(judged(at_root, {beside}, 0.0, planned_camera({1.5, 9.0})).front(),
-            Verdict::out_of_view);
+  for (const DepthRange& range : {DepthRange{0.3, 1.3}, {1.5, 9.0}})
+    EXPECT_EQ(judged(candidate("root", "", at(0.0, 0.0, 0.0), range), {beside}).front(),
+              Verdict::out_of_view);
 
   std::string why;
-  const CameraCandidate inside{"inside", "slab", at(0.0, 0.0, 0.0)};
-  EXPECT_EQ(judged(inside, {beside}, 0.0, planned_camera(), &why).front(), Verdict::unknown);
+  const ForecastCamera inside = candidate("inside", "slab", at(0.0, 0.0, 0.0));
+  EXPECT_EQ(judged(inside, {beside}, 0.0, &why).front(), Verdict::unknown);
   EXPECT_TRUE(holds(why, "inside link 'slab'"));
   Target absent = beside;
   absent.shape = std::monostate();
@@ -201,18 +201,18 @@ TEST(ViewPlanning, WhatIsNotKnownIsNeverVisible) {
       << "at the slab's own depth";
 
   const Robot robot = slab_robot();
-  const auto verdict = [&](const MotionFrame& frame, const DepthRange& range = {}) {
-    return judge_candidates(robot, planned_camera(range), {&at_root, 1}, {&frame, 1}, 1)
-        .at(0, 0, 0);
+  const auto verdict = [&](const Frame& frame, const DepthRange& range = {}) {
+    const ForecastCamera camera = candidate("root", "", at(0.0, 0.0, 0.0), range);
+    return judge_candidates(robot, {&camera, 1}, {&frame, 1}, 1).at(0, 0, 0);
   };
-  MotionFrame frame = frame_at(robot, 0.0, {beside});
-  frame.attached = {{"lost", "slab", nullptr, at(0, 0, 0)}};
+  Frame frame = frame_at(robot, 0.0, {beside});
+  frame.pose.attached = {{"lost", "slab", nullptr, at(0, 0, 0)}};
   EXPECT_EQ(verdict(frame), Verdict::unknown) << "a body without a mesh";
-  frame.attached.clear();
-  frame.uncertain_links = {*robot.find_link("base")};
+  frame.pose.attached.clear();
+  frame.pose.uncertain_links = {*robot.find_link("base")};
   EXPECT_EQ(verdict(frame), Verdict::unknown);
   frame = frame_at(robot, 0.0, {point_at({0.0, 0.0, 1.0}, ReferenceFrame::of_link("slab"))});
-  frame.uncertain_links = {*robot.find_link("slab")};
+  frame.pose.uncertain_links = {*robot.find_link("slab")};
   EXPECT_EQ(verdict(frame, {0.1, 1.0}), Verdict::unknown)
       << "neither hidden nor out of the camera's range";
 }
@@ -222,26 +222,22 @@ TEST(ViewPlanning, WhatIsTooNearToBeDrawnMakesUnknown) {
   const Robot robot =
       parse(slab_urdf(link_xml("foil", box_xml("0.4 0.4 0.001")) +
                       joint_xml("wrap", "fixed", "base", "foil", "<origin xyz=\"0 0 0.005\"/>")));
-  const CameraCandidate at_root{"root", "", at(0.0, 0.0, 0.0)};
-  const std::vector<MotionFrame> motion{
+  const ForecastCamera at_root = candidate("root", "", at(0.0, 0.0, 0.0));
+  const std::vector<Frame> motion{
       frame_at(robot, 0.0,
                {point_at({-0.6, 0.0, 1.4}, ReferenceFrame::root()),
                 point_at({0.0, 0.0, 2.0}, ReferenceFrame::root(), "far")})};
-  const CandidateViews views = judge_candidates(robot, planned_camera(), {&at_root, 1}, motion, 1);
+  const CandidateViews views = judge_candidates(robot, {&at_root, 1}, motion, 1);
   EXPECT_EQ(views.at(0, 0, 0), Verdict::unknown);
   EXPECT_EQ(views.at(0, 0, 1), Verdict::hidden) << "by the slab, whatever else does";
   EXPECT_TRUE(holds(views.unknown(0), "too near"));
 }
 
 TEST(ViewPlanning, RefusesUnknownLinksAndSets) {
-  const CameraCandidate lost{"lost", "slap", at(0, 0, 0)};
+  const ForecastCamera lost = candidate("lost", "slap", at(0, 0, 0));
   const Robot robot = slab_robot();
-  const std::vector<MotionFrame> motion{frame_at(robot, 0.0, ball_targets())};
-  expect_refused(
-      [&] {
-        (void)judge_candidates(robot, planned_camera(), {&lost, 1}, motion, 2);
-      },
-      {"slap"});
+  const std::vector<Frame> motion{frame_at(robot, 0.0, ball_targets())};
+  expect_refused([&] { (void)judge_candidates(robot, {&lost, 1}, motion, 2); }, {"slap"});
   const CandidateViews views(3, 1, 1);
   for (const std::size_t most : {0U, 4U})
     expect_refused([&] { (void)best_cameras(views, most); }, {"3"});

@@ -4,7 +4,7 @@
 #include "../support/test.hpp"
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/targets/region.hpp>
+#include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra::test {
 

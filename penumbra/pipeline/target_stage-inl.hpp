@@ -13,42 +13,17 @@
 
 #include <Eigen/Core>
 
-#include <penumbra/base/error.hpp>
 #include <penumbra/base/recent_values.hpp>
+#include <penumbra/pipeline/frame_judge-inl.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/targets/labelled_frame.hpp>
 #include <penumbra/targets/target.hpp>
-#include <penumbra/targets/target_judge.hpp>
 #include <penumbra/targets/target_track.hpp>
 
 namespace penumbra {
 
-/// Judges targets on one kind of samples: the pixels of images, or the rays of scans.
-class SampleJudge {
- public:
-  SampleJudge() = default;
-  SampleJudge(const SampleJudge&) = delete;
-  SampleJudge& operator=(const SampleJudge&) = delete;
-  virtual ~SampleJudge() = default;
-
-  /// Judges a checked target on a frame whose pose is known. `memory`: null for a target that is
-  /// judged alone. `motion`: TargetView::motion. Throws InputError for why it is unknown.
-  virtual Judgement judge(const LabelledFrame& frame, const Target& target, TargetMemory* memory,
-                          const std::optional<Eigen::Vector2d>& motion) = 0;
-
-  /// Returns the pixel of a point in the sensor's frame; null if there is none.
-  [[nodiscard]] virtual std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& /*p*/) const {
-    return std::nullopt;
-  }
-  /// A new frame is judged. Its depth may be kept for targets that come late.
-  virtual void begin(const LabelledFrame& /*frame*/) {}
-  /// Returns the frame of an earlier stamp. `poses`: of it; null: not known. Throws InputError if
-  /// it is not kept.
-  virtual const LabelledFrame& earlier(std::int64_t /*stamp*/, const PoseResult* /*poses*/) {
-    throw InputError("its stamp is not the frame's");
-  }
-  virtual void forget() {}
-};
+/// Returns the body that carries a target of this name, or null.
+[[nodiscard]] const PlacedBody* find_body(const PoseResult& poses, std::string_view name);
 
 /// Judges a frame's targets and follows those with handling.
 class TargetStage {
@@ -58,7 +33,7 @@ class TargetStage {
 
   /// `image_frame`: of the camera; null: targets of any image frame are judged. Robot and judge
   /// must outlive this.
-  TargetStage(const Robot& robot, SampleJudge& judge, std::optional<std::string> image_frame);
+  TargetStage(const Robot& robot, FrameJudge& judge, std::optional<std::string> image_frame);
 
   /// Judges the targets on the frame, or late ones on an earlier frame. Stores the frame.
   /// `forecasts`: TargetReport::forecast of each; empty: there are none.
@@ -72,6 +47,10 @@ class TargetStage {
   [[nodiscard]] std::span<const TargetReport> reports() const { return reports_; }
   /// The wall time of judge() and track() for them, milliseconds.
   [[nodiscard]] double elapsed_ms() const { return judge_ms_.value_or(0) + track_ms_.value_or(0); }
+
+  /// As Pipeline::attach_target; `poses`: of the last frame, null: it was not judged.
+  [[nodiscard]] AttachedBody attach(const Target& target, std::string_view link,
+                                    const PoseResult* poses) const;
 
   void forget(std::string_view name);
   void forget_all();
@@ -109,7 +88,7 @@ class TargetStage {
   Outcome feed(const TargetEstimate& estimate, std::int64_t stamp, TargetTrack& track);
 
   const Robot& robot_;
-  SampleJudge& samples_;
+  FrameJudge& judge_;
   std::optional<std::string> image_frame_;
   RecentValues<PoseResult> recent_poses_;
   std::unordered_map<std::string, Record> records_;  // by name

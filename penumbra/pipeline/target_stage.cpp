@@ -5,9 +5,8 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/stamps.hpp>
+#include <penumbra/pipeline/target_stage-inl.hpp>
 #include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/targets/attach_target.hpp>
-#include <penumbra/targets/target_stage.hpp>
 #include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
@@ -79,10 +78,10 @@ std::optional<TargetEstimate> own_estimate(const Target& target, const TargetRep
 
 }  // namespace
 
-TargetStage::TargetStage(const Robot& robot, SampleJudge& judge,
+TargetStage::TargetStage(const Robot& robot, FrameJudge& judge,
                          std::optional<std::string> image_frame)
     : robot_(robot),
-      samples_(judge),
+      judge_(judge),
       image_frame_(std::move(image_frame)),
       recent_poses_(poses_of_size(robot.links().size())) {}
 
@@ -113,7 +112,7 @@ void TargetStage::begin(std::span<const Target> targets, const LabelledFrame& fr
     newest_stamp_ = std::max(newest_stamp_.value_or(*stamp), *stamp);
     recent_poses_.at(*stamp) = *frame.poses;
   }
-  samples_.begin(frame);
+  judge_.begin(frame);
   std::erase_if(records_,
                 [&](const auto& known) { return calls_ - known.second.call > forgotten_after; });
   nameless_.clear();
@@ -182,7 +181,7 @@ void TargetStage::check(const Target& target, Record& record) const {
 const LabelledFrame& TargetStage::frame_of(const Target& target, const LabelledFrame& frame) {
   const bool is_late = target.stamp && target.stamp != frame.stamp();
   const LabelledFrame& seen =
-      is_late ? samples_.earlier(*target.stamp, recent_poses_.find(*target.stamp)) : frame;
+      is_late ? judge_.earlier(*target.stamp, recent_poses_.find(*target.stamp)) : frame;
   if (!seen.poses->known()) throw InputError(seen.fault());
   return seen;
 }
@@ -203,12 +202,12 @@ Judgement TargetStage::judge_on(const LabelledFrame& frame, const Target& target
     if (is_modal(target))
       throw InputError(
           "its stamp is before one that was judged: modal extents need stamps in order");
-    return samples_.judge(frame, target, nullptr, {});  // the memory is of later frames
+    return judge_.judge(frame, target, nullptr, {});  // the memory is of later frames
   }
   std::optional<Eigen::Vector2d> motion;
   if (is_modal(target) && record.good_pixel)
     if (const auto pixel = track_pixel(*frame.poses, record)) motion = *pixel - *record.good_pixel;
-  Judgement judgement = samples_.judge(frame, target, &record.memory, motion);
+  Judgement judgement = judge_.judge(frame, target, &record.memory, motion);
   record.judged_poses = frame.poses;
   record.last_stamp = frame.stamp();
   return judgement;
@@ -219,7 +218,7 @@ std::optional<Eigen::Vector2d> TargetStage::track_pixel(const PoseResult& poses,
   if (!record.track || !poses.stamp) return std::nullopt;
   const HandledTarget handled = record.track->at(*poses.stamp, false);
   if (!handled.position) return std::nullopt;
-  return samples_.project(poses.T_root_camera.inverse() * *handled.position);
+  return judge_.project(poses.T_root_camera.inverse() * *handled.position);
 }
 
 void TargetStage::track(const Target& target, const PoseResult& poses, Record& record,
@@ -265,7 +264,7 @@ void TargetStage::forget(std::string_view name) { records_.erase(std::string(nam
 void TargetStage::forget_all() {
   records_.clear();
   recent_poses_.clear();
-  samples_.forget();
+  judge_.forget();
   newest_stamp_.reset();
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -6,7 +7,7 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/mesh/primitives.hpp>
-#include <penumbra/targets/attach_target.hpp>
+#include <penumbra/pipeline/target_stage-inl.hpp>
 #include <penumbra/targets/target_views.hpp>
 
 namespace penumbra {
@@ -46,16 +47,8 @@ Eigen::Isometry3d current_pose(const Target& target, const ShapePlacement& given
   return T_root_target;
 }
 
-}  // namespace
-
-const PlacedBody* find_body(const PoseResult& poses, std::string_view name) {
-  for (const PlacedBody& body : poses.attached)
-    if (body.name == name) return &body;
-  return nullptr;
-}
-
-AttachedBody attach_target(const Target& target, std::string_view link, const PoseResult& poses,
-                           const TargetReport& report, const Robot& robot) try {
+AttachedBody attached(const Target& target, std::string_view link, const PoseResult& poses,
+                      const TargetReport& report, const Robot& robot) try {
   if (!poses.known()) throw InputError("the robot's pose is not known: " + poses.message);
   std::shared_ptr<const PreparedMesh> mesh = mesh_of(target.shape);
   const Eigen::Isometry3d T_root_link =
@@ -68,6 +61,22 @@ AttachedBody attach_target(const Target& target, std::string_view link, const Po
           .T_link_body = T_root_link.inverse() * T_root_target};
 } catch (const InputError& fault) {
   throw InputError("target '" + target.name + "' is not attached: " + fault.what());
+}
+
+}  // namespace
+
+const PlacedBody* find_body(const PoseResult& poses, std::string_view name) {
+  for (const PlacedBody& body : poses.attached)
+    if (body.name == name) return &body;
+  return nullptr;
+}
+
+AttachedBody TargetStage::attach(const Target& target, std::string_view link,
+                                 const PoseResult* poses) const {
+  const auto report = std::ranges::find(reports_, target.name, &TargetReport::name);
+  if (poses == nullptr || report == reports_.end())
+    throw InputError("target '" + target.name + "' was not in the last frame");
+  return attached(target, link, *poses, *report, robot_);
 }
 
 }  // namespace penumbra
