@@ -22,7 +22,7 @@ HEADERS = {
     "Renderers": ["render/depth_renderer.hpp"],
     "Labels and verdicts": ["labels/labels.hpp", "targets/region.hpp",
                             "targets/target_judge.hpp", "cloud/cloud_labels.hpp",
-                            "cloud/scan.hpp", "tuning/cloud_tuning.hpp"],
+                            "cloud/scan.hpp"],
     "Tracking": ["tracking/trackers.hpp"],
     "Calibration": ["calibration/calibration.hpp"],
     "Planning": ["planning/look_ahead.hpp", "robot/trajectory.hpp", "planning/view_planning.hpp"],

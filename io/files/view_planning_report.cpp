@@ -58,7 +58,7 @@ std::string ViewPlan::names(const CameraSet& set) const {
 
 std::string view_planning_json(const ViewPlan& plan) {
   Json frames = Json::array(), candidates = Json::array(), sets = Json::array();
-  for (const MotionFrame& frame : plan.motion) frames.push_back(frame.index);
+  for (const Frame& frame : plan.motion) frames.push_back(frame.index.value());
   for (std::size_t i = 0; i < plan.candidates.size(); ++i)
     candidates.push_back(candidate_json(plan, i));
   for (const CameraSet& set : plan.best) sets.push_back(set_json(plan, set));

@@ -15,7 +15,7 @@ struct ViewPlan {
   std::string input;     ///< as the user named it
   std::size_t seen = 0;  ///< frames of the input
   std::span<const CameraCandidate> candidates;
-  std::span<const MotionFrame> motion;
+  std::span<const Frame> motion;
   const CandidateViews& views;
   std::span<const CameraSet> best;  ///< by size
 

@@ -74,22 +74,23 @@ PlanningInput read_planning_input(const PlanningOptions& options, const LineSink
       if (fault.empty()) fault = "frame " + std::to_string(index) + ": " + why;
       continue;
     }
-    MotionFrame& kept = read.motion.emplace_back();
-    kept.index = index;
-    kept.T_root_link = frame.pose.T_root_link;
-    if (kept.T_root_link.empty()) {
-      kept.T_root_link.resize(robot.links().size());
-      robot.forward_kinematics(frame.pose.positions, kept.T_root_link);
+    Frame& kept =
+        read.motion.emplace_back(Frame{.index = index,
+                                       .pose = {.T_root_link = frame.pose.T_root_link,
+                                                .uncertain_links = frame.pose.uncertain_links,
+                                                .attached = frame.pose.attached}});
+    std::vector<Eigen::Isometry3d>& T_root_link = kept.pose.T_root_link;
+    if (T_root_link.empty()) {
+      T_root_link.resize(robot.links().size());
+      robot.forward_kinematics(frame.pose.positions, T_root_link);
     }
-    kept.attached = frame.pose.attached;
-    kept.uncertain_links = frame.pose.uncertain_links;
     const Eigen::Isometry3d T_root_camera =
-        kept.T_root_link[parent] * frame.pose.T_parent_camera.value_or(config.T_parent_camera);
+        T_root_link[parent] * frame.pose.T_parent_camera.value_or(config.T_parent_camera);
     kept.targets = placed(read.targets.of_frame(static_cast<std::int64_t>(index)), T_root_camera,
                           read.targets.file());
     const auto T_camera_frame = [&](const ReferenceFrame& of) -> Eigen::Isometry3d {
       const auto link = of.kind == ReferenceFrame::Kind::link ? robot.find_link(of.link) : 0;
-      return T_root_camera.inverse() * kept.T_root_link[link.value_or(0)];
+      return T_root_camera.inverse() * T_root_link[link.value_or(0)];
     };
     for (const Target& target : kept.targets)
       if (note.empty()) note = millimetres_note(target, T_camera_frame);

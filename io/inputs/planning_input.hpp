@@ -27,9 +27,10 @@ struct PlanningInput {
   RunInput input;
   TargetsFile targets;  ///< the motion's targets refer to it and to the robot
   std::vector<CameraCandidate> candidates;
-  std::vector<MotionFrame> motion;  ///< the frames in which the robot's pose is known
-  std::size_t seen = 0;             ///< frames of the input
-  std::vector<std::string> notes;   ///< a line each
+  /// The poses and targets of frames in which the robot's pose is known.
+  std::vector<Frame> motion;
+  std::size_t seen = 0;            ///< frames of the input
+  std::vector<std::string> notes;  ///< a line each
 };
 
 /// Opens the targets of a file or, without one, of the input at `path`. Throws InputError if there

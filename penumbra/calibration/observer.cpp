@@ -106,45 +106,52 @@ void Observer::add_row(const View& view, const Residual& residual, const Twist& 
   if (unknowns_.has_lens) row[unknowns_.lens()] = by_lens;
 }
 
+std::optional<double> SurfacePoint::along(const Eigen::Vector3d& ray) const {
+  const double along = normal.dot(ray);
+  return std::abs(along) > least_cosine * ray.norm() ? std::optional(along) : std::nullopt;
+}
+
+Twist SurfacePoint::gradient() const {
+  Twist gradient;
+  gradient << -point.cross(normal), -normal;
+  return gradient;
+}
+
+bool is_inside(const VirtualDepthView& robot, int u, int v, int margin) {
+  const auto& z = robot.depth;
+  const float here = z(u, v);
+  const auto is_near = [&](int du, int dv) {
+    return std::abs(z(u + du, v + dv) - here) < continuous;
+  };
+  return here > 0.0f && is_near(-margin, 0) && is_near(margin, 0) && is_near(0, -margin) &&
+         is_near(0, margin);
+}
+
 void Observer::add_surface(const View& view, const Reach& reach, Residuals& out) const {
   const auto& z = view.robot.depth;
-  const auto& links = view.robot.links;
-  const auto point = [&](int u, int v) -> Eigen::Vector3d { return camera_.ray(u, v) * z(u, v); };
   for (int v = margin_; v + margin_ < z.height; v += stride_)
     for (int u = margin_; u + margin_ < z.width; u += stride_) {
-      const float expected = z(u, v);
-      if (!(expected > 0.0f)) continue;
-      const auto is_near = [&](int du, int dv) {
-        return std::abs(z(u + du, v + dv) - expected) < continuous;
-      };
-      if (!(is_near(-margin_, 0) && is_near(margin_, 0) && is_near(0, -margin_) &&
-            is_near(0, margin_)))
-        continue;
-      const float measured = view.measured(u, v);
+      if (!is_inside(view.robot, u, v, margin_)) continue;
+      const float expected = z(u, v), measured = view.measured(u, v);
       if (!(measured > 0.0f) || std::abs(measured - expected) > reach.depth) continue;
-      bool is_smooth = true;
-      for (const auto& [du, dv] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-        is_smooth &= links(u + du, v + dv) == links(u, v) && is_near(du, dv);
-      if (!is_smooth) continue;
-      const Eigen::Vector3d normal =
-          (point(u + 1, v) - point(u - 1, v)).cross(point(u, v + 1) - point(u, v - 1)).normalized();
+      const auto surface =
+          surface_at(view.robot, u, v, [&](int x, int y) { return camera_.ray(x, y); });
       const Eigen::Vector3d ray = camera_.ray(u, v);
-      const double along = normal.dot(ray);
-      if (!(std::abs(along) > least_cosine * ray.norm())) continue;
-      const Eigen::Vector3d p = ray * expected;
-      Twist gradient;
-      gradient << -p.cross(normal), -normal;
+      const auto along = surface ? surface->along(ray) : std::nullopt;
+      if (!along) continue;
+      const Eigen::Vector3d& normal = surface->normal;
       const Eigen::Vector2d sideways(measured / camera_.fx() * normal.x(),
                                      measured / camera_.fy() * normal.y());
       add_row(view,
               {.kind = Kind::surface,
-               .link = static_cast<std::uint16_t>(links(u, v) - 1),
+               .link = static_cast<std::uint16_t>(view.robot.links(u, v) - 1),
                .frame = view.number,
-               .value = (measured - expected) * along + view.rest().dot(sideways)},
-              gradient, -measured * normal.head<2>().cwiseProduct(ray.head<2>()), ray, out);
+               .value = (measured - expected) * *along + view.rest().dot(sideways)},
+              surface->gradient(), -measured * normal.head<2>().cwiseProduct(ray.head<2>()), ray,
+              out);
       double* const row = out.rows.data() + out.rows.size() - unknowns_.size();
-      row[Unknowns::depth_offset] = -along;
-      row[Unknowns::depth_scale] = -measured * along;
+      row[Unknowns::depth_offset] = -*along;
+      row[Unknowns::depth_scale] = -measured * *along;
       if (unknowns_.has_shift) Eigen::Map<Eigen::Vector2d>(row + Unknowns::shift) = sideways;
     }
 }
@@ -252,15 +259,15 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
 FrameFit Observer::fit(const KeptFrame& frame, const State& state) {
   const VirtualDepthView robot = render(frame, state);
   const View view{.frame = frame, .number = 0, .state = state, .robot = robot, .link_twists = {}};
-  std::size_t measured = 0, agreeing = 0;
-  if (frame.depth.empty()) overlap(frame, state, agreeing, measured);
+  Overlap agreeing;  // of what is measured, without depth of robot and mask
+  if (frame.depth.empty()) agreeing.add(robot.depth, frame.mask);
   for (int v = 0; v < robot.depth.height && !frame.depth.empty(); v += stride_)
     for (int u = 0; u < robot.depth.width; u += stride_) {
       const float expected = robot.depth(u, v);
       const float d = expected > 0.0f ? view.measured(u, v) : 0.0f;
       if (!(d > 0.0f)) continue;
-      ++measured;
-      agreeing += std::abs(d - expected) < agreeing_depth;
+      ++agreeing.either;
+      agreeing.both += std::abs(d - expected) < agreeing_depth;
     }
   Residuals residuals;
   observe(frame, 0, state, {.depth = agreeing_depth, .pixels = 12.0}, residuals);
@@ -269,8 +276,7 @@ FrameFit Observer::fit(const KeptFrame& frame, const State& state) {
     sizes[static_cast<std::size_t>(residual.kind)].push_back(std::abs(residual.value));
   return {.index = frame.index,
           .used = true,
-          .agreeing =
-              measured == 0 ? 0.0 : static_cast<double>(agreeing) / static_cast<double>(measured),
+          .agreeing = agreeing.share(),
           .residual = detail::median(sizes[static_cast<std::size_t>(Kind::surface)]),
           .outline = detail::median(sizes[static_cast<std::size_t>(Kind::edge)])};
 }
@@ -306,12 +312,10 @@ double Observer::information(const KeptFrame& frame, const State& state, const T
   return sum;
 }
 
-void Observer::overlap(const KeptFrame& frame, const State& state, std::size_t& both,
-                       std::size_t& either) {
-  const VirtualDepthView robot = render(frame, state);
-  for (int v = 0; v < robot.depth.height; ++v)
-    for (int u = 0; u < robot.depth.width; ++u) {
-      const bool rendered = robot.depth(u, v) > 0.0f, seen = frame.mask(u, v) != 0;
+void Overlap::add(const ImageView<const float>& robot, const Image<std::uint8_t>& mask) {
+  for (int v = 0; v < robot.height; ++v)
+    for (int u = 0; u < robot.width; ++u) {
+      const bool rendered = robot(u, v) > 0.0f, seen = mask(u, v) != 0;
       both += rendered && seen;
       either += rendered || seen;
     }

@@ -26,8 +26,8 @@ std::size_t link_of_candidate(const Robot& robot, const CameraCandidate& candida
                    "' is not a link of robot '" + robot.name() + "'");
 }
 
-bool is_uncertain(const MotionFrame& motion, std::size_t link) {
-  const std::vector<std::size_t>& links = motion.uncertain_links;
+bool is_uncertain(const Frame& motion, std::size_t link) {
+  const std::vector<std::size_t>& links = motion.pose.uncertain_links;
   return std::find(links.begin(), links.end(), link) != links.end();
 }
 
@@ -38,24 +38,25 @@ class CandidateJudge {
       : range_(planned.camera.range), pipeline_(robot, planned.camera, config_of(planned)) {}
 
   /// Writes the verdicts of the frame's targets; returns why the first unknown one is.
-  std::string judge(const CameraCandidate& candidate, std::size_t link, const MotionFrame& motion,
+  std::string judge(const CameraCandidate& candidate, std::size_t link, const Frame& motion,
                     const std::function<void(std::size_t, Verdict)>& write) {
     if (is_uncertain(motion, link)) return "the pose of its link is not known";
-    set_targets(motion.targets);
-    Frame frame;
-    frame.pose.T_root_link = motion.T_root_link;
-    frame.pose.T_parent_camera = motion.T_root_link[link] * candidate.T_link_camera;
-    frame.targets = targets_;
-    frame.pose.attached = motion.attached;
-    frame.pose.uncertain_links = motion.uncertain_links;
+    Frame frame = motion;
+    frame.pose.T_parent_camera = motion.pose.T_root_link[link] * candidate.T_link_camera;
     frame.pose.uncertain_reason = "not known in this frame";
+    for (Target& target : frame.targets) {
+      target.has_identity = false;  // each frame is judged alone
+      target.handling = {};
+      target.estimate.reset();
+      target.stamp.reset();
+    }
     const FrameReport& report = pipeline_.process(frame);
     std::string why;
-    for (std::size_t i = 0; i < targets_.size(); ++i) {
-      const auto [verdict, reason] = verdict_of(report, motion, i);
+    for (std::size_t i = 0; i < frame.targets.size(); ++i) {
+      const auto [verdict, reason] = verdict_of(report, frame, i);
       write(i, verdict);
       if (verdict == Verdict::unknown && why.empty())
-        why = targets_[i].name + ": " + std::string(reason);
+        why = frame.targets[i].name + ": " + std::string(reason);
     }
     return why;
   }
@@ -68,21 +69,11 @@ class CandidateJudge {
     return config;
   }
 
-  void set_targets(const std::vector<Target>& targets) {
-    targets_ = targets;
-    for (Target& target : targets_) {
-      target.has_identity = false;  // each frame is judged alone
-      target.handling = {};
-      target.estimate.reset();
-      target.stamp.reset();
-    }
-  }
-
   [[nodiscard]] std::pair<Verdict, std::string_view> verdict_of(const FrameReport& report,
-                                                                const MotionFrame& motion,
+                                                                const Frame& frame,
                                                                 std::size_t i) const {
     const TargetReport& target = report.targets[i];
-    if (is_out_of_range(report, motion, targets_[i].shape)) return {Verdict::out_of_view, {}};
+    if (is_out_of_range(report, frame, frame.targets[i].shape)) return {Verdict::out_of_view, {}};
     const bool seems_seen =
         target.verdict == Verdict::visible || target.verdict == Verdict::partial;
     if (seems_seen && !report.near_links.empty())
@@ -90,14 +81,14 @@ class CandidateJudge {
     return {target.verdict, target.reason};
   }
 
-  [[nodiscard]] bool is_out_of_range(const FrameReport& report, const MotionFrame& motion,
+  [[nodiscard]] bool is_out_of_range(const FrameReport& report, const Frame& frame,
                                      const TargetShape& shape) const {
     const auto placement = placement_of(shape);
     if (!placement || !report.T_root_camera) return false;
     Eigen::Vector3d p = placement->pose.translation();
     if (placement->frame.kind == ReferenceFrame::Kind::link) {
       const auto link = pipeline_.robot().find_link(placement->frame.link);
-      if (!link || is_uncertain(motion, *link)) return false;
+      if (!link || is_uncertain(frame, *link)) return false;
       p = report.T_root_link[*link] * p;
     }
     const double z = (report.T_root_camera->inverse() * p).z();
@@ -106,7 +97,6 @@ class CandidateJudge {
 
   DepthRange range_;
   Pipeline pipeline_;
-  std::vector<Target> targets_;
 };
 
 /// The pairs of target and frame that a candidate sees, a bit each.
@@ -199,14 +189,14 @@ double CandidateViews::share(std::size_t candidate, std::size_t target, Verdict 
 
 CandidateViews judge_candidates(const Robot& robot, const PlannedCamera& camera,
                                 std::span<const CameraCandidate> candidates,
-                                std::span<const MotionFrame> motion, int threads,
+                                std::span<const Frame> motion, int threads,
                                 const std::function<void()>& step) {
   std::vector<std::size_t> links(candidates.size());
   std::transform(candidates.begin(), candidates.end(), links.begin(),
                  [&](const CameraCandidate& each) { return link_of_candidate(robot, each); });
   const std::size_t targets = motion.empty() ? 0 : motion.front().targets.size();
-  for (const MotionFrame& frame : motion)
-    if (frame.targets.size() != targets || frame.T_root_link.size() != robot.links().size())
+  for (const Frame& frame : motion)
+    if (frame.targets.size() != targets || frame.pose.T_root_link.size() != robot.links().size())
       throw std::invalid_argument("frames of a motion have different targets or links");
   CandidateViews views(candidates.size(), motion.size(), targets);
   std::mutex mutex;  // of step
@@ -219,7 +209,7 @@ CandidateViews judge_candidates(const Robot& robot, const PlannedCamera& camera,
             judge.judge(candidates[c], links[c], motion[f],
                         [&](std::size_t t, Verdict verdict) { views.at(c, f, t) = verdict; });
         if (!why.empty() && views.unknown(c).empty())
-          views.unknown(c) = "frame " + std::to_string(motion[f].index) + ": " + why;
+          views.unknown(c) = "frame " + std::to_string(motion[f].index.value_or(f)) + ": " + why;
         const std::scoped_lock lock(mutex);
         if (step) step();
       }

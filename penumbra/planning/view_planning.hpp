@@ -12,9 +12,8 @@
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/labels/labels.hpp>
+#include <penumbra/pipeline/frame.hpp>
 #include <penumbra/robot/robot.hpp>
-#include <penumbra/targets/target.hpp>
-#include <penumbra/time/pose_history.hpp>
 
 namespace penumbra {
 
@@ -23,17 +22,6 @@ struct CameraCandidate {
   std::string name;
   std::string link;  ///< that would carry it; empty: the root
   Eigen::Isometry3d T_link_camera = Eigen::Isometry3d::Identity();  ///< metres, optical frame
-};
-
-/// A frame of the robot's motion, and where the targets are then.
-struct MotionFrame {
-  std::size_t index = 0;                       ///< in its source
-  std::vector<Eigen::Isometry3d> T_root_link;  ///< of all links
-  std::vector<AttachedBody> attached = {};
-  std::vector<std::size_t> uncertain_links = {};  ///< as in Frame
-  /// In each frame the same number, in the same order. Their shapes are given in the root's or a
-  /// link's frame; std::monostate: not found in this frame.
-  std::vector<Target> targets = {};
 };
 
 /// What each candidate sees of each target in each frame.
@@ -79,15 +67,17 @@ struct PlannedCamera {
 };
 
 /// Judges each frame's targets as each candidate would see them if only the robot, and what it
-/// carries, could hide them: from renders, without depth images. Each frame is judged alone,
-/// without hysteresis. A camera inside a link, a part of the robot nearer than
-/// DepthRenderer::near_plane and a body that cannot be drawn make what would be seen unknown.
-/// `threads`: how many, at least 1; the result does not depend on it. Calls `step` after each
-/// candidate's frame, on any thread but never twice at once. Throws InputError for an unknown link
-/// and as Pipeline does, and std::invalid_argument for frames with different numbers of targets.
+/// carries, could hide them: from renders, without depth images. The frames have the poses of all
+/// links, and the same number of targets in the same order, whose shapes are given in the root's or
+/// a link's frame; std::monostate: not found. Each frame is judged alone, without hysteresis. A
+/// camera inside a link, a part of the robot nearer than DepthRenderer::near_plane and a body that
+/// cannot be drawn make what would be seen unknown. `threads`: how many, at least 1; the result
+/// does not depend on it. Calls `step` after each candidate's frame, on any thread but never twice
+/// at once. Throws InputError for an unknown link and as Pipeline does, and std::invalid_argument
+/// for frames with different numbers of targets.
 [[nodiscard]] CandidateViews judge_candidates(const Robot& robot, const PlannedCamera& camera,
                                               std::span<const CameraCandidate> candidates,
-                                              std::span<const MotionFrame> motion, int threads,
+                                              std::span<const Frame> motion, int threads,
                                               const std::function<void()>& step = {});
 
 /// Cameras that together see more than others.

@@ -3,8 +3,8 @@
 // that a small change of each unknown makes, and what is said of wrong inputs.
 #include "../support/test.hpp"
 
+#include <penumbra/calibration/calibration.hpp>
 #include <penumbra/calibration/problem.hpp>
-#include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
 namespace penumbra::test {

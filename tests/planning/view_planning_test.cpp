@@ -32,10 +32,10 @@ PlannedCamera planned_camera(const DepthRange& range = {}) {
   return planned;
 }
 
-MotionFrame frame_at(const Robot& robot, double slide, const std::vector<Target>& targets) {
-  MotionFrame frame;
-  frame.T_root_link.resize(robot.links().size());
-  robot.forward_kinematics(std::vector{slide}, frame.T_root_link);
+Frame frame_at(const Robot& robot, double slide, const std::vector<Target>& targets) {
+  Frame frame;
+  frame.pose.T_root_link.resize(robot.links().size());
+  robot.forward_kinematics(std::vector{slide}, frame.pose.T_root_link);
   frame.targets = targets;
   return frame;
 }
@@ -107,7 +107,7 @@ TEST(ViewPlanning, VerdictsAreThoseOfRays) {
   const Vector3d part(0.3, 0.3, 0.1);
   const AttachedBody body{"part", "slab", std::make_shared<PreparedMesh>(make_box(part)),
                           at(-0.2, 0.1, 0.1)};
-  std::vector<MotionFrame> motion;
+  std::vector<Frame> motion;
   std::vector<std::vector<SlabBox>> boxes;
   for (int i = 0; i < 12; ++i) {
     const double slide = -0.3 + 0.08 * i;
@@ -115,7 +115,7 @@ TEST(ViewPlanning, VerdictsAreThoseOfRays) {
     boxes.push_back(
         {{{0.0, 0.0, 1.0 + slide}, {0.4, 0.2, 0.1}}, {{0.5, 0.1, 1.5}, {0.2, 0.2, 0.1}}});
     if (i % 2 == 0) continue;
-    motion.back().attached = {body};
+    motion.back().pose.attached = {body};
     boxes.back().push_back({{-0.2, 0.1, 1.1 + slide}, part});
   }
   const CandidateViews views = judge_candidates(robot, planned_camera(), candidates, motion, 3);
@@ -152,7 +152,7 @@ std::vector<Verdict> judged(const CameraCandidate& candidate, const std::vector<
                             double slide = 0.0, const PlannedCamera& camera = planned_camera(),
                             std::string* why = nullptr) {
   const Robot robot = slab_robot();
-  const std::vector<MotionFrame> motion{frame_at(robot, slide, targets)};
+  const std::vector<Frame> motion{frame_at(robot, slide, targets)};
   const CandidateViews views = judge_candidates(robot, camera, {&candidate, 1}, motion, 1);
   std::vector<Verdict> verdicts;
   for (std::size_t t = 0; t < targets.size(); ++t) verdicts.push_back(views.at(0, 0, t));
@@ -201,18 +201,18 @@ TEST(ViewPlanning, WhatIsNotKnownIsNeverVisible) {
       << "at the slab's own depth";
 
   const Robot robot = slab_robot();
-  const auto verdict = [&](const MotionFrame& frame, const DepthRange& range = {}) {
+  const auto verdict = [&](const Frame& frame, const DepthRange& range = {}) {
     return judge_candidates(robot, planned_camera(range), {&at_root, 1}, {&frame, 1}, 1)
         .at(0, 0, 0);
   };
-  MotionFrame frame = frame_at(robot, 0.0, {beside});
-  frame.attached = {{"lost", "slab", nullptr, at(0, 0, 0)}};
+  Frame frame = frame_at(robot, 0.0, {beside});
+  frame.pose.attached = {{"lost", "slab", nullptr, at(0, 0, 0)}};
   EXPECT_EQ(verdict(frame), Verdict::unknown) << "a body without a mesh";
-  frame.attached.clear();
-  frame.uncertain_links = {*robot.find_link("base")};
+  frame.pose.attached.clear();
+  frame.pose.uncertain_links = {*robot.find_link("base")};
   EXPECT_EQ(verdict(frame), Verdict::unknown);
   frame = frame_at(robot, 0.0, {point_at({0.0, 0.0, 1.0}, ReferenceFrame::of_link("slab"))});
-  frame.uncertain_links = {*robot.find_link("slab")};
+  frame.pose.uncertain_links = {*robot.find_link("slab")};
   EXPECT_EQ(verdict(frame, {0.1, 1.0}), Verdict::unknown)
       << "neither hidden nor out of the camera's range";
 }
@@ -223,7 +223,7 @@ TEST(ViewPlanning, WhatIsTooNearToBeDrawnMakesUnknown) {
       parse(slab_urdf(link_xml("foil", box_xml("0.4 0.4 0.001")) +
                       joint_xml("wrap", "fixed", "base", "foil", "<origin xyz=\"0 0 0.005\"/>")));
   const CameraCandidate at_root{"root", "", at(0.0, 0.0, 0.0)};
-  const std::vector<MotionFrame> motion{
+  const std::vector<Frame> motion{
       frame_at(robot, 0.0,
                {point_at({-0.6, 0.0, 1.4}, ReferenceFrame::root()),
                 point_at({0.0, 0.0, 2.0}, ReferenceFrame::root(), "far")})};
@@ -236,7 +236,7 @@ TEST(ViewPlanning, WhatIsTooNearToBeDrawnMakesUnknown) {
 TEST(ViewPlanning, RefusesUnknownLinksAndSets) {
   const CameraCandidate lost{"lost", "slap", at(0, 0, 0)};
   const Robot robot = slab_robot();
-  const std::vector<MotionFrame> motion{frame_at(robot, 0.0, ball_targets())};
+  const std::vector<Frame> motion{frame_at(robot, 0.0, ball_targets())};
   expect_refused(
       [&] {
         (void)judge_candidates(robot, planned_camera(), {&lost, 1}, motion, 2);
