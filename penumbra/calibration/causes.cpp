@@ -217,7 +217,8 @@ std::string text_of_depth(const Refined& fit) {
   if (text.empty()) return text;
   text += ", more than depth cameras are";
   if (is_beyond(fit.state.depth_scale, scale, usual_scale))
-    text += ": multiply depth_scale by " + fixed(1.0 / (1.0 + fit.state.depth_scale), 3);
+    text += ": multiply depth_scale by " + fixed(1.0 / (1.0 + fit.state.depth_scale), 3) +
+            ", unless a link of the URDF has the wrong length";
   return text;
 }
 
