@@ -12,8 +12,6 @@ namespace penumbra::calibration {
 namespace {
 
 constexpr int columns = 320;              // residuals are taken from about so many columns
-constexpr double least_cosine = 0.35;     // of the angle between ray and normal
-constexpr float continuous = 0.02f;       // metres between neighbours of one surface
 constexpr float before_edge = 0.05f;      // metres nearer than the robot's outline that are robot
 constexpr float behind_edge = 0.02f;      // the same, farther
 constexpr float background = 0.10f;       // metres behind the outline, at least
@@ -37,14 +35,15 @@ struct Observer::View {
   const State& state;
   VirtualDepthView robot;
   std::vector<std::vector<Twist>> link_twists;
+  int shift_x = static_cast<int>(std::lround(state.depth_shift.x()));
+  int shift_y = static_cast<int>(std::lround(state.depth_shift.y()));
 
   [[nodiscard]] bool is_inside(int u, int v) const {
     return u >= 0 && v >= 0 && u < robot.depth.width && v < robot.depth.height;
   }
   /// The measured depth at a pixel of the rendered image; 0: none. It lies at the pixel + rest().
   [[nodiscard]] float measured(int u, int v) const {
-    const int x = u - static_cast<int>(std::lround(state.depth_shift.x()));
-    const int y = v - static_cast<int>(std::lround(state.depth_shift.y()));
+    const int x = u - shift_x, y = v - shift_y;
     if (!is_inside(x, y)) return 0.0f;
     const float z = frame.depth(x, y);
     return z > 0.0f ? state.corrected(z) : 0.0f;
@@ -106,27 +105,6 @@ void Observer::add_row(const View& view, const Residual& residual, const Twist& 
   if (unknowns_.has_lens) row[unknowns_.lens()] = by_lens;
 }
 
-std::optional<double> SurfacePoint::along(const Eigen::Vector3d& ray) const {
-  const double along = normal.dot(ray);
-  return std::abs(along) > least_cosine * ray.norm() ? std::optional(along) : std::nullopt;
-}
-
-Twist SurfacePoint::gradient() const {
-  Twist gradient;
-  gradient << -point.cross(normal), -normal;
-  return gradient;
-}
-
-bool is_inside(const VirtualDepthView& robot, int u, int v, int margin) {
-  const auto& z = robot.depth;
-  const float here = z(u, v);
-  const auto is_near = [&](int du, int dv) {
-    return std::abs(z(u + du, v + dv) - here) < continuous;
-  };
-  return here > 0.0f && is_near(-margin, 0) && is_near(margin, 0) && is_near(0, -margin) &&
-         is_near(0, margin);
-}
-
 void Observer::add_surface(const View& view, const Reach& reach, Residuals& out) const {
   const auto& z = view.robot.depth;
   for (int v = margin_; v + margin_ < z.height; v += stride_)
@@ -184,16 +162,18 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
       // What is on the normal at each step: 1 robot's depth or mask, 0 none, -1 not measured or
       // something else; nothing is looked at past another part of the robot.
       const auto step_of = [&](const auto& sample, int radius) -> std::optional<double> {
+        constexpr int not_sampled = 2;
         const int first = -radius - run;
-        on_normal.clear();
-        for (int step = first; step <= radius + most_missing + run; ++step)
-          on_normal.push_back(sample(step));
+        on_normal.assign(static_cast<std::size_t>(2 * (radius + run) + most_missing + 1),
+                         not_sampled);
         const auto at_step = [&](int step) {
-          return on_normal[static_cast<std::size_t>(step - first)];
+          int& at = on_normal[static_cast<std::size_t>(step - first)];
+          if (at == not_sampled) at = sample(step);
+          return at;
         };
-        std::optional<double> best;
-        for (int last = -radius; last <= radius; ++last) {
-          if (at_step(last) != 1) continue;
+        std::optional<double> best;  // nearest to 0, of two as near the one inside
+        const auto try_after = [&](int last) {
+          if (at_step(last) != 1) return;
           int next = last + 1;
           while (next - last <= most_missing && at_step(next) < 0) ++next;
           int robots = 0, others = 0;  // with what is before and behind the step
@@ -203,8 +183,12 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
           }
           const bool is_step = robots >= least_of_run && others >= least_of_run;
           const double at = 0.5 * (last + next) - 0.5;
-          if (is_step && (!best || std::abs(at) < std::abs(*best))) best = at;
-        }
+          if (is_step && (!best || std::abs(at) < std::abs(*best) || at == -std::abs(*best)))
+            best = at;
+        };
+        // A step lies from `last` to half of most_missing behind it.
+        for (int k = 0; k <= radius && !(best && k > std::abs(*best) + 0.5 * most_missing); ++k)
+          for (const int last : {-k, k}) try_after(last);
         return best;
       };
       const auto pixel = [&](int step) {

@@ -100,26 +100,25 @@ double PoseSearch::score(const State& state, std::size_t every_frame) {
       overlaps += overlap.share();
       continue;
     }
-    for (int v = 0; v < robot.depth.height; ++v)
-      for (int u = 0; u < robot.depth.width; ++u) {
-        const float expected = robot.depth(u, v);
-        if (!(expected > 0.0f)) {
-          if (small.moved(u, v) == 0) continue;
-          most += 1.0;
-          sum -= SmallFrames::missed;
-          continue;
-        }
+    SmallFrames::for_each_pixel(small, robot, [&](int u, int v) {
+      const float expected = robot.depth(u, v);
+      if (!(expected > 0.0f)) {
+        if (small.moved(u, v) == 0) return;
         most += 1.0;
-        const float depth = small.depth(u, v);
-        const float measured = depth > 0.0f ? state.corrected(depth) : 0.0f;
-        if (!(measured > 0.0f)) continue;
-        if (measured > expected + tolerance)
-          sum -= 1.0;
-        else if (measured < expected - tolerance)
-          sum -= SmallFrames::occluded;
-        else
-          sum += 1.0;
+        sum -= SmallFrames::missed;
+        return;
       }
+      most += 1.0;
+      const float depth = small.depth(u, v);
+      const float measured = depth > 0.0f ? state.corrected(depth) : 0.0f;
+      if (!(measured > 0.0f)) return;
+      if (measured > expected + tolerance)
+        sum -= 1.0;
+      else if (measured < expected - tolerance)
+        sum -= SmallFrames::occluded;
+      else
+        sum += 1.0;
+    });
   }
   if (frames.front().depth.empty())
     return overlaps / static_cast<double>((frames.size() + every_frame - 1) / every_frame);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -129,13 +130,30 @@ struct SurfacePoint {
 
   /// Returns the normal's part along a ray with z = 1; null for a surface that is seen too
   /// obliquely to be compared.
-  [[nodiscard]] std::optional<double> along(const Eigen::Vector3d& ray) const;
+  [[nodiscard]] std::optional<double> along(const Eigen::Vector3d& ray) const {
+    constexpr double least_cosine = 0.35;  // of the angle between ray and normal
+    const double along = normal.dot(ray);
+    return std::abs(along) > least_cosine * ray.norm() ? std::optional(along) : std::nullopt;
+  }
   /// Returns the derivative, by a motion of the link, of a measured point's distance from the
   /// surface.
-  [[nodiscard]] Twist gradient() const;
+  [[nodiscard]] Twist gradient() const {
+    Twist gradient;
+    gradient << -point.cross(normal), -normal;
+    return gradient;
+  }
 };
 /// Returns whether a pixel shows the robot's surface, and `margin` pixels in each direction, too.
-[[nodiscard]] bool is_inside(const VirtualDepthView& robot, int u, int v, int margin);
+[[nodiscard]] inline bool is_inside(const VirtualDepthView& robot, int u, int v, int margin) {
+  constexpr float continuous = 0.02f;  // metres between neighbours of one surface
+  const auto& z = robot.depth;
+  const float here = z(u, v);
+  const auto is_near = [&](int du, int dv) {
+    return std::abs(z(u + du, v + dv) - here) < continuous;
+  };
+  return here > 0.0f && is_near(-margin, 0) && is_near(margin, 0) && is_near(0, -margin) &&
+         is_near(0, margin);
+}
 /// Returns the surface at such a pixel; null at edges between surfaces, and where `ray_of` a pixel
 /// is null.
 template <typename RayOf>
@@ -309,6 +327,7 @@ class SmallFrames {
     const KeptFrame* frame;
     Image<float> depth;
     Image<std::uint8_t> moved;  ///< 1: nearer than the background; without depth, the mask
+    TileMask moved_tiles;       ///< with a pixel of `moved`; only with depth
   };
   static constexpr double occluded = 0.3;  ///< cost of a pixel with something before the robot
   static constexpr double missed = 0.5;    ///< of one that moved and is not the robot
@@ -325,6 +344,16 @@ class SmallFrames {
   void find_moved(double depth_factor = 1.0);
   [[nodiscard]] VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_link) {
     return renderer_->render(T_camera_link);
+  }
+  /// Calls f(u, v) at least for all pixels of the robot and of what moved, row by row.
+  template <typename F>
+  static void for_each_pixel(const Small& small, const VirtualDepthView& robot, F&& f) {
+    const int step = robot.touched->tile_width, width = robot.depth.width;
+    for (int v = 0; v < robot.depth.height; ++v)
+      for (int first = 0; first < width; first += step) {
+        if (!robot.touched->holds(first, v) && !small.moved_tiles.holds(first, v)) continue;
+        for (int u = first; u < std::min(first + step, width); ++u) f(u, v);
+      }
   }
   /// Returns a sum over pixels as a share of `most` of them. A robot out of view, or a speck, is as
   /// bad as one in free space.

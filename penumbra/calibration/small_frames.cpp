@@ -45,12 +45,13 @@ SmallFrames::SmallFrames(const Robot& robot, const Intrinsics& camera,
                          std::span<const KeptFrame* const> frames)
     : block_(std::min(std::max(1, camera.width() / small_width), camera.height())) {
   for (const KeptFrame* frame : frames) {
-    Small& small = frames_.emplace_back(Small{frame, {}, {}});
+    Small& small = frames_.emplace_back(Small{frame, {}, {}, {}});
     if (frame->depth.empty()) {
       small.moved = made_small(frame->mask, block_);
     } else {
       small.depth = made_small(frame->depth, block_);
       small.moved = Image<std::uint8_t>(small.depth.width(), small.depth.height());
+      small.moved_tiles = TileMask(small.depth.width(), small.depth.height());
     }
   }
   for (std::size_t link = 0; link < robot.links().size(); ++link) {
@@ -87,6 +88,13 @@ void SmallFrames::find_moved(double depth_factor) {
     for (Small& small : frames_)
       if (const float z = factor * small.depth.data()[i]; z > 0.0f && z < limit)
         small.moved.data()[i] = 1;
+  }
+  for (Small& small : frames_) {
+    if (small.depth.empty()) continue;
+    small.moved_tiles = TileMask(small.moved.width(), small.moved.height());
+    for (int v = 0; v < small.moved.height(); ++v)
+      for (int u = 0; u < small.moved.width(); ++u)
+        if (small.moved(u, v) != 0) small.moved_tiles.mark(u, v, u, v);
   }
 }
 

@@ -26,31 +26,30 @@ Agreement::Counts Agreement::count(const Hypothesis& hypothesis, std::size_t fra
   const auto factor = static_cast<float>(hypothesis.depth_factor);
   const SmallFrames::Small& small = small_.frames()[frame];
   Counts counts;
-  for (int v = 0; v < view.depth.height; ++v)
-    for (int u = 0; u < view.depth.width; ++u) {
-      const float expected = view.depth(u, v);
-      float z = factor * small.depth(u, v);
-      if (hypothesis.along_ray) z /= static_cast<float>(small_.camera().ray(u, v).norm());
-      if (!(expected > 0.0f)) {
-        if (small.moved(u, v) == 0) continue;
-        counts.most += 1.0;
-        counts.score -= SmallFrames::missed;
-        continue;
-      }
+  SmallFrames::for_each_pixel(small, view, [&](int u, int v) {
+    const float expected = view.depth(u, v);
+    float z = factor * small.depth(u, v);
+    if (hypothesis.along_ray) z /= static_cast<float>(small_.camera().ray(u, v).norm());
+    if (!(expected > 0.0f)) {
+      if (small.moved(u, v) == 0) return;
       counts.most += 1.0;
-      if (!(z > 0.0f)) continue;
-      const double off = (z - expected) / tolerance;
-      if (std::abs(off) < 1.0) {
-        counts.agreeing += 1.0 - off * off;
-        counts.score += 1.0 - off * off;
-      } else if (off > 0.0) {
-        counts.beyond += 1.0;
-        counts.score -= 1.0;
-      } else {
-        counts.score -= SmallFrames::occluded;
-        counts.front += 1.0;
-      }
+      counts.score -= SmallFrames::missed;
+      return;
     }
+    counts.most += 1.0;
+    if (!(z > 0.0f)) return;
+    const double off = (z - expected) / tolerance;
+    if (std::abs(off) < 1.0) {
+      counts.agreeing += 1.0 - off * off;
+      counts.score += 1.0 - off * off;
+    } else if (off > 0.0) {
+      counts.beyond += 1.0;
+      counts.score -= 1.0;
+    } else {
+      counts.score -= SmallFrames::occluded;
+      counts.front += 1.0;
+    }
+  });
   return counts;
 }
 
