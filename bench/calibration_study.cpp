@@ -15,11 +15,14 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <iomanip>
 #include <iostream>
+#include <iterator>
 #include <numbers>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -211,6 +214,7 @@ struct Faults {
   Eigen::Vector2d focal =
       Eigen::Vector2d::Zero();  ///< fx and fy are too long by this of themselves
   Setup setup;
+  double link = 0.0;  ///< by this of itself one link of the URDF is too long
 };
 
 RobotChoice ur5e() {
@@ -226,7 +230,7 @@ RobotChoice ur5e() {
 
 constexpr std::array fault_names{
     "nothing",   "nothing, depth 0.5 % off", "nothing, moving arm", "fx and fy", "fx alone",
-    "one joint", "clocks, moving arm",       "two of these"};
+    "one joint", "clocks, moving arm",       "two of these",        "one link"};
 constexpr std::size_t right_kinds = 3;  // the first of them have no fault
 
 double either_way(sim::Random& random, double least, double most) {
@@ -250,7 +254,8 @@ Faults faults_of(std::size_t kind, std::size_t joints, std::uint64_t seed) {
   sim::Random random(seed, 1000 + kind);
   Faults faults;
   if (kind == 1) faults.setup.depth_scale = either_way(random, 0.005, 0.005);
-  if (kind < 7) {
+  if (kind == 8) faults.link = either_way(random, 0.1, 0.1);
+  if (kind != 7) {
     add_fault(kind, joints, random, faults);
     return faults;
   }
@@ -259,6 +264,26 @@ Faults faults_of(std::size_t kind, std::size_t joints, std::uint64_t seed) {
   add_fault(right_kinds + first, joints, random, faults);
   add_fault(right_kinds + second, joints, random, faults);
   return faults;
+}
+
+/// The robot with one joint farther from the one before; joints take turns.
+Robot with_long_link(const RobotChoice& choice, double by, std::uint64_t seed) {
+  std::ifstream file(choice.urdf);
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  constexpr double least = 0.1;  // metres: a link
+  std::vector<std::pair<std::size_t, Eigen::Vector3d>> origins;
+  for (std::size_t at = text.find("<joint"); at < text.size(); at = text.find("<joint", at + 1)) {
+    const std::size_t xyz = text.find("xyz=\"", text.find("<origin", at));
+    Eigen::Vector3d origin;
+    if (xyz > text.find("</joint", at)) continue;
+    std::istringstream(text.substr(xyz + 5)) >> origin.x() >> origin.y() >> origin.z();
+    if (origin.norm() > least) origins.emplace_back(xyz + 5, origin);
+  }
+  const auto& [at, origin] = origins.at(seed / 3 % origins.size());
+  std::ostringstream longer;
+  longer << (1.0 + by) * origin.transpose();
+  text.replace(at, text.find('"', at) - at, longer.str());
+  return Robot::parse(text, choice.urdf.parent_path(), choice.options);
 }
 
 bool says(const Calibration& found, const std::string& word) {
@@ -286,10 +311,12 @@ void run_faulty(const RobotChoice& robot, std::size_t kind, std::uint64_t seed, 
   const auto& errors = faults.setup.joint_errors;
   if (!errors.empty())  // the first joint turns the whole arm: its zero is a matter of definition
     truth = Eigen::AngleAxisd(errors[0], Eigen::Vector3d::UnitZ()) * truth;
-  const std::vector<KeptFrame> frames = cell.frames();
+  std::vector<KeptFrame> frames = cell.frames();
+  const Robot used = faults.link == 0.0 ? cell.robot() : with_long_link(robot, faults.link, seed);
+  for (KeptFrame& frame : frames) used.forward_kinematics(frame.joints, frame.T_root_link);
   CalibrationOptions options{.camera_parent = "", .initial = cell.off(), .seed = seed};
   const auto start = std::chrono::steady_clock::now();
-  const Calibration found = calibrate(frames, given, cell.robot(), options);
+  const Calibration found = calibrate(frames, given, used, options);
   said.seconds.push_back(
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 
@@ -307,6 +334,7 @@ void run_faulty(const RobotChoice& robot, std::size_t kind, std::uint64_t seed, 
   constexpr double much = 1.5 * 1.5;
   bool named = faults.setup.late != 0.0 && says(found, "stamps");
   named |= faults.focal.x() != 0.0 && says(found, "fx is");
+  named |= faults.link != 0.0 && says(found, "URDF");
   for (std::size_t j = 0; j < errors.size(); ++j)
     named |= errors[j] != 0.0 && says(found, cell.robot().variables()[j] + " ");
   const bool other = !named && says(found, "");
@@ -331,7 +359,7 @@ void run_faulty(const RobotChoice& robot, std::size_t kind, std::uint64_t seed, 
   options.focal = says(found, "--focal");
   options.joint_offsets = says(found, "--joint-offsets");
   options.time_offset = says(found, "--time-offset");
-  const Calibration mended = calibrate(frames, given, cell.robot(), options);
+  const Calibration mended = calibrate(frames, given, used, options);
   said.mended_refused += !mended.is_good();
   if (!mended.is_good()) return;
   said.mended_wrong += outside(mended) > much;

@@ -11,7 +11,7 @@
 #include <memory>
 #include <optional>
 
-#include <penumbra/calibration/watch.hpp>
+#include <penumbra/calibration/calibration.hpp>
 
 namespace penumbra::study {
 namespace {

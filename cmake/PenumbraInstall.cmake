@@ -28,12 +28,11 @@ set(public_headers
   tracking/trackers.hpp targets/target.hpp targets/target_judge.hpp
   cloud/scan.hpp
   pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
-  calibration/calibration.hpp calibration/kept_frames.hpp calibration/watch.hpp diagnosis/diagnosis.hpp
-  tuning/cloud_tuning.hpp planning/look_ahead.hpp planning/view_planning.hpp fusion/target_fusion.hpp
+  calibration/calibration.hpp calibration/kept_frames.hpp diagnosis/diagnosis.hpp
+  planning/look_ahead.hpp planning/view_planning.hpp fusion/target_fusion.hpp
   session/session.hpp)
 set(component_of_calibration diagnosis)
 set(component_of_diagnosis diagnosis)
-set(component_of_tuning setup)
 set(component_of_planning planning)
 set(component_of_fusion planning)
 set(component_of_session session)

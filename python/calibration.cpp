@@ -8,7 +8,6 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/calibration/calibration.hpp>
-#include <penumbra/calibration/watch.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
 #include <penumbra/poses/pose_stage.hpp>
 

@@ -114,9 +114,9 @@ void bind_frame(py::module_& m) {
             "Robot.variables, rad and m; None: not known. See pose_of()."},
       Field{"scan", &F::scan, "Of a sensor of points, in place of depth, or None."},
       Field{"pose_at", &F::pose_at,
-            "The pose at any stamp during the scan, as pose: a function, for example lambda "
-            "stamp: pose_of(robot, joint_buffer.at(stamp)). Session.process calls it on its own "
-            "thread, for scans alone. None: pose is that of the whole scan."},
+            "The pose at any stamp during the scan, or up to a bag's image, as pose: a function, "
+            "for example lambda stamp: pose_of(robot, joint_buffer.at(stamp)). Session.process "
+            "calls it on its own thread, for scans alone. None: pose is that of the whole scan."},
       Field{"stamp", &F::stamp, "Of the depth image or the scan, nanoseconds."},
       Field{"targets", &F::targets, "To be judged."},
       Field{"plan", &F::plan,

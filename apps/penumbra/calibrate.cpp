@@ -9,7 +9,6 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/calibration/calibration.hpp>
-#include <penumbra/calibration/watch.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
 
 #include <apps/penumbra/help.hpp>

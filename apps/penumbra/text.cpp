@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <utility>
 
@@ -19,13 +18,6 @@ std::vector<std::string> split(std::string_view text, char separator) {
     start = end + 1;
   }
   return parts;
-}
-
-std::string fixed(double value, int digits) {
-  char buffer[400];  // the largest double has 309 digits before the point
-  const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value,
-                                    std::chars_format::fixed, std::min(digits, 20));
-  return {buffer, result.ptr};
 }
 
 void print_table(std::vector<std::vector<std::string>> rows) {

@@ -8,13 +8,14 @@
 #include <string_view>
 #include <vector>
 
+#include <penumbra/base/text.hpp>
+
 namespace penumbra::app {
 
 /// Returns the parts between separators: one empty part for an empty text.
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 
-/// Formats a value with `digits` after the point.
-[[nodiscard]] std::string fixed(double value, int digits);
+using detail::fixed;
 
 [[nodiscard]] inline std::chrono::nanoseconds to_duration(double seconds) {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));

@@ -21,7 +21,7 @@ HEADERS = {
     "Camera": ["camera/camera.hpp", "camera/rectification.hpp", "camera/registration.hpp"],
     "Renderers": ["render/depth_renderer.hpp"],
     "Labels and verdicts": ["labels/labels.hpp", "targets/target_judge.hpp",
-                            "cloud/scan.hpp", "tuning/cloud_tuning.hpp"],
+                            "cloud/scan.hpp"],
     "Tracking": ["tracking/trackers.hpp"],
     "Calibration": ["calibration/calibration.hpp"],
     "Planning": ["planning/look_ahead.hpp", "robot/trajectory.hpp", "planning/view_planning.hpp"],

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <penumbra/base/setting.hpp>
-#include <penumbra/calibration/watch.hpp>
+#include <penumbra/calibration/calibration.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/targets/target.hpp>
 

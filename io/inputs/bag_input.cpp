@@ -74,10 +74,9 @@ CameraMount mount_in_bag(const InputOptions& options, BagSceneReader& reader, co
     // Once the camera and the root link have a frame above both, no link can come above the camera.
     return mount || scene.frames.connects(frame, root);
   });
-  if (!options.needs_camera_pose)
-    return {"", mount ? mount->parent : robot.links().front(), Eigen::Isometry3d::Identity(),
-            mount ? mount->source : "nothing yet"};
   if (mount) return *mount;
+  if (!options.needs_camera_pose)
+    return {"", robot.links().front(), Eigen::Isometry3d::Identity(), "nothing yet"};
   if (!reader.scene().frames.connects(frame, root)) refuse_mount(options, reader, robot, frame);
   return mount_by_root(robot, wanted, frame_of_images);
 }

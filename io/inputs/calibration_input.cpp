@@ -62,6 +62,11 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
           frames.depth_of(frame.depth.view, {input.camera->range.near, input.camera->range.far});
     frames.add(*std::move(kept));
   }
+  if (frame.pose_at && frame.stamp) {  // the poses after the last image
+    *frame.stamp += 300'000'000;
+    frame.pose_at(*frame.stamp, frame.pose);
+    frames.follow(frame);
+  }
 
   if (frames.T_parent_camera()) input.config.T_parent_camera = *frames.T_parent_camera();
   CalibrationInput result{.input = std::move(input),

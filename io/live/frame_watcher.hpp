@@ -2,7 +2,7 @@
 #pragma once
 
 #include <penumbra/base/image.hpp>
-#include <penumbra/calibration/watch.hpp>
+#include <penumbra/calibration/calibration.hpp>
 #include <penumbra/pipeline/frame.hpp>
 
 #include <io/assembly/assembled_frame.hpp>

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <penumbra/calibration/watch.hpp>
+#include <penumbra/calibration/calibration.hpp>
 #include <penumbra/fusion/target_fusion.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 #include <penumbra/poses/robot_pose.hpp>

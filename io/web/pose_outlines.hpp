@@ -4,7 +4,7 @@
 #include <mutex>
 #include <optional>
 
-#include <penumbra/calibration/watch.hpp>
+#include <penumbra/calibration/calibration.hpp>
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 

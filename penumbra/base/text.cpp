@@ -35,6 +35,13 @@ std::string printed(double number) {
   return {buffer, static_cast<std::size_t>(length)};
 }
 
+std::string fixed(double number, int places) {
+  char buffer[400];  // the largest double has 309 digits before the point
+  const auto result =
+      std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::fixed, places);
+  return {buffer, result.ptr};
+}
+
 std::optional<double> to_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0.0;

@@ -17,6 +17,9 @@ namespace penumbra::detail {
 /// Formats a number with six digits and no trailing zeros.
 [[nodiscard]] std::string printed(double number);
 
+/// Formats a number with so many digits after the point.
+[[nodiscard]] std::string fixed(double number, int places);
+
 /// Parses a finite decimal number that fills the whole text; independent of the locale.
 [[nodiscard]] std::optional<double> to_number(std::string_view text);
 

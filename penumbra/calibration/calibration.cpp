@@ -2,14 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/base/statistics-inl.hpp>
+#include <penumbra/base/text.hpp>
 #include <penumbra/calibration/calibration.hpp>
 #include <penumbra/calibration/dense.hpp>
 #include <penumbra/calibration/problem.hpp>
@@ -21,12 +20,14 @@ namespace {
 using calibration::Cause;
 using calibration::Explained;
 using calibration::FoundCause;
+using calibration::FramePointers;
 using calibration::Model;
 using calibration::Observer;
 using calibration::PoseSearch;
 using calibration::Refined;
 using calibration::State;
 using calibration::Unknowns;
+using detail::fixed;
 
 constexpr std::size_t searched = 10;      // frames on which poses are tried
 constexpr double least_agreeing = 0.6;    // of the robot's measured pixels
@@ -39,17 +40,9 @@ constexpr double untold = 0.02;           // rad, half axis of the 95 % region o
 /// Of the square of how far another pose is: the 95 % region reaches a little farther.
 constexpr double covering = 1.0 / 6.0;
 
-std::string number(double value, int digits) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
-
 Estimate estimate(double value, const Refined& fit, int unknown) {
   return {value, std::sqrt(fit.covariance(unknown, unknown))};
 }
-
-using FramePointers = std::vector<const KeptFrame*>;
 
 void check_input(std::span<const KeptFrame> frames, const Intrinsics& camera,
                  const CalibrationOptions& options) {
@@ -128,7 +121,7 @@ class Calibrator {
                             return frame.mask.empty();
                           });
     unknowns_.has_time = options.time_offset;
-    for (const KeptFrame& frame : frames) used_.push_back(&frame);
+    used_ = calibration::pointers_to(frames);
   }
 
   Calibration run() {
@@ -143,10 +136,9 @@ class Calibrator {
       result.frames.back().used = std::find(used_.begin(), used_.end(), &frame) != used_.end();
     }
     if (unknowns_.has_shift || !has_depth()) {
-      std::size_t both = 0, either = 0;
-      for (const KeptFrame& frame : frames_) observer.overlap(frame, known.state, both, either);
-      result.mask_overlap =
-          static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
+      calibration::Overlap overlap;
+      for (const KeptFrame& frame : frames_) observer.overlap(frame, known.state, overlap);
+      result.mask_overlap = overlap.share();
     }
     judge(result, known);
     if (!result.is_good()) return result;
@@ -401,7 +393,7 @@ class Calibrator {
         agreeing += frame.agreeing / static_cast<double>(used_.size());
       else
         result.notes.push_back("frame " + std::to_string(frame.index) + " is left out: only " +
-                               number(100.0 * frame.agreeing, 0) +
+                               fixed(100.0 * frame.agreeing, 0) +
                                (has_depth()
                                     ? " % of the robot's pixels show it where its joints say"
                                     : " % of mask and robot overlap"));
@@ -412,7 +404,7 @@ class Calibrator {
           "in "
           "which links move in the camera's view");
     } else if (!(agreeing >= least_agreeing)) {
-      result.faults.push_back("only " + number(100.0 * agreeing, 0) +
+      result.faults.push_back("only " + fixed(100.0 * agreeing, 0) +
                               (has_depth() ? " % of the robot's pixels show it at its depth"
                                            : " % of masks and robot overlap") +
                               ": the robot is not in view, the URDF is not this robot's, the "
@@ -437,8 +429,8 @@ class Calibrator {
       remedy += "record more poses of the robot; " + result.advice;
     }
     result.faults.push_back(
-        "the pose is known to " + number(1e3 * result.position_error(), 0) + " mm and " +
-        number(result.rotation_error() * 180.0 / 3.14159265358979, 1) + " degrees only: " + remedy);
+        "the pose is known to " + fixed(1e3 * result.position_error(), 0) + " mm and " +
+        fixed(result.rotation_error() * 180.0 / 3.14159265358979, 1) + " degrees only: " + remedy);
   }
 
   std::span<const KeptFrame> frames_;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <tuple>
 
+#include <penumbra/base/text.hpp>
 #include <penumbra/calibration/dense.hpp>
 #include <penumbra/calibration/problem.hpp>
 
 namespace penumbra::calibration {
 namespace {
+
+using detail::fixed;
 
 // In 60 simulated runs without a fault (bench/calibration_study) nothing was named.
 constexpr double named = 4.0;     // sigmas from 0
@@ -53,27 +53,17 @@ Unknowns with(Unknowns unknowns, const Cause& cause) {
   return unknowns;
 }
 
-bool has(const Unknowns& unknowns, const Cause& cause) {
-  switch (cause.kind) {
-    case Cause::Kind::focal:
-      return unknowns.focal_count > 0;
-    case Cause::Kind::joint:
-      return std::ranges::count(unknowns.variables, cause.variable) > 0;
-    case Cause::Kind::clock:
-      return unknowns.has_time;
-    case Cause::Kind::lens:
-      return unknowns.has_lens;
-  }
-  return true;
-}
-
-/// The indices of a cause in unknowns that have it.
+/// The indices of a cause in the unknowns; empty: they do not have it.
 std::vector<int> indices(const Unknowns& unknowns, const Cause& cause) {
-  if (cause.kind == Cause::Kind::focal) return {unknowns.focal(), unknowns.focal() + 1};
-  if (cause.kind == Cause::Kind::clock) return {unknowns.time()};
-  if (cause.kind == Cause::Kind::lens) return {unknowns.lens()};
-  const auto at = std::ranges::find(unknowns.variables, cause.variable);
-  return {unknowns.joints() + static_cast<int>(at - unknowns.variables.begin())};
+  const auto variable = std::ranges::find(unknowns.variables, cause.variable);
+  int first = unknowns.joints() + static_cast<int>(variable - unknowns.variables.begin());
+  int count = variable == unknowns.variables.end() ? 0 : 1;
+  if (cause.kind == Cause::Kind::focal) first = unknowns.focal(), count = unknowns.focal_count;
+  if (cause.kind == Cause::Kind::clock) first = unknowns.time(), count = unknowns.has_time;
+  if (cause.kind == Cause::Kind::lens) first = unknowns.lens(), count = unknowns.has_lens;
+  std::vector<int> found(static_cast<std::size_t>(count));
+  std::iota(found.begin(), found.end(), first);
+  return found;
 }
 
 /// How many standard deviations values are from 0.
@@ -86,9 +76,7 @@ std::vector<int> indices(const Unknowns& all, const Unknowns& some) {
   std::vector<int> found(static_cast<std::size_t>(some.joints()));
   std::iota(found.begin(), found.end(), 0);
   for (const std::size_t variable : some.variables)
-    found.push_back(all.joints() +
-                    static_cast<int>(std::distance(all.variables.begin(),
-                                                   std::ranges::find(all.variables, variable))));
+    found.push_back(indices(all, {.kind = Cause::Kind::joint, .variable = variable})[0]);
   if (some.has_time) found.push_back(all.time());
   if (some.has_lens) found.push_back(all.lens());
   return found;
@@ -114,16 +102,10 @@ Test test(const Equations& equations, const Unknowns& all, const Unknowns& own,
   return result;
 }
 
-std::string number(double value, int digits) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
-
 /// The size of a value and twice its standard deviation.
 std::string amount(double value, double variance, double scale, int digits) {
-  return number(scale * std::abs(value), digits) + " +- " +
-         number(bar * scale * std::sqrt(variance), digits);
+  return fixed(scale * std::abs(value), digits) + " +- " +
+         fixed(bar * scale * std::sqrt(variance), digits);
 }
 
 std::string name_of(const Cause& cause, const Robot& robot) {
@@ -152,7 +134,7 @@ std::string focal_text(const Explained& explained, const Intrinsics& camera) {
     const double longer = 1.0 / (1.0 + focal[i]) - 1.0;
     text += (text.empty() ? "" : ", ") + std::string(name) + " is " +
             amount(longer, variances[i], 100.0, 1) + " % too " + (longer > 0.0 ? "long" : "short") +
-            " (" + number(given * (1.0 + focal[i]), 1) +
+            " (" + fixed(given * (1.0 + focal[i]), 1) +
             " px would fit; penumbra calibrate --focal)";
   }
   return text;
@@ -235,7 +217,8 @@ std::string text_of_depth(const Refined& fit) {
   if (text.empty()) return text;
   text += ", more than depth cameras are";
   if (is_beyond(fit.state.depth_scale, scale, usual_scale))
-    text += ": multiply depth_scale by " + number(1.0 / (1.0 + fit.state.depth_scale), 3);
+    text += ": multiply depth_scale by " + fixed(1.0 / (1.0 + fit.state.depth_scale), 3) +
+            ", unless a link of the URDF has the wrong length";
   return text;
 }
 
@@ -258,7 +241,7 @@ Explained explain(Observer& observer, const Unknowns& own, std::span<const KeptF
                   const Refined& fit) {
   const Robot& robot = observer.model().robot();
   std::vector<Cause> candidates = possible_causes(robot, frames);
-  std::erase_if(candidates, [&](const Cause& cause) { return has(own, cause); });
+  std::erase_if(candidates, [&](const Cause& cause) { return !indices(own, cause).empty(); });
   Unknowns all = own;
   for (const Cause& cause : candidates) all = with(all, cause);
 
@@ -272,7 +255,7 @@ Explained explain(Observer& observer, const Unknowns& own, std::span<const KeptF
     const Equations equations = equations_at(observer, all, frames, state);
     std::vector<Test> tests;
     for (const Cause& cause : candidates)
-      if (!has(result.unknowns, cause))
+      if (indices(result.unknowns, cause).empty())
         tests.push_back(test(equations, all, result.unknowns, cause));
     const auto pose_after = [&](const Test& test) {
       return Explained::Pose{twist_of(from * state.T_parent_camera * motion(test.pose.motion)),

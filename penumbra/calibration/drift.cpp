@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <cstdio>
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include <penumbra/base/text.hpp>
 #include <penumbra/calibration/problem.hpp>
-#include <penumbra/calibration/watch.hpp>
 
 namespace penumbra {
 
@@ -31,6 +31,19 @@ std::string calibration::of_scans(std::string message) {
   return message;
 }
 
+std::string calibration::amount_of(const Drift& drift, int digits) {
+  constexpr double degrees = 180.0 / std::numbers::pi;
+  std::string text;
+  const auto add = [&](double value, double error, int places, const char* unit) {
+    if (error > value) return;
+    text += (text.empty() ? "" : " and ") + detail::fixed(value, places) + " +- " +
+            detail::fixed(error, places) + unit;
+  };
+  add(1e3 * drift.position(), 1e3 * drift.position_error(), digits, " mm");
+  add(degrees * drift.rotation(), degrees * drift.rotation_error(), digits + 1, " degrees");
+  return text;
+}
+
 double Drift::rotation() const {
   return std::abs(Eigen::AngleAxisd(T_calibrated_camera.linear()).angle());
 }
@@ -42,36 +55,22 @@ double Drift::rotation_error() const {
 }
 
 std::string Drift::message() const {
-  constexpr double degrees = 180.0 / std::numbers::pi;
+  using detail::fixed;
   constexpr double much = 0.4;
-  std::array<char, 256> text{};
-  if (seen_through > much) {
-    std::snprintf(
-        text.data(), text.size(),
-        "the sensor sees past %.0f %% of the robot: the camera is elsewhere than calibrated, "
-        "or the joints are another robot's: run 'penumbra calibrate'",
-        100.0 * seen_through);
-    return is_camera ? text.data() : calibration::of_scans(text.data());
-  }
-  std::snprintf(text.data(), text.size(), "images and joint states are about %.0f +- %.0f ms apart",
-                1e3 * std::abs(time_offset.value), std::max(1.0, 2e3 * time_offset.sigma));
-  const std::string apart = text.data();
   std::string line;
-  if (clocks_differ) {
-    std::snprintf(text.data(), text.size(), ": set time_offset to %.3f", time_offset.value);
-    line = apart + text.data();
-  }
-  if (has_moved || camera_or_clocks) {
-    std::string by;
-    const auto add = [&](const char* format, double value, double error) {
-      if (error > value) return;
-      std::snprintf(text.data(), text.size(), format, value, error);
-      by += (by.empty() ? "" : " and ") + std::string(text.data());
-    };
-    add("%.1f +- %.1f mm", 1e3 * position(), 1e3 * position_error());
-    add("%.2f +- %.2f degrees", degrees * rotation(), degrees * rotation_error());
-    line += by.empty() ? "the camera has moved since its calibration, how far is not known yet"
-                       : "the camera is " + by + " from its calibration";
+  const std::string apart = "images and joint states are about " +
+                            fixed(1e3 * std::abs(time_offset.value), 0) + " +- " +
+                            fixed(std::max(1.0, 2e3 * time_offset.sigma), 0) + " ms apart";
+  if (seen_through > much) {
+    line = "the sensor sees past " + fixed(100.0 * seen_through, 0) +
+           " % of the robot: the camera is elsewhere than calibrated, or the joints are another "
+           "robot's: run 'penumbra calibrate'";
+  } else if (clocks_differ) {
+    line = apart + ": set time_offset to " + fixed(time_offset.value, 3);
+  } else if (has_moved || camera_or_clocks) {
+    const std::string by = calibration::amount_of(*this, 1);
+    line = by.empty() ? "the camera has moved since its calibration, how far is not known yet"
+                      : "the camera is " + by + " from its calibration";
     if (has_moved && bumped_at)
       line += ", bumped at frame " + std::to_string(*bumped_at) + " +- " +
               std::to_string(bumped_within);

@@ -175,7 +175,31 @@ void KeptFrames::refuse(std::size_t index, const std::string& why) {
   if (faulty_++ == 0) fault_ = "frame " + std::to_string(index) + ": " + why;
 }
 
+/// Takes poses between images that are farther apart than those kept with a frame: they tell
+/// whether the robot rests, and whether the poses are of another time.
+void KeptFrames::follow_until(const Frame& frame) {
+  constexpr std::int64_t step = 50'000'000, reach = 250'000'000;  // ns; near_seconds
+  if (!frame.pose_at || !frame.stamp) return;
+  const std::optional<std::int64_t> last = recent_.empty() ? std::nullopt : recent_.back().stamp;
+  if (last && *frame.stamp - *last <= reach) return;
+  Frame between;
+  const auto follow_at = [&](std::int64_t stamp) {
+    between.stamp = stamp;
+    frame.pose_at(stamp, between.pose);
+    follow(between);
+  };
+  for (std::int64_t by = step; last && by <= reach; by += step) follow_at(*last + by);
+  for (std::int64_t by = reach; by > 0; by -= step)
+    if (!last || *frame.stamp - by > *last + reach) follow_at(*frame.stamp - by);
+}
+
+void KeptFrames::follow(const Frame& frame) {
+  follow_until(frame);
+  if (KeptFrame posed = posed_frame(frame); !posed.T_root_link.empty()) (void)follow(posed);
+}
+
 std::optional<KeptFrame> KeptFrames::pass(const Frame& frame) {
+  follow_until(frame);
   const RobotPose& pose = frame.pose;
   KeptFrame passed = posed_frame(frame);
   const bool has_pose = !passed.T_root_link.empty();

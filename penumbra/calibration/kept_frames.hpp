@@ -85,9 +85,7 @@ class KeptFrames {
   /// without a stamp.
   [[nodiscard]] std::optional<KeptFrame> pass(const Frame& frame);
   /// Takes the robot's pose between frames.
-  void follow(const Frame& frame) {
-    if (KeptFrame posed = posed_frame(frame); !posed.T_root_link.empty()) (void)follow(posed);
-  }
+  void follow(const Frame& frame);
   /// The same of a frame that was judged. `joints`: its positions in the order of
   /// Robot::variables(); others: the poses are from TF.
   [[nodiscard]] std::optional<KeptFrame> pass(const FrameReport& report,
@@ -140,6 +138,7 @@ class KeptFrames {
 
  private:
   [[nodiscard]] KeptFrame posed_frame(const Frame& frame) const;
+  void follow_until(const Frame& frame);
   void check_size(int width, int height) const;
   [[nodiscard]] bool follow(KeptFrame& frame);
   void follow_camera(const KeptFrame& frame, const Eigen::Isometry3d& T_parent_camera);

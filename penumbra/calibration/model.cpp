@@ -29,6 +29,12 @@ double longest_axis(const Eigen::Matrix3d& covariance) {
   return chi * std::sqrt(std::max(0.0, dense::principal_axes(covariance).values[2]));
 }
 
+FramePointers pointers_to(std::span<const KeptFrame> frames) {
+  FramePointers pointers;
+  for (const KeptFrame& frame : frames) pointers.push_back(&frame);
+  return pointers;
+}
+
 void Unknowns::step(State& state, const Eigen::VectorXd& by) const {
   state.T_parent_camera = state.T_parent_camera * motion(by.head<6>());
   state.T_parent_camera.linear() =

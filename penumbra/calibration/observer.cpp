@@ -12,8 +12,6 @@ namespace penumbra::calibration {
 namespace {
 
 constexpr int columns = 320;              // residuals are taken from about so many columns
-constexpr double least_cosine = 0.35;     // of the angle between ray and normal
-constexpr float continuous = 0.02f;       // metres between neighbours of one surface
 constexpr float before_edge = 0.05f;      // metres nearer than the robot's outline that are robot
 constexpr float behind_edge = 0.02f;      // the same, farther
 constexpr float background = 0.10f;       // metres behind the outline, at least
@@ -37,14 +35,15 @@ struct Observer::View {
   const State& state;
   VirtualDepthView robot;
   std::vector<std::vector<Twist>> link_twists;
+  int shift_x = static_cast<int>(std::lround(state.depth_shift.x()));
+  int shift_y = static_cast<int>(std::lround(state.depth_shift.y()));
 
   [[nodiscard]] bool is_inside(int u, int v) const {
     return u >= 0 && v >= 0 && u < robot.depth.width && v < robot.depth.height;
   }
   /// The measured depth at a pixel of the rendered image; 0: none. It lies at the pixel + rest().
   [[nodiscard]] float measured(int u, int v) const {
-    const int x = u - static_cast<int>(std::lround(state.depth_shift.x()));
-    const int y = v - static_cast<int>(std::lround(state.depth_shift.y()));
+    const int x = u - shift_x, y = v - shift_y;
     if (!is_inside(x, y)) return 0.0f;
     const float z = frame.depth(x, y);
     return z > 0.0f ? state.corrected(z) : 0.0f;
@@ -108,43 +107,29 @@ void Observer::add_row(const View& view, const Residual& residual, const Twist& 
 
 void Observer::add_surface(const View& view, const Reach& reach, Residuals& out) const {
   const auto& z = view.robot.depth;
-  const auto& links = view.robot.links;
-  const auto point = [&](int u, int v) -> Eigen::Vector3d { return camera_.ray(u, v) * z(u, v); };
   for (int v = margin_; v + margin_ < z.height; v += stride_)
     for (int u = margin_; u + margin_ < z.width; u += stride_) {
-      const float expected = z(u, v);
-      if (!(expected > 0.0f)) continue;
-      const auto is_near = [&](int du, int dv) {
-        return std::abs(z(u + du, v + dv) - expected) < continuous;
-      };
-      if (!(is_near(-margin_, 0) && is_near(margin_, 0) && is_near(0, -margin_) &&
-            is_near(0, margin_)))
-        continue;
-      const float measured = view.measured(u, v);
+      if (!is_inside(view.robot, u, v, margin_)) continue;
+      const float expected = z(u, v), measured = view.measured(u, v);
       if (!(measured > 0.0f) || std::abs(measured - expected) > reach.depth) continue;
-      bool is_smooth = true;
-      for (const auto& [du, dv] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-        is_smooth &= links(u + du, v + dv) == links(u, v) && is_near(du, dv);
-      if (!is_smooth) continue;
-      const Eigen::Vector3d normal =
-          (point(u + 1, v) - point(u - 1, v)).cross(point(u, v + 1) - point(u, v - 1)).normalized();
+      const auto surface =
+          surface_at(view.robot, u, v, [&](int x, int y) { return camera_.ray(x, y); });
       const Eigen::Vector3d ray = camera_.ray(u, v);
-      const double along = normal.dot(ray);
-      if (!(std::abs(along) > least_cosine * ray.norm())) continue;
-      const Eigen::Vector3d p = ray * expected;
-      Twist gradient;
-      gradient << -p.cross(normal), -normal;
+      const auto along = surface ? surface->along(ray) : std::nullopt;
+      if (!along) continue;
+      const Eigen::Vector3d& normal = surface->normal;
       const Eigen::Vector2d sideways(measured / camera_.fx() * normal.x(),
                                      measured / camera_.fy() * normal.y());
       add_row(view,
               {.kind = Kind::surface,
-               .link = static_cast<std::uint16_t>(links(u, v) - 1),
+               .link = static_cast<std::uint16_t>(view.robot.links(u, v) - 1),
                .frame = view.number,
-               .value = (measured - expected) * along + view.rest().dot(sideways)},
-              gradient, -measured * normal.head<2>().cwiseProduct(ray.head<2>()), ray, out);
+               .value = (measured - expected) * *along + view.rest().dot(sideways)},
+              surface->gradient(), -measured * normal.head<2>().cwiseProduct(ray.head<2>()), ray,
+              out);
       double* const row = out.rows.data() + out.rows.size() - unknowns_.size();
-      row[Unknowns::depth_offset] = -along;
-      row[Unknowns::depth_scale] = -measured * along;
+      row[Unknowns::depth_offset] = -*along;
+      row[Unknowns::depth_scale] = -measured * *along;
       if (unknowns_.has_shift) Eigen::Map<Eigen::Vector2d>(row + Unknowns::shift) = sideways;
     }
 }
@@ -177,16 +162,18 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
       // What is on the normal at each step: 1 robot's depth or mask, 0 none, -1 not measured or
       // something else; nothing is looked at past another part of the robot.
       const auto step_of = [&](const auto& sample, int radius) -> std::optional<double> {
+        constexpr int not_sampled = 2;
         const int first = -radius - run;
-        on_normal.clear();
-        for (int step = first; step <= radius + most_missing + run; ++step)
-          on_normal.push_back(sample(step));
+        on_normal.assign(static_cast<std::size_t>(2 * (radius + run) + most_missing + 1),
+                         not_sampled);
         const auto at_step = [&](int step) {
-          return on_normal[static_cast<std::size_t>(step - first)];
+          int& at = on_normal[static_cast<std::size_t>(step - first)];
+          if (at == not_sampled) at = sample(step);
+          return at;
         };
-        std::optional<double> best;
-        for (int last = -radius; last <= radius; ++last) {
-          if (at_step(last) != 1) continue;
+        std::optional<double> best;  // nearest to 0, of two as near the one inside
+        const auto try_after = [&](int last) {
+          if (at_step(last) != 1) return;
           int next = last + 1;
           while (next - last <= most_missing && at_step(next) < 0) ++next;
           int robots = 0, others = 0;  // with what is before and behind the step
@@ -196,8 +183,12 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
           }
           const bool is_step = robots >= least_of_run && others >= least_of_run;
           const double at = 0.5 * (last + next) - 0.5;
-          if (is_step && (!best || std::abs(at) < std::abs(*best))) best = at;
-        }
+          if (is_step && (!best || std::abs(at) < std::abs(*best) || at == -std::abs(*best)))
+            best = at;
+        };
+        // A step lies from `last` to half of most_missing behind it.
+        for (int k = 0; k <= radius && !(best && k > std::abs(*best) + 0.5 * most_missing); ++k)
+          for (const int last : {-k, k}) try_after(last);
         return best;
       };
       const auto pixel = [&](int step) {
@@ -252,15 +243,15 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
 FrameFit Observer::fit(const KeptFrame& frame, const State& state) {
   const VirtualDepthView robot = render(frame, state);
   const View view{.frame = frame, .number = 0, .state = state, .robot = robot, .link_twists = {}};
-  std::size_t measured = 0, agreeing = 0;
-  if (frame.depth.empty()) overlap(frame, state, agreeing, measured);
+  Overlap agreeing;  // of what is measured, without depth of robot and mask
+  if (frame.depth.empty()) agreeing.add(robot.depth, frame.mask);
   for (int v = 0; v < robot.depth.height && !frame.depth.empty(); v += stride_)
     for (int u = 0; u < robot.depth.width; u += stride_) {
       const float expected = robot.depth(u, v);
       const float d = expected > 0.0f ? view.measured(u, v) : 0.0f;
       if (!(d > 0.0f)) continue;
-      ++measured;
-      agreeing += std::abs(d - expected) < agreeing_depth;
+      ++agreeing.either;
+      agreeing.both += std::abs(d - expected) < agreeing_depth;
     }
   Residuals residuals;
   observe(frame, 0, state, {.depth = agreeing_depth, .pixels = 12.0}, residuals);
@@ -269,8 +260,7 @@ FrameFit Observer::fit(const KeptFrame& frame, const State& state) {
     sizes[static_cast<std::size_t>(residual.kind)].push_back(std::abs(residual.value));
   return {.index = frame.index,
           .used = true,
-          .agreeing =
-              measured == 0 ? 0.0 : static_cast<double>(agreeing) / static_cast<double>(measured),
+          .agreeing = agreeing.share(),
           .residual = detail::median(sizes[static_cast<std::size_t>(Kind::surface)]),
           .outline = detail::median(sizes[static_cast<std::size_t>(Kind::edge)])};
 }
@@ -306,12 +296,10 @@ double Observer::information(const KeptFrame& frame, const State& state, const T
   return sum;
 }
 
-void Observer::overlap(const KeptFrame& frame, const State& state, std::size_t& both,
-                       std::size_t& either) {
-  const VirtualDepthView robot = render(frame, state);
-  for (int v = 0; v < robot.depth.height; ++v)
-    for (int u = 0; u < robot.depth.width; ++u) {
-      const bool rendered = robot.depth(u, v) > 0.0f, seen = frame.mask(u, v) != 0;
+void Overlap::add(const ImageView<const float>& robot, const Image<std::uint8_t>& mask) {
+  for (int v = 0; v < robot.height; ++v)
+    for (int u = 0; u < robot.width; ++u) {
+      const bool rendered = robot(u, v) > 0.0f, seen = mask(u, v) != 0;
       both += rendered && seen;
       either += rendered || seen;
     }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -8,6 +11,7 @@
 #include <random>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -26,6 +30,9 @@ using Twist = Eigen::Matrix<double, 6, 1>;  ///< rotation vector (rad), then tra
 
 /// Returns half of the longest axis of the 95 % ellipsoid.
 [[nodiscard]] double longest_axis(const Eigen::Matrix3d& covariance);
+
+using FramePointers = std::vector<const KeptFrame*>;
+[[nodiscard]] FramePointers pointers_to(std::span<const KeptFrame> frames);
 
 /// What is estimated.
 struct State {
@@ -117,6 +124,62 @@ class Model {
   std::size_t parent_;
 };
 
+/// A point of the robot's rendered surface in the camera's frame, metres, and the normal there.
+struct SurfacePoint {
+  Eigen::Vector3d point, normal;
+
+  /// Returns the normal's part along a ray with z = 1; null for a surface that is seen too
+  /// obliquely to be compared.
+  [[nodiscard]] std::optional<double> along(const Eigen::Vector3d& ray) const {
+    constexpr double least_cosine = 0.35;  // of the angle between ray and normal
+    const double along = normal.dot(ray);
+    return std::abs(along) > least_cosine * ray.norm() ? std::optional(along) : std::nullopt;
+  }
+  /// Returns the derivative, by a motion of the link, of a measured point's distance from the
+  /// surface.
+  [[nodiscard]] Twist gradient() const {
+    Twist gradient;
+    gradient << -point.cross(normal), -normal;
+    return gradient;
+  }
+};
+/// Returns whether a pixel shows the robot's surface, and `margin` pixels in each direction, too.
+[[nodiscard]] inline bool is_inside(const VirtualDepthView& robot, int u, int v, int margin) {
+  constexpr float continuous = 0.02f;  // metres between neighbours of one surface
+  const auto& z = robot.depth;
+  const float here = z(u, v);
+  const auto is_near = [&](int du, int dv) {
+    return std::abs(z(u + du, v + dv) - here) < continuous;
+  };
+  return here > 0.0f && is_near(-margin, 0) && is_near(margin, 0) && is_near(0, -margin) &&
+         is_near(0, margin);
+}
+/// Returns the surface at such a pixel; null at edges between surfaces, and where `ray_of` a pixel
+/// is null.
+template <typename RayOf>
+[[nodiscard]] std::optional<SurfacePoint> surface_at(const VirtualDepthView& robot, int u, int v,
+                                                     RayOf&& ray_of) {
+  if (!is_inside(robot, u, v, 1)) return {};
+  std::array<Eigen::Vector3d, 5> points;
+  std::size_t i = 0;
+  for (const auto& [du, dv] : {std::pair{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+    const std::optional<Eigen::Vector3d> ray = ray_of(u + du, v + dv);
+    if (!ray || robot.links(u + du, v + dv) != robot.links(u, v)) return {};
+    points[i++] = *ray * static_cast<double>(robot.depth(u + du, v + dv));
+  }
+  return SurfacePoint{points[0], (points[2] - points[1]).cross(points[4] - points[3]).normalized()};
+}
+
+/// Pixels in which robot and mask are both, and in which one of them is.
+struct Overlap {
+  std::size_t both = 0, either = 0;
+
+  void add(const ImageView<const float>& robot, const Image<std::uint8_t>& mask);
+  [[nodiscard]] double share() const {
+    return static_cast<double>(both) / static_cast<double>(std::max<std::size_t>(either, 1));
+  }
+};
+
 /// Compares frames with the rendered robot.
 class Observer {
  public:
@@ -131,8 +194,10 @@ class Observer {
   /// What a frame with these joints would tell about the pose in a direction, in any unit.
   [[nodiscard]] double information(const KeptFrame& frame, const State& state,
                                    const Twist& direction);
-  /// Adds the pixels in which robot and mask are both, and in which one of them is.
-  void overlap(const KeptFrame& frame, const State& state, std::size_t& both, std::size_t& either);
+  /// Adds the frame's pixels.
+  void overlap(const KeptFrame& frame, const State& state, Overlap& out) {
+    out.add(render(frame, state).depth, frame.mask);
+  }
   [[nodiscard]] const Model& model() const { return model_; }
   /// What observe() estimates from now on.
   void set_unknowns(const Unknowns& unknowns) { unknowns_ = unknowns; }
@@ -245,12 +310,62 @@ struct Explained {
                                   const Robot& robot, const Intrinsics& camera);
 /// Returns a message about images in words of scans, which `penumbra calibrate` does not read.
 [[nodiscard]] std::string of_scans(std::string message);
+/// Returns how far a camera is from its calibration, without parts whose 95 % error bar is wider
+/// than their value: as in "3.1 +- 0.2 mm and 0.20 +- 0.05 degrees". `digits`: of millimetres.
+[[nodiscard]] std::string amount_of(const Drift& drift, int digits);
 /// Names a depth offset or scale beyond what sensors have; empty: it is not.
 [[nodiscard]] std::string text_of_depth(const Refined& fit);
 /// Returns how the camera moves if the depth is within what sensors have.
 [[nodiscard]] Twist motion_with_usual_depth(Observer& observer, const Unknowns& own,
                                             std::span<const KeptFrame* const> frames,
                                             const State& state);
+
+/// Frames on images of about 128 columns, with the robot's meshes simplified.
+class SmallFrames {
+ public:
+  struct Small {
+    const KeptFrame* frame;
+    Image<float> depth;
+    Image<std::uint8_t> moved;  ///< 1: nearer than the background; without depth, the mask
+    TileMask moved_tiles;       ///< with a pixel of `moved`; only with depth
+  };
+  static constexpr double occluded = 0.3;  ///< cost of a pixel with something before the robot
+  static constexpr double missed = 0.5;    ///< of one that moved and is not the robot
+
+  SmallFrames(const Robot& robot, const Intrinsics& camera,
+              std::span<const KeptFrame* const> frames);
+
+  [[nodiscard]] const std::vector<Small>& frames() const { return frames_; }
+  /// Returns the camera of the small images.
+  [[nodiscard]] const Intrinsics& camera() const { return renderer_->intrinsics(); }
+  /// Sets another camera of the whole images.
+  void set_camera(const Intrinsics& camera);
+  /// Finds what moved before a camera that is fixed, by depth times this factor.
+  void find_moved(double depth_factor = 1.0);
+  [[nodiscard]] VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_link) {
+    return renderer_->render(T_camera_link);
+  }
+  /// Calls f(u, v) at least for all pixels of the robot and of what moved, row by row.
+  template <typename F>
+  static void for_each_pixel(const Small& small, const VirtualDepthView& robot, F&& f) {
+    const int step = robot.touched->tile_width, width = robot.depth.width;
+    for (int v = 0; v < robot.depth.height; ++v)
+      for (int first = 0; first < width; first += step) {
+        if (!robot.touched->holds(first, v) && !small.moved_tiles.holds(first, v)) continue;
+        for (int u = first; u < std::min(first + step, width); ++u) f(u, v);
+      }
+  }
+  /// Returns a sum over pixels as a share of `most` of them. A robot out of view, or a speck, is as
+  /// bad as one in free space.
+  [[nodiscard]] double score(double sum, double most, double frames) const;
+
+ private:
+  int block_;  // pixels of a whole image that become one, in each direction
+  std::vector<Small> frames_;
+  double moved_factor_ = 0.0;                      // for which `moved` holds
+  std::vector<std::vector<PreparedMesh>> meshes_;  // of each link
+  std::unique_ptr<DepthRenderer> renderer_;
+};
 
 /// Rates camera poses on small images: agreement of measured and virtual depth, against what was
 /// measured behind the robot's surface and what moved and is not the robot. Without depth:
@@ -271,37 +386,18 @@ class PoseSearch {
       const std::optional<Eigen::Isometry3d>& around = {});
 
  private:
-  struct Small {
-    const KeptFrame* frame;
-    Image<float> depth;
-    Image<std::uint8_t> moved;  // 1: nearer than the background; without depth, the mask
-  };
   struct Anchor {
     Eigen::Vector3d in_camera = Eigen::Vector3d::Zero(), in_root = Eigen::Vector3d::Zero();
   };
-  void find_moved();
   void find_anchors();
-  [[nodiscard]] double overlap(const Small& small, const ImageView<const float>& robot) const;
   [[nodiscard]] Eigen::Isometry3d guess(std::mt19937_64& random,
                                         const std::optional<Eigen::Isometry3d>& around) const;
-  /// How far from a first guess a pose may be.
-  struct Bounds {
-    std::optional<Eigen::Isometry3d> around;
-    [[nodiscard]] bool hold(const Eigen::Isometry3d& pose) const {
-      return !around ||
-             ((pose.translation() - around->translation()).norm() < 0.13 &&
-              Eigen::AngleAxisd(around->linear().transpose() * pose.linear()).angle() < 0.22);
-    }
-  };
   [[nodiscard]] Eigen::Isometry3d climb(Eigen::Isometry3d mean, const Twist& sigma, int rounds,
-                                        const Bounds& bounds);
+                                        const std::optional<Eigen::Isometry3d>& around);
 
   const Model& model_;
-  Intrinsics small_;
-  std::vector<Small> frames_;
-  std::vector<Anchor> anchors_;                    // by frame; empty for a camera on a moving link
-  std::vector<std::vector<PreparedMesh>> meshes_;  // of each link, simplified
-  std::unique_ptr<DepthRenderer> renderer_;
+  SmallFrames small_;
+  std::vector<Anchor> anchors_;  // by frame; empty for a camera on a moving link
   std::uint64_t seed_;
   double tolerance_;  // metres
 };

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
-#include <cstdio>
 #include <exception>
 #include <numbers>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/calibration/watch.hpp>
+#include <penumbra/base/text.hpp>
+#include <penumbra/calibration/calibration.hpp>
 
 namespace penumbra {
 namespace {
@@ -16,11 +15,8 @@ namespace {
 constexpr std::size_t new_frames = 3, patience = 30;
 
 std::string mm_and_degrees(double metres, double radians) {
-  constexpr double degrees = 180.0 / std::numbers::pi;
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.1f mm and %.2f degrees", 1e3 * metres,
-                degrees * radians);
-  return text.data();
+  return detail::fixed(1e3 * metres, 1) + " mm and " +
+         detail::fixed(radians * 180.0 / std::numbers::pi, 2) + " degrees";
 }
 
 std::string joined(const std::vector<std::string>& lines) {

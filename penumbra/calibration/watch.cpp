@@ -11,9 +11,9 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/base/statistics-inl.hpp>
+#include <penumbra/calibration/calibration.hpp>
 #include <penumbra/calibration/dense.hpp>
 #include <penumbra/calibration/problem.hpp>
-#include <penumbra/calibration/watch.hpp>
 #include <penumbra/calibration/watch_solution-inl.hpp>
 
 namespace penumbra {
@@ -21,14 +21,12 @@ namespace watching {
 
 using calibration::Twist;
 
-constexpr std::size_t period = 4;      // one of so many frames is compared, to save time
-constexpr std::size_t samples = 80;    // pixels of the robot that are compared in it
-constexpr int least_step = 8;          // pixels between them
-constexpr float continuous = 0.02F;    // metres between neighbours of one surface
-constexpr double gate = 0.1;           // metres between measured and virtual depth
-constexpr float through = 0.05F;       // metres behind the surface
-constexpr double least_cosine = 0.35;  // of the angle between ray and normal
-constexpr double least_sigma = 5e-4;   // metres
+constexpr std::size_t period = 4;     // one of so many frames is compared, to save time
+constexpr std::size_t samples = 80;   // pixels of the robot that are compared in it
+constexpr int least_step = 8;         // pixels between them
+constexpr double gate = 0.1;          // metres between measured and virtual depth
+constexpr float through = 0.05F;      // metres behind the surface
+constexpr double least_sigma = 5e-4;  // metres
 
 constexpr double view_motion = 0.03;  // metres that a link moves in the camera until a new view
 constexpr std::size_t view_frames = 8;
@@ -181,64 +179,50 @@ void CalibrationWatch::State::place(const FrameReport& report) {
 }
 
 void CalibrationWatch::State::sample_at(int u, int v, const FrameReport& report) {
-  const auto& z = report.virtual_depth.depth;
-  const auto& links = report.virtual_depth.links;
-  const float expected = z(u, v);
-  const auto is_near = [&](int du, int dv) {
-    return std::abs(z(u + du, v + dv) - expected) < continuous;
+  const VirtualDepthView& robot = report.virtual_depth;
+  if (!calibration::is_inside(robot, u, v, margin)) return;
+  const auto link = static_cast<std::size_t>(robot.links(u, v) - 1);
+  if (link >= report.T_root_link.size()) return;  // attached: its pose is not calibrated
+  const auto measured_at = [&](int x, int y) {
+    return std::visit([&](const auto& depth) { return metres_of(depth(x, y)); }, report.depth);
   };
+  if (const float here = measured_at(u, v); here > 0.0F)
+    drift.seen_through += ((here > robot.depth(u, v) + through) - drift.seen_through) / 5000.0;
   const auto ray_of = [&](int x, int y) -> std::optional<Eigen::Vector3d> {
     const auto point = camera.distortion.undistort(camera.intrinsics.ray(x, y).head<2>());
     if (!point) return std::nullopt;
     return point->homogeneous();
   };
-  if (!(is_near(-margin, 0) && is_near(margin, 0) && is_near(0, -margin) && is_near(0, margin)))
-    return;
-  if (links(u, v) > report.T_root_link.size()) return;  // attached: its pose is not calibrated
-  const auto measured_at = [&](int x, int y) {
-    return std::visit([&](const auto& depth) { return metres_of(depth(x, y)); }, report.depth);
-  };
-  if (const float here = measured_at(u, v); here > 0.0F)
-    drift.seen_through += ((here > expected + through) - drift.seen_through) / 5000.0;
-  for (const auto& [du, dv] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
-    if (links(u + du, v + dv) != links(u, v) || !is_near(du, dv)) return;
-  std::array<Eigen::Vector3d, 5> points;
-  std::size_t i = 0;
-  for (const auto& [du, dv] : {std::pair{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-    const auto ray = ray_of(u + du, v + dv);
-    if (!ray) return;
-    points[i++] = *ray * static_cast<double>(z(u + du, v + dv));
-  }
+  auto surface = calibration::surface_at(robot, u, v, ray_of);
+  if (!surface) return;
   // Where that piece of the surface is when the image was taken, and what is measured there.
-  const auto link = static_cast<std::size_t>(links(u, v) - 1);
   const double time = at[time_offset];
   const Eigen::Isometry3d motion =
       calibration::motion(at.head<6>()).inverse() * velocities[link].motion(time);
-  const Eigen::Vector3d p = motion * points[0];
-  const Eigen::Vector3d normal =
-      motion.linear() * (points[2] - points[1]).cross(points[4] - points[3]).normalized();
+  surface->point = motion * surface->point;
+  surface->normal = motion.linear() * surface->normal;
+  const Eigen::Vector3d& p = surface->point;
   const Eigen::Vector2d pixel =
       camera.intrinsics.project(camera.distortion.distort(p.head<2>() / p.z()).homogeneous());
   const int x = static_cast<int>(std::lround(pixel.x())),
             y = static_cast<int>(std::lround(pixel.y()));
-  if (!(p.z() > 0.0) || x < 0 || x >= z.width || y < 0 || y >= z.height) return;
+  if (!(p.z() > 0.0) || x < 0 || x >= robot.depth.width || y < 0 || y >= robot.depth.height) return;
   const double measured = measured_at(x, y);
   const auto ray = ray_of(x, y);
   if (!(measured > 0.0) || !ray) return;
-  const double along = normal.dot(*ray);
-  if (!(std::abs(along) > least_cosine * ray->norm())) return;
-  Twist gradient;  // by a motion of the link
-  gradient << -p.cross(normal), -normal;
+  const auto along = surface->along(*ray);
+  if (!along) return;
+  const Twist gradient = surface->gradient();
   const double by_time = gradient.dot(velocities[link].at(time));
-  const double value = measured * along - normal.dot(p);
-  if (!(std::abs(value) < (gate + time_reach * std::abs(by_time / along)) * std::abs(along)))
+  const double value = measured * *along - surface->normal.dot(p);
+  if (!(std::abs(value) < (gate + time_reach * std::abs(by_time / *along)) * std::abs(*along)))
     return;
   Sample& sample = found.emplace_back();
   sample.link = link;
   sample.value = value;
   sample.row.head<6>() = -gradient;
-  sample.row[depth_offset] = -along;
-  sample.row[depth_scale] = -measured * along;
+  sample.row[depth_offset] = -*along;
+  sample.row[depth_scale] = -measured * *along;
   sample.row[time_offset] = by_time;
 }
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numbers>
 
@@ -21,21 +20,15 @@ constexpr double good_fit = 0.8;     // Rating::fit of a right setup, about
 constexpr double least_fit = 0.6;    // of one that is named
 constexpr double may_explain = 0.6;  // of the best gain: cannot be ruled out
 
-struct Rated {
-  Hypothesis hypothesis;
-  Rating rating;
-};
-
 class Comparison {
  public:
   explicit Comparison(const Setup& setup)
       : setup_(setup),
         model_(setup.robot, setup.parent),
         observer_(model_, setup.camera, {}),
-        agreement_(setup),
-        given_(agreement_.rate(as_given(setup), wide)) {
-    for (const KeptFrame& frame : setup.frames) frames_.push_back(&frame);
-  }
+        frames_(calibration::pointers_to(setup.frames)),
+        agreement_(setup, frames_),
+        given_(agreement_.rate(as_given(setup), wide)) {}
 
   Diagnosis run(bool is_suspicious) {
     Diagnosis result;
@@ -46,12 +39,12 @@ class Comparison {
       polish();
     }
     if (setup_.frames.size() < KeptFrames::least)
-      std::erase_if(rated_, [](const Rated& rated) { return !!rated.hypothesis.with_amount; });
+      std::erase_if(rated_, [](const Hypothesis& rated) { return !!rated.with_amount; });
     else if (!is_explained())
       add_pose();
-    std::erase_if(rated_, [](const Rated& rated) { return !(rated.rating.more > 0.0); });
+    std::erase_if(rated_, [](const Hypothesis& rated) { return !(rated.rating.more > 0.0); });
     std::ranges::stable_sort(rated_, std::ranges::greater{},
-                             [](const Rated& rated) { return rated.rating.score; });
+                             [](const Hypothesis& rated) { return rated.rating.score; });
     choose(result);
     if (result.cause == Cause::none) name_small_error(result);
     return result;
@@ -60,40 +53,40 @@ class Comparison {
  private:
   /// Whether a mistake without unknowns explains so much that the camera's pose is no matter.
   [[nodiscard]] bool is_explained() const {
-    return std::ranges::any_of(rated_, [&](const Rated& rated) {
-      return !rated.hypothesis.with_amount && rated.rating.fit > good_fit &&
+    return std::ranges::any_of(rated_, [&](const Hypothesis& rated) {
+      return !rated.with_amount && rated.rating.fit > good_fit &&
              rated.rating.score > std::max(0.0, given_.score) + great_gain;
     });
   }
 
   void add(Hypothesis hypothesis) {
-    const Rating rating = agreement_.rate(hypothesis, wide);
-    rated_.push_back({std::move(hypothesis), rating});
+    hypothesis.rating = agreement_.rate(hypothesis, wide);
+    rated_.push_back(std::move(hypothesis));
   }
 
   /// Finds better amounts near the best of each cause.
   void polish() {
     std::ranges::stable_sort(rated_, std::ranges::greater{},
-                             [](const Rated& rated) { return rated.rating.score; });
+                             [](const Hypothesis& rated) { return rated.rating.score; });
     constexpr int most = 3;
     constexpr double least_amount = 0.3;  // of a step; less is no mistake
     std::map<Cause, int> done;
-    for (Rated& rated : rated_) {
-      const auto make = rated.hypothesis.with_amount;
-      if (!make || done[rated.hypothesis.cause]++ >= most) continue;
-      const double step = rated.hypothesis.step;
+    for (Hypothesis& rated : rated_) {
+      const auto make = rated.with_amount;
+      if (!make || done[rated.cause]++ >= most) continue;
+      const double step = rated.step;
       for (double by = 0.5 * step; by > 0.05 * step; by *= 0.5)
         for (const double sign : {-1.0, 1.0}) {
-          const double amount = rated.hypothesis.amount + sign * by;
+          const double amount = rated.amount + sign * by;
           if (std::abs(amount) < least_amount * step) continue;
           Hypothesis other = make(amount);
           if (other.cause == Cause::none) continue;
           other.amount = amount;
           other.step = step;
           other.with_amount = make;
-          const Rating rating = agreement_.rate(other, wide);
-          if (rating.score <= rated.rating.score) continue;
-          rated = {std::move(other), rating};
+          other.rating = agreement_.rate(other, wide);
+          if (other.rating.score <= rated.rating.score) continue;
+          rated = std::move(other);
           break;
         }
     }
@@ -104,7 +97,7 @@ class Comparison {
     // A camera on a moving link sees less of the robot in each frame.
     const std::size_t count =
         setup_.parent == 0 ? std::min<std::size_t>(4, frames_.size()) : frames_.size();
-    std::vector<const KeptFrame*> some;
+    calibration::FramePointers some;
     for (std::size_t i = 0; i < count; ++i) some.push_back(frames_[i * frames_.size() / count]);
     std::vector<Eigen::Isometry3d> starts{setup_.T_parent_camera};
     if (given_.fit < good_fit) {
@@ -112,7 +105,8 @@ class Comparison {
       starts.push_back(search.candidates(starts[0]).front());
       if (setup_.parent != 0) starts.push_back(search.near(starts[0]));
     }
-    Rated best{.hypothesis = as_given(setup_), .rating = {.score = -10.0}};
+    Hypothesis best = as_given(setup_);
+    best.rating.score = -10.0;
     for (const Eigen::Isometry3d& start : starts) {
       calibration::State state;
       state.T_parent_camera = start;
@@ -120,51 +114,36 @@ class Comparison {
       Hypothesis hypothesis = as_given(setup_);
       hypothesis.cause = Cause::camera_pose;
       hypothesis.T_parent_camera = refined.state.T_parent_camera;
-      const Rating rating = agreement_.rate(hypothesis, wide);
-      if (rating.score <= best.rating.score) continue;
-      best = {std::move(hypothesis), rating};
+      hypothesis.rating = agreement_.rate(hypothesis, wide);
+      if (hypothesis.rating.score <= best.rating.score) continue;
+      best = std::move(hypothesis);
       refined_ = std::move(refined);
     }
     // Farther off it is another mistake, which the search happens to undo.
     constexpr double farthest = 1.0;  // metres
-    if (off().position > farthest) return;
-    best.hypothesis.message = pose_text();
+    if (off().position() > farthest) return;
+    best.message = pose_text();
     rated_.push_back(std::move(best));
   }
 
-  [[nodiscard]] Eigen::Isometry3d motion_to(const Eigen::Isometry3d& T_parent_camera) const {
-    return setup_.T_parent_camera.inverse() * T_parent_camera;
-  }
-
-  /// How far the camera is from where it is said to be, and half of the 95 % region's longest axes.
-  struct Off {
-    double position, rotation, position_error, rotation_error;
-  };
-  [[nodiscard]] Off off() const {
-    const Eigen::Isometry3d motion = motion_to(refined_->state.T_parent_camera);
-    const Eigen::MatrixXd& covariance = refined_->covariance;
-    return {motion.translation().norm(), Eigen::AngleAxisd(motion.linear()).angle(),
-            calibration::longest_axis(covariance.block<3, 3>(3, 3)),
-            calibration::longest_axis(covariance.block<3, 3>(0, 0))};
+  /// How far the camera is from where it is said to be.
+  [[nodiscard]] Drift off() const {
+    Drift off;
+    off.T_calibrated_camera = setup_.T_parent_camera.inverse() * refined_->state.T_parent_camera;
+    off.covariance = refined_->covariance.topLeftCorner<6, 6>();
+    return off;
   }
 
   [[nodiscard]] std::string pose_text() const {
-    constexpr double far = 0.1, turned = 10.0;  // metres and degrees that calibrate starts from
-    constexpr double degrees = 180.0 / std::numbers::pi;
-    const Off found = off();
-    constexpr double vague = 3.0;  // times the amount: the error bars tell nothing
-    if (found.position_error > vague * found.position &&
-        found.rotation_error > vague * found.rotation)
+    constexpr double far = 0.1, turned = 10.0 * std::numbers::pi / 180.0;  // calibrate starts there
+    const Drift found = off();
+    const std::string by = calibration::amount_of(found, 0);
+    if (by.empty())
       return "the camera's pose is off, and these frames do not tell how far: run 'penumbra "
              "calibrate --search' on this input";
-    std::array<char, 256> text{};
-    std::snprintf(text.data(), text.size(),
-                  "the camera's pose is about %.0f +- %.0f mm and %.1f +- %.1f degrees off: run "
-                  "'penumbra calibrate%s' on this input",
-                  1e3 * found.position, 1e3 * found.position_error, degrees * found.rotation,
-                  degrees * found.rotation_error,
-                  found.position > far || degrees * found.rotation > turned ? " --search" : "");
-    return text.data();
+    const bool is_far = found.position() > far || found.rotation() > turned;
+    return "the camera's pose is about " + by + " off: run 'penumbra calibrate" +
+           (is_far ? " --search" : "") + "' on this input";
   }
 
   /// Names an error of the pose that is small but certain, or what else explains it.
@@ -172,9 +151,9 @@ class Comparison {
     constexpr double certain = 1.5;  // error bars: one in a thousand right setups is this far off
     constexpr double position = 0.008, rotation = 0.5 * std::numbers::pi / 180.0;  // metres, rad
     if (!refined_ || !refined_->covariance.allFinite() || given_.fit < least_fit) return;
-    const Off found = off();
-    if (!(found.position > position && found.position > certain * found.position_error) &&
-        !(found.rotation > rotation && found.rotation > certain * found.rotation_error))
+    const Drift found = off();
+    if (!(found.position() > position && found.position() > certain * found.position_error()) &&
+        !(found.rotation() > rotation && found.rotation() > certain * found.rotation_error()))
       return;
     result.cause = Cause::camera_pose;
     result.message = pose_text();
@@ -217,39 +196,37 @@ class Comparison {
     const double gain = result.best - given_.score;
     // Few frames fit some wrong setup by chance.
     if (gain < (setup_.frames.size() < KeptFrames::least ? great_gain : least_gain)) return;
-    const auto explained = [&](const Rated& rated) {
+    const auto explained = [&](const Hypothesis& rated) {
       return (rated.rating.score - given_.score) / gain;
     };
-    const auto unknowns = [](const Rated& rated) {
-      return rated.hypothesis.cause == Cause::camera_pose ? 6
-             : rated.hypothesis.with_amount               ? 1
-                                                          : 0;
+    const auto unknowns = [](const Hypothesis& rated) {
+      return rated.cause == Cause::camera_pose ? 6 : rated.with_amount ? 1 : 0;
     };
-    const Rated* best = &rated_.front();
-    for (const Rated& rated : rated_)
+    const Hypothesis* best = &rated_.front();
+    for (const Hypothesis& rated : rated_)
       if (explained(rated) >= explains && unknowns(rated) < unknowns(*best)) best = &rated;
-    result.cause = best->hypothesis.cause;
-    result.message = best->hypothesis.message;
+    result.cause = best->cause;
+    result.message = best->message;
     const auto is_other = [&](Cause cause) {  // a unit is a scale
       return cause != result.cause &&
              !(result.cause == Cause::depth_unit && cause == Cause::depth_scale);
     };
-    for (const Rated& rated : rated_)
-      if (explained(rated) >= may_explain && is_other(rated.hypothesis.cause)) {
-        result.other = rated.hypothesis.cause;
-        result.message += "; or " + rated.hypothesis.message;
+    for (const Hypothesis& rated : rated_)
+      if (explained(rated) >= may_explain && is_other(rated.cause)) {
+        result.other = rated.cause;
+        result.message += "; or " + rated.message;
         break;
       }
   }
 
   const Setup& setup_;
-  std::vector<const KeptFrame*> frames_;
   calibration::Model model_;
   calibration::Observer observer_;
+  calibration::FramePointers frames_;
   Agreement agreement_;
   Rating given_;
   std::optional<calibration::Refined> refined_;  // the camera's pose that fits best
-  std::vector<Rated> rated_;
+  std::vector<Hypothesis> rated_;
 };
 
 }  // namespace

@@ -3,24 +3,19 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <iomanip>
 #include <numbers>
 #include <set>
-#include <sstream>
 #include <utility>
 
+#include <penumbra/base/text.hpp>
 #include <penumbra/diagnosis/hypothesis-inl.hpp>
 
 namespace penumbra::diagnosis {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using detail::fixed;
 
-std::string number(double value, int digits) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
+constexpr double pi = std::numbers::pi;
 
 /// Adds hypotheses that differ from the given setup by one mistake.
 class Mistakes {
@@ -81,7 +76,7 @@ class Mistakes {
         Hypothesis hypothesis = as_given(setup);
         hypothesis.cause = Cause::depth_scale;
         hypothesis.depth_factor = std::exp(amount);
-        const std::string factor = number(hypothesis.depth_factor, amount > 0.0 ? 2 : 4);
+        const std::string factor = fixed(hypothesis.depth_factor, amount > 0.0 ? 2 : 4);
         hypothesis.message = "depth looks normalised: it fits if it is multiplied by about " +
                              factor + ": give metres, or multiply depth_scale by it";
         return hypothesis;
@@ -136,8 +131,8 @@ class Mistakes {
     if (given.cx() > 0.0 && given.cy() > 0.0 &&
         (std::abs(across - 1.0) > 2.0 * off_centre || std::abs(down - 1.0) > 2.0 * off_centre))
       for (const double scale : {across, down})
-        add(Cause::intrinsics, "camera_info is of images of about " + number(width / scale, 0) +
-                                   "x" + number(height / scale, 0) + " pixels, but these are " +
+        add(Cause::intrinsics, "camera_info is of images of about " + fixed(width / scale, 0) +
+                                   "x" + fixed(height / scale, 0) + " pixels, but these are " +
                                    std::to_string(given.width()) + "x" +
                                    std::to_string(given.height()))
             .camera = with(scale, 0.5 * (width - 1.0), 0.5 * (height - 1.0));
@@ -151,9 +146,9 @@ class Mistakes {
           hypothesis.cause = Cause::intrinsics;
           hypothesis.camera = Intrinsics(camera.width(), camera.height(), scale * camera.fx(),
                                          scale * camera.fy(), camera.cx(), camera.cy());
-          hypothesis.message = "the focal length in camera_info is " + number(camera.fx(), 0) +
+          hypothesis.message = "the focal length in camera_info is " + fixed(camera.fx(), 0) +
                                " pixels, but the images show about " +
-                               number(scale * camera.fx(), 0) +
+                               fixed(scale * camera.fx(), 0) +
                                ": is camera_info of another stream or camera?";
           return hypothesis;
         });
@@ -210,7 +205,7 @@ class Mistakes {
             return of_joints(setup, Cause::joint_zero,
                              "the zero of joint '" + setup.robot.variables()[i] +
                                  "' is off: it reads about " +
-                                 number(std::abs(amount) * 180.0 / pi, 0) + " degrees too " +
+                                 fixed(std::abs(amount) * 180.0 / pi, 0) + " degrees too " +
                                  (amount > 0 ? "low" : "high"),
                              [&](auto& joints) { joints[i] += amount; });
           });
@@ -276,9 +271,8 @@ class Mistakes {
           }
           if (2 * used < setup.frames.size()) return hypothesis;
           hypothesis.cause = Cause::joint_time;
-          hypothesis.message = "images and joint states are about " +
-                               number(1e3 * std::abs(by), 0) +
-                               " ms apart: of a bag or topics, set time_offset to " + number(by, 3);
+          hypothesis.message = "images and joint states are about " + fixed(1e3 * std::abs(by), 0) +
+                               " ms apart: of a bag or topics, set time_offset to " + fixed(by, 3);
           return hypothesis;
         });
   }

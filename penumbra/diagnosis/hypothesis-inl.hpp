@@ -4,20 +4,33 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include <penumbra/calibration/problem.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
-#include <penumbra/render/depth_renderer.hpp>
 
 namespace penumbra::diagnosis {
 
+using calibration::SmallFrames;
 using Cause = Diagnosis::Cause;
 using Poses = std::vector<Eigen::Isometry3d>;
+
+/// How well rendered and measured depth agree.
+struct Rating {
+  /// At most 1: all of the robot's pixels agree. Of a hypothesis for some of the frames only, what
+  /// it gains there, more than the given setup's score of all frames.
+  double score = 0.0;
+  /// Share of the robot's measured pixels that agree, where those with something in front count
+  /// less; 0 if there are nearly none.
+  double fit = 0.0;
+  /// How many pixels agree that do not in the given setup, by frame. A setup that only moves the
+  /// robot out of view explains nothing.
+  double more = 0.0;
+};
 
 /// A setup that would be right if `cause` were the fault of the given one.
 struct Hypothesis {
@@ -28,6 +41,7 @@ struct Hypothesis {
   Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();
   std::vector<Poses> T_root_link;  ///< of each frame; empty: this frame does not count
   std::string message;             ///< what is wrong and what mends it
+  Rating rating = {};
   /// If the mistake has an amount: what the setup would be with another one, and how far apart the
   /// amounts are that mistakes() tries.
   std::function<Hypothesis(double)> with_amount = {};
@@ -53,23 +67,10 @@ inline constexpr float normalised = 1.0F + 1e-6F;
 /// Setups that differ from the given one by a single mistake of those that people make.
 [[nodiscard]] std::vector<Hypothesis> mistakes(const Setup& setup);
 
-/// How well rendered and measured depth agree.
-struct Rating {
-  /// At most 1: all of the robot's pixels agree. Of a hypothesis for some of the frames only, what
-  /// it gains there, more than the given setup's score of all frames.
-  double score = 0.0;
-  /// Share of the robot's measured pixels that agree, where those with something in front count
-  /// less; 0 if there are nearly none.
-  double fit = 0.0;
-  /// How many pixels agree that do not in the given setup, by frame. A setup that only moves the
-  /// robot out of view explains nothing.
-  double more = 0.0;
-};
-
 /// Rates hypotheses on small images.
 class Agreement {
  public:
-  explicit Agreement(const Setup& setup);
+  Agreement(const Setup& setup, std::span<const KeptFrame* const> frames);
 
   /// `tolerance`: metres between measured and virtual depth at which agreement has fallen to 0.
   [[nodiscard]] Rating rate(const Hypothesis& hypothesis, double tolerance);
@@ -81,20 +82,10 @@ class Agreement {
     double score = 0.0, most = 0.0, agreeing = 0.0, beyond = 0.0, front = 0.0;
   };
   [[nodiscard]] Counts count(const Hypothesis& hypothesis, std::size_t frame, float tolerance);
-  [[nodiscard]] double score(const Counts& counts, double frames) const;
-  struct Small {
-    Image<float> depth;
-    Image<std::uint8_t> moved;  // nearer than the background
-  };
-  void find_moved(double depth_factor);
 
   const Setup& setup_;
-  int block_;
-  std::vector<Small> frames_;
-  std::vector<Counts> given_;                      // of each frame, as the setup is given
-  double moved_factor_ = 0.0;                      // for which `moved` holds
-  std::vector<std::vector<PreparedMesh>> meshes_;  // of each link, simplified
-  std::unique_ptr<DepthRenderer> renderer_;
+  SmallFrames small_;
+  std::vector<Counts> given_;  // of each frame, as the setup is given
 };
 
 }  // namespace penumbra::diagnosis

@@ -28,7 +28,7 @@ struct Frame {
                                   ///< camera has none (PipelineConfig::has_depth)
   std::optional<Scan> scan = {};  ///< of a sensor of points, in place of depth
   RobotPose pose = {};            ///< at the stamp
-  /// The pose at any time during a scan; null: `pose` is that of the whole scan.
+  /// The pose at any time during a scan, or up to a bag's image; null: `pose` is that of all of it.
   PoseAt pose_at = {};
   std::vector<Target> targets = {};
   /// The motion that the robot follows, or waits to follow; null: none is known. Session tells what

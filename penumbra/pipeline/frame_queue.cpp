@@ -99,12 +99,12 @@ std::shared_ptr<Frame> FrameQueue::next(std::int64_t now) {
   given_out_ = std::max(given_out_.value_or(found->stamp), found->stamp);
   const bool is_sweep = found->stamp != *frame->stamp;
   waiting_.erase(waiting_.begin(), found + 1);
-  if (is_sweep && has_pose(frame->pose.status)) {  // so far that of the last point
-    frame->pose_at = [this](std::int64_t stamp, RobotPose& pose) {
-      lookup_.at(history_, pose_stamp(stamp), pose);
-    };
-    frame->pose_at(*frame->stamp, frame->pose);
-  }
+  const bool is_of_bag = options_.policy == DropPolicy::every && !frame->scan;
+  if (!is_of_bag && !(is_sweep && has_pose(frame->pose.status))) return frame;
+  frame->pose_at = [this](std::int64_t stamp, RobotPose& pose) {
+    lookup_.at(history_, pose_stamp(stamp), pose);
+  };
+  if (is_sweep) frame->pose_at(*frame->stamp, frame->pose);  // so far that of the last point
   return frame;
 }
 

@@ -57,8 +57,8 @@ enum class Companions {
 };
 
 /// Holds depth images and scans until the joint states or transforms around their stamps, and
-/// around the stamp of a scan's last point, have arrived. A scan comes with Frame::pose_at, which
-/// reads the history, and is valid as long as the queue. Never
+/// around the stamp of a scan's last point, have arrived. A scan, and with `every` an image, comes
+/// with Frame::pose_at, which reads the history, and is valid as long as the queue. Never
 /// extrapolates: a frame is returned with its pose, or after max_wait with the status. Links that
 /// are uncertain are awaited as well, unless their last state is older than the image by more than
 /// max_wait.

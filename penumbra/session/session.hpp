@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <penumbra/calibration/watch.hpp>
+#include <penumbra/calibration/calibration.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 

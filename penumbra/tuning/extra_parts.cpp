@@ -231,10 +231,10 @@ std::vector<ExtraPart> find_extras(const Scene& scene, const LabelRule& rule) {
   std::vector<ExtraPart> parts;
   LabelRule used = rule;  // with at least the default reach
   used.fringe_reach = std::max(rule.fringe_reach, LabelRule().fringe_reach);
-  Labeller labeller(scene, used);
+  Classifier classifier(scene.camera.width(), scene.camera.height(), used);
   std::vector<Point> points;
   for (std::size_t i = 0; i < scene.frames.size(); ++i)
-    add_points(scene, used, labeller.label(scene.frames[i]), i, points);
+    add_points(scene, used, label(classifier, scene.frames[i]), i, points);
   const auto groups = rigid_groups(scene);
   assign(scene, groups, points);
   for (std::size_t group = 1; group < groups.size(); ++group) {

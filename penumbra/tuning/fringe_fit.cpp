@@ -15,12 +15,6 @@ constexpr double may_stay =
     0.0005;  // fraction of the arm's points left, beyond that of the largest reach
 constexpr int candidates = FringeFit::farthest / FringeFit::step + 1;
 
-/// A frame as it looks with the settings that are recommended: the robot with the parts found.
-struct DrawnFrame {
-  Image<float> virtual_depth;
-  Image<std::uint16_t> links;  // as in KeptFrame
-};
-
 /// Draws the parts found over the robot.
 class PartPainter {
  public:
@@ -33,9 +27,9 @@ class PartPainter {
     renderer_ = make_depth_renderer(Backend::cpu, scene.camera, bodies);
   }
 
-  [[nodiscard]] DrawnFrame draw(const KeptFrame& frame) {
-    DrawnFrame drawn{frame.virtual_depth, frame.links};
-    if (parts_.empty()) return drawn;
+  /// Returns the frame as it looks with the parts.
+  [[nodiscard]] KeptFrame draw(KeptFrame frame) {
+    if (parts_.empty()) return frame;
     std::vector<Eigen::Isometry3d> poses;
     for (const ExtraPart& part : parts_)
       poses.push_back(frame.T_root_camera->inverse() * frame.T_root_link[part.link]);
@@ -43,13 +37,13 @@ class PartPainter {
     for (int v = 0; v < parts.depth.height; ++v)
       for (int u = 0; u < parts.depth.width; ++u) {
         const float z = parts.depth(u, v);
-        float& robot = drawn.virtual_depth(u, v);
+        float& robot = frame.virtual_depth(u, v);
         if (!(z > 0.0f) || (robot > 0.0f && robot <= z)) continue;
         robot = z;
-        drawn.links(u, v) =
+        frame.links(u, v) =
             static_cast<std::uint16_t>(parts_[parts.links(u, v) - 1U].link + std::size_t{1});
       }
-    return drawn;
+    return frame;
   }
 
  private:
@@ -58,14 +52,10 @@ class PartPainter {
   std::unique_ptr<DepthRenderer> renderer_;
 };
 
-struct Candidate {
-  int u, v;
-};
-
 /// What is measured of the arm: of its links that move, because those that do not may touch what
 /// they stand on.
 struct ArmPixels {
-  std::vector<Candidate> carried;  // past its outline
+  std::vector<NearestPixels::Pixel> carried;  // past its outline
   std::size_t on_arm = 0, checked = 0;
   std::array<std::size_t, FringeFit::farthest + 1> by_distance{};  // of `carried`
 };
@@ -73,11 +63,11 @@ struct ArmPixels {
 class FringeSearch {
  public:
   FringeSearch(const Scene& scene, const LabelRule& rule, const std::vector<ExtraPart>& parts)
-      : scene_(scene), painter_(scene, parts), moves_(moving_links(scene)) {
+      : scene_(scene), painter_(scene, parts), moves_(moving_links(scene.frames)) {
     LabelRule tried = rule;
     for (int i = 0; i < candidates; ++i) {
       tried.fringe_reach = i * FringeFit::step;
-      labellers_.emplace_back(scene, tried);
+      classifiers_.emplace_back(scene.camera.width(), scene.camera.height(), tried);
     }
   }
 
@@ -87,12 +77,11 @@ class FringeSearch {
     std::array<std::size_t, candidates> left{};
     std::size_t most = 0;
     for (std::size_t i = 0; i < scene_.frames.size(); ++i) {
-      const KeptFrame& frame = scene_.frames[i];
-      const DrawnFrame drawn = painter_.draw(frame);
-      const ArmPixels found = find(frame, drawn);
+      const KeptFrame frame = painter_.draw(scene_.frames[i]);
+      const ArmPixels found = find(frame);
       if (found.carried.size() > most) most = found.carried.size(), fit.shown_frame = i;
       for (std::size_t k = 0; k < left.size(); ++k)
-        left[k] += count_left(labellers_[k].label(frame, drawn.virtual_depth), found);
+        left[k] += count_left(label(classifiers_[k], frame), found);
       sum.on_arm += found.on_arm;
       sum.checked += found.checked;
       for (std::size_t k = 0; k < sum.by_distance.size(); ++k)
@@ -106,12 +95,11 @@ class FringeSearch {
   }
 
   void show(FringeFit& fit) {
-    const KeptFrame& frame = scene_.frames[fit.shown_frame];
-    const DrawnFrame drawn = painter_.draw(frame);
-    Labeller& labeller = labellers_[static_cast<std::size_t>(fit.reach / FringeFit::step)];
-    const LabelView labels = labeller.label(frame, drawn.virtual_depth);
+    const KeptFrame frame = painter_.draw(scene_.frames[fit.shown_frame]);
+    const LabelView labels =
+        label(classifiers_[static_cast<std::size_t>(fit.reach / FringeFit::step)], frame);
     fit.shown = Image<std::uint8_t>(scene_.camera.width(), scene_.camera.height());
-    for (const auto [u, v] : find(frame, drawn).carried)
+    for (const auto [u, v] : find(frame).carried)
       fit.shown(u, v) = is_fringe(labels, u, v) ? FringeFit::removed : FringeFit::left;
   }
 
@@ -121,17 +109,17 @@ class FringeSearch {
   }
 
   [[nodiscard]] static std::size_t count_left(const LabelView& labels, const ArmPixels& arm) {
-    return static_cast<std::size_t>(
-        std::count_if(arm.carried.begin(), arm.carried.end(),
-                      [&](const Candidate& at) { return !is_fringe(labels, at.u, at.v); }));
+    return static_cast<std::size_t>(std::count_if(
+        arm.carried.begin(), arm.carried.end(),
+        [&](const NearestPixels::Pixel& at) { return !is_fringe(labels, at.u, at.v); }));
   }
 
   [[nodiscard]] bool moves(std::uint16_t link) const {
     return link > moves_.size() || moves_[link - 1U];  // more: an attached body
   }
 
-  [[nodiscard]] ArmPixels find(const KeptFrame& frame, const DrawnFrame& drawn) const {
-    const ImageView<const float> virtual_depth = drawn.virtual_depth.view();
+  [[nodiscard]] ArmPixels find(const KeptFrame& frame) const {
+    const ImageView<const float> virtual_depth = frame.virtual_depth.view();
     const NearestPixels robot = robot_pixels(virtual_depth);
     ArmPixels found;
     for (int v = 0; v < scene_.camera.height(); ++v) {
@@ -140,7 +128,7 @@ class FringeSearch {
         const double distance = robot.distance(u, v);
         if (!(z > 0.0f) || distance > carried_pixels) continue;
         const auto at = robot.at(u, v);
-        if (!moves(drawn.links(at.u, at.v))) continue;
+        if (!moves(frame.links(at.u, at.v))) continue;
         if (virtual_depth(u, v) > 0.0f) {
           ++found.on_arm;
           continue;
@@ -149,7 +137,7 @@ class FringeSearch {
         if (!is_carried(robot, virtual_depth, u, v, static_cast<double>(z)) ||
             scene_.is_background(u, v, z))
           continue;
-        found.carried.push_back({u, v});
+        found.carried.push_back({static_cast<std::int16_t>(u), static_cast<std::int16_t>(v)});
         ++found.by_distance[static_cast<std::size_t>(std::ceil(distance))];
       }
     }
@@ -159,7 +147,7 @@ class FringeSearch {
   const Scene& scene_;
   PartPainter painter_;
   std::vector<bool> moves_;
-  std::vector<Labeller> labellers_;  // by reach / step
+  std::vector<Classifier> classifiers_;  // by reach / step
 };
 
 double distance_of(const ArmPixels& arm, std::size_t found, double quantile) {

@@ -5,7 +5,7 @@
 
 #include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/tuning/missing_parts.hpp>
-#include <penumbra/tuning/nearest_pixel-inl.hpp>
+#include <penumbra/tuning/stages-inl.hpp>
 
 namespace penumbra {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 constexpr double far_share = 0.6;
 constexpr double most_far = 0.15;
 constexpr double least_fringe = 100.0;  // pixels; less is too little to judge a link by
-constexpr double still_link = 1e-3;     // of a pose; links that do not move may touch their support
+constexpr double still_camera = 1e-3;   // of a pose
 constexpr int read_step = 2;            // pixels of which one is read
 
 /// The fringe pixels next to a link in a frame.
@@ -34,7 +34,7 @@ bool stands_still(std::span<const KeptFrame> frames, const KeptFrame& at, std::s
   constexpr float same = 0.03F;   // metres
   constexpr double moved = 0.05;  // metres, as of pose_difference
   return std::ranges::any_of(frames, [&](const KeptFrame& other) {
-    return other.T_root_camera->isApprox(*at.T_root_camera, still_link) &&
+    return other.T_root_camera->isApprox(*at.T_root_camera, still_camera) &&
            pose_difference(other.T_root_link[link], at.T_root_link[link]) > moved &&
            (is(other, Label::clear, u, v) || is(other, Label::fringe, u, v)) &&
            std::abs(other.depth(u, v) - at.depth(u, v)) < same;
@@ -43,15 +43,14 @@ bool stands_still(std::span<const KeptFrame> frames, const KeptFrame& at, std::s
 
 std::vector<Fringe> fringe_by_link(std::span<const KeptFrame> frames, const KeptFrame& frame,
                                    std::size_t links, double reach) {
-  Image<std::uint8_t> seen((frame.labels.width() + read_step - 1) / read_step,
-                           (frame.labels.height() + read_step - 1) / read_step);
-  for (int v = 0; v < seen.height(); ++v)
-    for (int u = 0; u < seen.width(); ++u)
-      seen(u, v) = is(frame, Label::occluded, read_step * u, read_step * v);
-  const tuning::NearestPixels robot(seen);
+  const int width = (frame.labels.width() + read_step - 1) / read_step;
+  const int height = (frame.labels.height() + read_step - 1) / read_step;
+  const tuning::NearestPixels robot(width, height, [&](int u, int v) {
+    return is(frame, Label::occluded, read_step * u, read_step * v);
+  });
   std::vector<Fringe> fringe(links);
-  for (int v = 0; v < seen.height(); ++v)
-    for (int u = 0; u < seen.width(); ++u) {
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
       if (!is(frame, Label::fringe, read_step * u, read_step * v) ||
           std::isinf(robot.distance(u, v)))
         continue;
@@ -69,8 +68,20 @@ std::vector<Fringe> fringe_by_link(std::span<const KeptFrame> frames, const Kept
 
 }  // namespace
 
+std::vector<bool> tuning::moving_links(std::span<const KeptFrame> frames) {
+  constexpr double still = 1e-3;
+  std::vector<bool> moves;
+  const std::vector<Eigen::Isometry3d>& first = frames.front().T_root_link;
+  for (std::size_t link = 0; link < first.size(); ++link)
+    moves.push_back(std::ranges::any_of(frames, [&](const KeptFrame& frame) {
+      return !frame.T_root_link[link].isApprox(first[link], still);
+    }));
+  return moves;
+}
+
 std::vector<std::string> missing_parts(std::span<const KeptFrame> frames, const Robot& robot,
                                        double fringe_reach) {
+  if (frames.empty()) return {};
   const std::size_t links = robot.links().size();
   std::vector<std::size_t> judged(links), with_part(links);  // frames
   for (const KeptFrame& frame : frames) {
@@ -81,15 +92,12 @@ std::vector<std::string> missing_parts(std::span<const KeptFrame> frames, const 
       with_part[link] += fringe[link].moving > most_far * fringe[link].all;
     }
   }
+  const std::vector<bool> moves = tuning::moving_links(frames);
   std::vector<std::string> lines;
-  for (std::size_t link = 0; link < links; ++link) {
-    const bool moves = std::ranges::any_of(frames, [&](const KeptFrame& frame) {
-      return !frame.T_root_link[link].isApprox(frames.front().T_root_link[link], still_link);
-    });
-    if (moves && with_part[link] >= 2 && 2 * with_part[link] >= judged[link])
+  for (std::size_t link = 0; link < links; ++link)
+    if (moves[link] && with_part[link] >= 2 && 2 * with_part[link] >= judged[link])
       lines.push_back("something large moves with link '" + robot.links()[link] +
                       "' that the URDF lacks, or touches it: run 'penumbra tune' on this input");
-  }
   return lines;
 }
 

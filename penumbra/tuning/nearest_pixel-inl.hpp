@@ -11,8 +11,16 @@ namespace penumbra::tuning {
 /// The nearest marked pixel of every pixel of an image.
 class NearestPixels {
  public:
-  /// Two sweeps over the image (Danielsson 1980): off by less than a pixel in rare cases.
-  explicit NearestPixels(const Image<std::uint8_t>& marked);
+  /// `is_marked`: of a pixel (u, v). Two sweeps over the image (Danielsson 1980): off by less than
+  /// a pixel in rare cases.
+  template <typename Marked>
+  NearestPixels(int width, int height, Marked&& is_marked) : nearest_(width, height) {
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u)
+        if (is_marked(u, v))
+          nearest_(u, v) = {static_cast<std::int16_t>(u), static_cast<std::int16_t>(v)};
+    sweep();
+  }
 
   struct Pixel {
     std::int16_t u = -1, v = -1;
@@ -23,6 +31,7 @@ class NearestPixels {
   [[nodiscard]] Pixel at(int u, int v) const { return nearest_(u, v); }
 
  private:
+  void sweep();
   void take(int u, int v, int from_u, int from_v);
 
   Image<Pixel> nearest_;

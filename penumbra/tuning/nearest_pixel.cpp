@@ -12,13 +12,8 @@ int squared(int u, int v, NearestPixels::Pixel to) {
 
 }  // namespace
 
-NearestPixels::NearestPixels(const Image<std::uint8_t>& marked)
-    : nearest_(marked.width(), marked.height()) {
-  const int width = marked.width(), height = marked.height();
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u)
-      if (marked(u, v) != 0)
-        nearest_(u, v) = {static_cast<std::int16_t>(u), static_cast<std::int16_t>(v)};
+void NearestPixels::sweep() {
+  const int width = nearest_.width(), height = nearest_.height();
   const auto sweep_row = [&](int v, int from_v) {
     for (int u = 0; u < width; ++u)
       for (int du = -1; du <= 1; ++du) take(u, v, u + du, from_v);

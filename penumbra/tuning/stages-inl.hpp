@@ -36,22 +36,13 @@ struct Scene {
 [[nodiscard]] Scene make_scene(std::span<const KeptFrame> frames, const Intrinsics& camera,
                                const Robot& robot);
 
-/// Labels the kept frames.
-class Labeller {
- public:
-  Labeller(const Scene& scene, const LabelRule& rule)
-      : classifier_(scene.camera.width(), scene.camera.height(), rule) {}
-  LabelView label(const KeptFrame& frame) { return label(frame, frame.virtual_depth); }
-  LabelView label(const KeptFrame& frame, const Image<float>& virtual_depth) {
-    return classifier_.classify({virtual_depth.view(), {}, nullptr}, frame.depth.view());
-  }
+/// Labels a kept frame.
+[[nodiscard]] inline LabelView label(Classifier& classifier, const KeptFrame& frame) {
+  return classifier.classify({frame.virtual_depth.view(), {}, nullptr}, frame.depth.view());
+}
 
- private:
-  Classifier classifier_;
-};
-
-/// Returns for each link whether it moves relative to the camera.
-[[nodiscard]] std::vector<bool> moving_links(const Scene& scene);
+/// Returns for each link whether it moves relative to the root.
+[[nodiscard]] std::vector<bool> moving_links(std::span<const KeptFrame> frames);
 
 /// Returns the pixels of the robot.
 [[nodiscard]] NearestPixels robot_pixels(ImageView<const float> virtual_depth);

@@ -25,24 +25,21 @@ struct Residual {
 
 /// Returns edges of the robot and of objects in front of it.
 NearestPixels edges_of(const Image<float>& depth, const LabelView& labels) {
-  Image<std::uint8_t> edges(depth.width(), depth.height());
-  for (int v = 0; v < depth.height(); ++v)
-    for (int u = 0; u < depth.width(); ++u) {
-      if (!(depth(u, v) > 0.0f) || labels.labels(u, v) == static_cast<std::uint8_t>(Label::front))
-        edges(u, v) = 1;
-      if (u > 0 && std::abs(depth(u, v) - depth(u - 1, v)) > edge) edges(u, v) = 1;
-      if (v > 0 && std::abs(depth(u, v) - depth(u, v - 1)) > edge) edges(u, v) = 1;
-    }
-  return NearestPixels(edges);
+  return {depth.width(), depth.height(), [&](int u, int v) {
+            return !(depth(u, v) > 0.0f) ||
+                   labels.labels(u, v) == static_cast<std::uint8_t>(Label::front) ||
+                   (u > 0 && std::abs(depth(u, v) - depth(u - 1, v)) > edge) ||
+                   (v > 0 && std::abs(depth(u, v) - depth(u, v - 1)) > edge);
+          }};
 }
 
 std::vector<Residual> residuals_of(const Scene& scene, LabelRule rule) {
   for (double* const term : {&rule.tolerance.a, &rule.tolerance.b, &rule.tolerance.c})
     *term *= object;
-  Labeller labeller(scene, rule);
+  Classifier classifier(scene.camera.width(), scene.camera.height(), rule);
   std::vector<Residual> residuals;
   for (const KeptFrame& frame : scene.frames) {
-    const NearestPixels edges = edges_of(frame.virtual_depth, labeller.label(frame));
+    const NearestPixels edges = edges_of(frame.virtual_depth, label(classifier, frame));
     for (int v = 0; v < scene.camera.height(); ++v)
       for (int u = 0; u < scene.camera.width(); ++u) {
         const float z = frame.virtual_depth(u, v), d = frame.depth(u, v);
@@ -92,10 +89,10 @@ Tolerance scaled(const Tolerance& curve, const std::vector<Residual>& residuals)
 }
 
 double front_share(const Scene& scene, const LabelRule& rule) {
-  Labeller labeller(scene, rule);
+  Classifier classifier(scene.camera.width(), scene.camera.height(), rule);
   std::size_t front = 0, robot = 0;
   for (const KeptFrame& frame : scene.frames) {
-    const LabelView labels = labeller.label(frame);
+    const LabelView labels = label(classifier, frame);
     for (const Label label : {Label::front, Label::occluded, Label::unknown, Label::beyond})
       robot += labels.pixels[static_cast<std::size_t>(label)];
     front += labels.pixels[static_cast<std::size_t>(Label::front)];

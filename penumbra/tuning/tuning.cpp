@@ -25,30 +25,15 @@ Scene make_scene(std::span<const KeptFrame> frames, const Intrinsics& camera, co
   return scene;
 }
 
-std::vector<bool> moving_links(const Scene& scene) {
-  constexpr double still = 1e-3;
-  std::vector<bool> moves;
-  const std::vector<Eigen::Isometry3d>& first = scene.frames.front().T_root_link;
-  for (std::size_t link = 0; link < first.size(); ++link)
-    moves.push_back(std::any_of(scene.frames.begin(), scene.frames.end(), [&](const auto& frame) {
-      return !frame.T_root_link[link].isApprox(first[link], still);
-    }));
-  return moves;
-}
-
 NearestPixels robot_pixels(ImageView<const float> virtual_depth) {
-  Image<std::uint8_t> robot(virtual_depth.width, virtual_depth.height);
-  for (int v = 0; v < robot.height(); ++v)
-    for (int u = 0; u < robot.width(); ++u) robot(u, v) = virtual_depth(u, v) > 0.0f ? 1 : 0;
-  return NearestPixels(robot);
+  return {virtual_depth.width, virtual_depth.height,
+          [&](int u, int v) { return virtual_depth(u, v) > 0.0f; }};
 }
 
 NearestPixels seen_robot(const LabelView& labels) {
-  Image<std::uint8_t> seen(labels.labels.width, labels.labels.height);
-  for (int v = 0; v < seen.height(); ++v)
-    for (int u = 0; u < seen.width(); ++u)
-      seen(u, v) = labels.labels(u, v) == static_cast<std::uint8_t>(Label::occluded) ? 1 : 0;
-  return NearestPixels(seen);
+  return {labels.labels.width, labels.labels.height, [&](int u, int v) {
+            return labels.labels(u, v) == static_cast<std::uint8_t>(Label::occluded);
+          }};
 }
 
 }  // namespace tuning

@@ -92,6 +92,38 @@ TEST_F(CalibrateExampleBag, NeedsNoPoseInTheBagWithAGuess) {
   EXPECT_LT(mm_between(found("bare"), truth_), near_mm);
 }
 
+TEST_F(CalibrateExampleBag, SaysHowFarTfIsFromWhatAGuessGives) {
+  recording_bag(example, off(truth_)).write_mcap(path("off.mcap"));
+  const Words guess{"--initial", (example / "camera_pose.csv").string()};
+  expect_has(succeed(call("calibrate", "off.mcap", "out", guess)).err,
+             {"tf's pose is", "beyond that"});
+  recording_bag(example, truth_).write_mcap(path("right.mcap"));
+  expect_has(succeed(call("calibrate", "right.mcap", "same", guess)).err,
+             {"tf's pose is", "within that"});
+}
+
+/// The second camera stands where the first does, and TF says so of the first alone.
+TEST_F(CalibrateExampleBag, OfTwoCamerasTakesTheOneThatIsNamed) {
+  TinyBag bag = recording_bag(example, off(truth_));
+  bag.copy("/camera/depth/image", "/second/depth/image");
+  bag.copy("/camera/depth/camera_info", "/second/depth/camera_info");
+  bag.edit<io::ImageMessage>("/second/depth/image",
+                             [](auto& image) { image.header.frame_id = "second_optical_frame"; });
+  bag.edit<io::CameraInfoMessage>("/second/depth/camera_info", [](auto& info) {
+    info.header.frame_id = "second_optical_frame";
+  });
+  bag.write_mcap(path("two.mcap"));
+  for (const std::string topic : {"/camera/depth/image", "/second/depth/image"}) {
+    Words options{"--depth-topic", topic};
+    if (topic.starts_with("/second")) {
+      expect_refused(call("calibrate", "two.mcap", "out", options), {"second_optical_frame"});
+      options = options + Words{"--initial", (example / "camera_pose.csv").string()};
+    }
+    succeed(call("calibrate", "two.mcap", "out", options));
+    EXPECT_LT(mm_between(found("out"), truth_), near_mm) << topic;
+  }
+}
+
 TEST_F(CalibrateExampleBag, RefusesACameraThatTfMoves) {
   TinyBag bag = recording_bag(example, truth_);
   bag.remove("/tf_static");

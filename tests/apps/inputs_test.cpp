@@ -215,6 +215,13 @@ TEST_P(InputsTest, WorkOrAreRefusedWithARemedy) {
     else
       expect_refused(penumbra(words), {path(kind).filename().string(), row[i]});
   }
+  if (GetParam() == "calibrate")  // which alone takes masks
+    for (const auto& [kind, options] : kinds)
+      if (kind == "recording" || (is_bag(kind) && options.size() > 0 && kind != "no_depth.mcap")) {
+        SCOPED_TRACE("masks of " + kind);
+        const std::string masks = is_bag(kind) ? "recording/truth/%d.png" : "truth/%d.png";
+        expect_works(kind, line(kind, options) + Words{"--masks", masks});
+      }
   if (row[no_pose] != works || GetParam() == "play") return;
   expect_refused(penumbra(line(kinds[no_pose].first, {"--package"})),
                  {"no_pose.mcap", "no tf", "--pose and --parent"});

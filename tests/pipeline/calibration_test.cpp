@@ -3,8 +3,8 @@
 // that a small change of each unknown makes, and what is said of wrong inputs.
 #include "../support/test.hpp"
 
+#include <penumbra/calibration/calibration.hpp>
 #include <penumbra/calibration/problem.hpp>
-#include <penumbra/calibration/watch.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
 namespace penumbra::test {
@@ -291,6 +291,38 @@ TEST(KeptFrames, PosesWithoutImagesTellTheTimeOfImagesThatAreSecondsApart) {
   ASSERT_EQ(frames.chosen().size(), 3U);
   for (const KeptFrame& frame : frames.chosen()) EXPECT_GE(frame.nearby.size(), 5U);
   EXPECT_EQ(frames.seen(), 131U);
+}
+
+TEST(KeptFrames, PosesBetweenImagesOfABagAreLookedUp) {
+  using Choice = KeptFrames::Choice;
+  const Robot robot = load_arm();
+  const Image<float> depth(8, 6);
+  const auto joints_at = [&](std::int64_t stamp) {  // moves in the middle of each two seconds
+    std::vector<double> joints = robot.rest_positions();
+    const double cycles = static_cast<double>(stamp) / (2000.0 * ms);
+    joints[1] = 0.2 * (std::floor(cycles) +
+                       std::clamp(2.0 * (cycles - std::floor(cycles)) - 0.5, 0.0, 1.0));
+    return joints;
+  };
+  for (const Choice choice : {Choice::rest_first, Choice::moving}) {
+    KeptFrames frames(robot, tiny_camera, {.choice = choice});
+    const auto at = [&](std::int64_t stamp) {
+      Frame frame = frame_at(stamp, joints_at(stamp), &depth);
+      frame.pose_at = [&](std::int64_t other, RobotPose& pose) {
+        pose.positions = joints_at(other);
+      };
+      return frame;
+    };
+    const std::int64_t first = choice == Choice::moving ? 1000 * ms : 2000 * ms;
+    for (int i = 0; i < 3; ++i)
+      if (auto kept = frames.pass(at(first + i * 2000 * ms))) frames.add(*std::move(kept));
+    frames.follow(at(first + 4300 * ms));
+    ASSERT_EQ(frames.chosen().size(), 3U);
+    for (const KeptFrame& frame : frames.chosen()) {
+      EXPECT_EQ(frame.is_resting, choice == Choice::rest_first);
+      EXPECT_TRUE(frame.tells_time());
+    }
+  }
 }
 
 TEST(KeptFrames, FramesAtRestAreTakenBeforeOthers) {

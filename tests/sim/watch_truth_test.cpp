@@ -2,7 +2,7 @@
 // The watch over MuJoCo's cameras, whose pose is known, under a D415's noise.
 #include "simulated.hpp"
 
-#include <penumbra/calibration/watch.hpp>
+#include <penumbra/calibration/calibration.hpp>
 
 namespace penumbra::test {
 namespace {

@@ -16,9 +16,7 @@ Label label_at(const LabelView& labels, int pixel) {
 }
 
 tuning::NearestPixels nearest_robot(ImageView<const float> robot) {
-  Image<std::uint8_t> marked(robot.width, robot.height);
-  for (const auto [u, v] : each_pixel(robot)) marked(u, v) = robot(u, v) > 0.0F;
-  return tuning::NearestPixels(marked);
+  return {robot.width, robot.height, [&](int u, int v) { return robot(u, v) > 0.0f; }};
 }
 
 double Leftover::percent() const { return test::percent(left, carried + on_robot); }
