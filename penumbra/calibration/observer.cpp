@@ -164,7 +164,7 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
       const auto step_of = [&](const auto& sample, int radius) -> std::optional<double> {
         constexpr int not_sampled = 2;
         const int first = -radius - run;
-        on_normal.assign(static_cast<std::size_t>(2 * (radius + run) + most_missing + 1),
+        on_normal.assign(2 * static_cast<std::size_t>(radius + run) + most_missing + 1,
                          not_sampled);
         const auto at_step = [&](int step) {
           int& at = on_normal[static_cast<std::size_t>(step - first)];

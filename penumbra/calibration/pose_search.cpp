@@ -88,8 +88,10 @@ double PoseSearch::score(const Eigen::Isometry3d& T_parent_camera, std::size_t e
 }
 
 double PoseSearch::score(const State& state, std::size_t every_frame) {
-  double sum = 0.0, most = 0.0, overlaps = 0.0;
+  int most = 0, missed = 0, seen = 0, past = 0, before = 0;  // pixels
+  double overlaps = 0.0;
   const auto tolerance = static_cast<float>(tolerance_);
+  const bool is_exact = state.depth_offset == 0.0 && state.depth_scale == 0.0;
   const std::vector<SmallFrames::Small>& frames = small_.frames();
   for (std::size_t k = 0; k < frames.size(); k += every_frame) {
     const SmallFrames::Small& small = frames[k];
@@ -100,29 +102,29 @@ double PoseSearch::score(const State& state, std::size_t every_frame) {
       overlaps += overlap.share();
       continue;
     }
-    SmallFrames::for_each_pixel(small, robot, [&](int u, int v) {
-      const float expected = robot.depth(u, v);
-      if (!(expected > 0.0f)) {
-        if (small.moved(u, v) == 0) return;
-        most += 1.0;
-        sum -= SmallFrames::missed;
-        return;
+    SmallFrames::for_each_part(small, robot, [&](int first, int end, int v) {
+      const float* const rendered = robot.depth.row(v);
+      const float* const depths = &small.depth(0, v);
+      const std::uint8_t* const moved = &small.moved(0, v);
+      for (int u = first; u < end; ++u) {  // without branches: the compiler makes vectors of it
+        const float expected = rendered[u];
+        const float measured = is_exact ? depths[u] : state.corrected(depths[u]);
+        const int is_robot = expected > 0.0f;
+        const int is_seen = is_robot & (depths[u] > 0.0f) & (measured > 0.0f);
+        most += is_robot;
+        missed += (is_robot ^ 1) & moved[u];
+        seen += is_seen;
+        past += is_seen & (measured > expected + tolerance);
+        before += is_seen & (measured < expected - tolerance);
       }
-      most += 1.0;
-      const float depth = small.depth(u, v);
-      const float measured = depth > 0.0f ? state.corrected(depth) : 0.0f;
-      if (!(measured > 0.0f)) return;
-      if (measured > expected + tolerance)
-        sum -= 1.0;
-      else if (measured < expected - tolerance)
-        sum -= SmallFrames::occluded;
-      else
-        sum += 1.0;
     });
   }
   if (frames.front().depth.empty())
-    return overlaps / static_cast<double>((frames.size() + every_frame - 1) / every_frame);
-  return small_.score(sum, most,
+    return overlaps /
+           std::ceil(static_cast<double>(frames.size()) / static_cast<double>(every_frame));
+  const double sum =
+      seen - 2 * past - before - SmallFrames::occluded * before - SmallFrames::missed * missed;
+  return small_.score(sum, most + missed,
                       static_cast<double>(frames.size()) / static_cast<double>(every_frame));
 }
 

@@ -345,15 +345,15 @@ class SmallFrames {
   [[nodiscard]] VirtualDepthView render(std::span<const Eigen::Isometry3d> T_camera_link) {
     return renderer_->render(T_camera_link);
   }
-  /// Calls f(u, v) at least for all pixels of the robot and of what moved, row by row.
+  /// Calls f(first, end, v) for parts of rows with at least all pixels of the robot and of what
+  /// moved.
   template <typename F>
-  static void for_each_pixel(const Small& small, const VirtualDepthView& robot, F&& f) {
+  static void for_each_part(const Small& small, const VirtualDepthView& robot, F&& f) {
     const int step = robot.touched->tile_width, width = robot.depth.width;
     for (int v = 0; v < robot.depth.height; ++v)
-      for (int first = 0; first < width; first += step) {
-        if (!robot.touched->holds(first, v) && !small.moved_tiles.holds(first, v)) continue;
-        for (int u = first; u < std::min(first + step, width); ++u) f(u, v);
-      }
+      for (int first = 0; first < width; first += step)
+        if (robot.touched->holds(first, v) || small.moved_tiles.holds(first, v))
+          f(first, std::min(first + step, width), v);
   }
   /// Returns a sum over pixels as a share of `most` of them. A robot out of view, or a speck, is as
   /// bad as one in free space.

@@ -26,7 +26,7 @@ Agreement::Counts Agreement::count(const Hypothesis& hypothesis, std::size_t fra
   const auto factor = static_cast<float>(hypothesis.depth_factor);
   const SmallFrames::Small& small = small_.frames()[frame];
   Counts counts;
-  SmallFrames::for_each_pixel(small, view, [&](int u, int v) {
+  const auto add = [&](int u, int v) {
     const float expected = view.depth(u, v);
     float z = factor * small.depth(u, v);
     if (hypothesis.along_ray) z /= static_cast<float>(small_.camera().ray(u, v).norm());
@@ -49,6 +49,9 @@ Agreement::Counts Agreement::count(const Hypothesis& hypothesis, std::size_t fra
       counts.score -= SmallFrames::occluded;
       counts.front += 1.0;
     }
+  };
+  SmallFrames::for_each_part(small, view, [&](int first, int end, int v) {
+    for (int u = first; u < end; ++u) add(u, v);
   });
   return counts;
 }
