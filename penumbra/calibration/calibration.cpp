@@ -422,12 +422,10 @@ class Calibrator {
     const double turned = options_.accept.value_or(widest_rotation);
     if (result.position_error() <= widest && result.rotation_error() <= turned) return;
     result.is_wide = true;
-    std::string remedy = causes;
-    if (remedy.empty()) {
-      if (has_depth() && !unknowns_.has_shift)
-        remedy = "give masks of the robot in the colour images (--masks), or ";
-      remedy += "record more poses of the robot; " + result.advice;
-    }
+    std::string remedy = causes.empty() ? "" : causes + "; ";
+    if (has_depth() && !unknowns_.has_shift)
+      remedy += "give masks of the robot in the colour images (--masks), or ";
+    remedy += "record more poses of the robot; " + result.advice;
     result.faults.push_back(
         "the pose is known to " + fixed(1e3 * result.position_error(), 0) + " mm and " +
         fixed(result.rotation_error() * 180.0 / 3.14159265358979, 1) + " degrees only: " + remedy);
