@@ -13,6 +13,9 @@ namespace {
 // Once a good pose is found, so many new frames are solved together, or those that are there after
 // so many frames without a new pose: the robot rests, or repeats its motion.
 constexpr std::size_t new_frames = 3, patience = 30;
+/// With fewer the stated region holds the truth too seldom (docs/calibration.md), and more will
+/// come.
+constexpr std::size_t least_poses = 5;
 
 std::string mm_and_degrees(double metres, double radians) {
   return detail::fixed(1e3 * metres, 1) + " mm and " +
@@ -145,7 +148,7 @@ void RunningCalibration::look_at(const Frame& frame) {
 }
 
 bool RunningCalibration::can_solve() const {
-  return frames_ && added_ > solved_ && frames_->frames().size() >= KeptFrames::least &&
+  return frames_ && added_ > solved_ && frames_->frames().size() >= least_poses &&
          (progress_.is_search || progress_.given);
 }
 
@@ -215,14 +218,14 @@ void RunningCalibration::describe() {
     line += "no frame can be used yet (" + frames_->last_fault() + ")";
   } else if (!progress_.is_search && !progress_.given) {
     line += "the camera's pose is not known, so that there is none to begin from: search for it";
-  } else if (poses < KeptFrames::least) {
+  } else if (poses < least_poses) {
     line += "move the robot to more poses, and let it stand still for a second in each";
   } else {
     line += "the pose is sought";
   }
   line += "; " + poses_text(poses) + " so far";
-  if (progress_.is_running && poses < KeptFrames::least)
-    line += " of at least " + std::to_string(KeptFrames::least);
+  if (progress_.is_running && poses < least_poses)
+    line += " of at least " + std::to_string(least_poses);
   else if (progress_.is_ready() && progress_.is_running)
     line += "; " + progress_.found->advice;
 }

@@ -216,7 +216,7 @@ TEST_F(LiveCalibration, SaysWhatIsMissing) {
   EXPECT_TRUE(holds(now().message, {"no frame can be used", "encoding"})) << now().message;
   for (int again = 0; again < 4; ++again) play(0);
   EXPECT_EQ(now().poses, 1U);
-  EXPECT_TRUE(holds(now().message, {"move the robot", "1 pose so far of at least 3"}))
+  EXPECT_TRUE(holds(now().message, {"move the robot", "1 pose so far of at least 5"}))
       << now().message;
   EXPECT_TRUE(now().is_running);
 }
