@@ -334,7 +334,6 @@ void run_faulty(const RobotChoice& robot, std::size_t kind, std::uint64_t seed, 
   constexpr double much = 1.5 * 1.5;
   bool named = faults.setup.late != 0.0 && says(found, "stamps");
   named |= faults.focal.x() != 0.0 && says(found, "fx is");
-  named |= faults.link != 0.0 && says(found, "URDF");
   for (std::size_t j = 0; j < errors.size(); ++j)
     named |= errors[j] != 0.0 && says(found, cell.robot().variables()[j] + " ");
   const bool other = !named && says(found, "");
