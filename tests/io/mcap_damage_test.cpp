@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <io/mcap/compression.hpp>
 #include <io/mcap/file_index.hpp>
 
 namespace penumbra::io::mcap {
@@ -36,7 +37,8 @@ class McapDamage : public testing::TestWithParam<Compression> {
 
   McapContents read(const std::string& bytes) {
     const test::MemoryFile file(bytes);
-    const test::MemoryShortage none(large_memory, 0);
+    // A damaged chunk may claim so much, and Zstandard may ask for it (since 1.5.4+dfsg2-5+deb12u1).
+    const test::MemoryShortage none(most_decompressed(bytes.size()) + 1, 0);
     McapContents all;
     test::refusal([&] { all = test::read_mcap(file.path()); });
     return all;
