@@ -6,6 +6,7 @@
 //        calibration_study faults [RUNS [PART OF A FAULT'S NAME [FIRST SEED]]]
 //        calibration_study masks [RUNS [PART OF A SETUP'S NAME [PART OF A ROBOT'S NAME]]]
 //        calibration_study few [RUNS [POSES]]
+//        calibration_study images [RUNS [PART OF A SETUP'S NAME [PART OF A ROBOT'S NAME]]]
 //        calibration_study real
 #include "simulated_cell.hpp"
 #include "study_page.hpp"
@@ -442,6 +443,39 @@ int study_masks(std::uint64_t seeds, const std::string& wanted, const std::strin
   return 0;
 }
 
+/// The table of colour images.
+int study_images(std::uint64_t seeds, const std::string& wanted, const std::string& only) {
+  const auto with = [](const std::string& name, std::size_t frames, const auto& change) {
+    Setup setup{.name = name, .frames = frames, .colors = true};
+    change(setup);
+    return setup;
+  };
+  const auto nothing = [](Setup&) {};
+  const std::vector<Setup> setups = {
+      with("6 images", 6, nothing),
+      with("12 images", 12, nothing),
+      with("20 images", 20, nothing),
+      with("12, light that changes by 30 %", 12, [](Setup& setup) { setup.light = 0.3; }),
+      with("12, somebody walks through", 12, [](Setup& setup) { setup.person = true; }),
+      with("12, a tool that the URDF lacks", 12, [](Setup& setup) { setup.tool = true; }),
+      with("12, one wrong joint state", 12, [](Setup& setup) { setup.wrong_joints = true; }),
+      with("12, `--search`", 12, [](Setup& setup) { setup.search = true; })};
+  std::vector<std::vector<std::string>> rows{heads};
+  for (const RobotChoice& robot : robots())
+    for (const Setup& setup : setups) {
+      if (robot.name.find(only) == std::string::npos ||
+          setup.name.find(wanted) == std::string::npos)
+        continue;
+      rows.push_back(run(robot, setup, seeds));
+      for (const std::string& cell : rows.back()) std::cout << cell << "  ";
+      std::cout << std::endl;
+    }
+  if (wanted.empty() && only.empty())
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md",
+                "calibration_images", table(rows));
+  return 0;
+}
+
 /// What happened to runs with few poses.
 struct Few {
   int runs = 0, refused = 0, wrong = 0, held = 0;
@@ -536,6 +570,9 @@ int study_all(int argc, char** argv) {
   if (wanted == "masks")
     return study_masks(argc > 2 ? std::stoull(argv[2]) : 20, argc > 3 ? argv[3] : "",
                        argc > 4 ? argv[4] : "");
+  if (wanted == "images")
+    return study_images(argc > 2 ? std::stoull(argv[2]) : 10, argc > 3 ? argv[3] : "",
+                        argc > 4 ? argv[4] : "");
   if (wanted == "few")
     return study_few(argc > 2 ? std::stoull(argv[2]) : 10, argc > 3 ? std::stoull(argv[3]) : 0);
   if (wanted == "faults")

@@ -22,6 +22,7 @@
 #include <sim/simulation.hpp>
 #include <sim/stage.hpp>
 #include <sim/temporary_folder.hpp>
+#include <sim/texture.hpp>
 
 namespace penumbra::study {
 
@@ -47,6 +48,8 @@ struct Setup {
   int mask_grown = 0;                     ///< pixels by which they are too large
   double mask_border = 0.0;               ///< share of their border that is off by up to 12 pixels
   double wrong_masks = 0.0;               ///< share of frames whose mask shows another pose
+  bool colors = false;                    ///< the frames have colour images in place of depth
+  double light = 0.0;  ///< standard deviation of the logarithm of colour images' brightness
 };
 
 struct RobotChoice {
@@ -101,6 +104,7 @@ class Cell {
       frame.joints = pose();
       draw(frame);
       if (setup_.masks) draw_mask(frame);
+      if (setup_.colors) draw_colors(frame);
       if (setup_.wrong_joints && frame.index == 4)
         for (double& joint : frame.joints) joint += random_.uniform(0.1, 0.3);
       frame.joints = reported(std::move(frame.joints));
@@ -201,6 +205,22 @@ class Cell {
     }
   }
 
+  /// Replaces the depth by a colour image with noise, in the setup's light.
+  void draw_colors(KeptFrame& frame) {
+    constexpr double noise = 3.0;  // levels
+    frame.depth = {};
+    stage_.draw_color({intrinsics(), truth()}, frame.color);
+    const double light = std::exp(setup_.light * random_.normal());
+    const auto seen = [&](std::uint8_t level) {
+      return static_cast<std::uint8_t>(
+          std::clamp(light * level + noise * random_.normal() + 0.5, 0.0, 255.0));
+    };
+    for (std::size_t i = 0; i < frame.color.size(); ++i) {
+      Rgb8& pixel = frame.color.data()[i];
+      pixel = {seen(pixel.r), seen(pixel.g), seen(pixel.b)};
+    }
+  }
+
   /// A first guess: 100 mm and 10 degrees off, in any direction.
   [[nodiscard]] Eigen::Isometry3d off() {
     const auto any = [&] {
@@ -246,13 +266,27 @@ class Cell {
     return noise;
   }
 
-  sim::SceneDescription room() const {
+  sim::SceneDescription room() {
     sim::SceneDescription scene;
-    scene.parts.push_back({-1, R"(<geom type="box" size="3 3 0.05" pos="0 0 -0.06" group="2"/>)"});
-    scene.parts.push_back({-1, R"(<geom type="box" size="0.05 3 2" pos="-1.2 0 1" group="2"/>)"});
-    scene.parts.push_back({-1, R"(<geom type="box" size="3 0.05 2" pos="0 -1.6 1" group="2"/>)"});
-    scene.parts.push_back(
-        {-1, R"(<geom type="box" size="0.15 0.2 0.15" pos="-0.5 0.6 0.1" group="2"/>)"});
+    const auto box = [&](const std::string& size, const std::string& at) {
+      std::string looks;
+      if (setup_.colors) {  // which others do not see
+        constexpr int pixels = 256;
+        const std::string name = "print" + std::to_string(scene.textures.size());
+        scene.assets += "<texture name=\"" + name + "\" type=\"2d\" builtin=\"flat\" width=\"" +
+                        std::to_string(pixels) + "\" height=\"" + std::to_string(pixels) +
+                        "\"/><material name=\"" + name + "\" texture=\"" + name +
+                        "\" specular=\"0\"/>";
+        scene.textures.push_back({name, sim::busy_print(pixels, pixels, random_)});
+        looks = " material=\"" + name + "\"";
+      }
+      scene.parts.push_back({-1, "<geom type=\"box\" size=\"" + size + "\" pos=\"" + at + "\"" +
+                                     looks + " group=\"2\"/>"});
+    };
+    box("3 3 0.05", "0 0 -0.06");
+    box("0.05 3 2", "-1.2 0 1");
+    box("3 0.05 2", "0 -1.6 1");
+    box("0.15 0.2 0.15", "-0.5 0.6 0.1");
     scene.parts.push_back({-1, R"(<geom type="cylinder" size="0.04 0.12" group="2"/>)"});
     scene.parts.push_back(
         {0, R"(<geom type="box" size="0.05 0.03 0.06" pos="0 0 0.06" group="2"/>)"});

@@ -27,8 +27,8 @@ Camera camera_of(const Intrinsics& pinhole) { return {pinhole, {}, {}, {}}; }
 template <typename Given>
 Calibration calibrate_frames(const py::iterable& frames, const Given& given, const Robot& robot,
                              const std::optional<Start>& initial, std::string camera_parent,
-                             const std::vector<MaskArgument>& masks, bool focal, bool joint_offsets,
-                             std::vector<Frame> motion, double joint_accuracy,
+                             const std::vector<MaskArgument>& masks, bool images, bool focal,
+                             bool joint_offsets, std::vector<Frame> motion, double joint_accuracy,
                              const std::optional<double>& accept, std::uint64_t seed) {
   const auto* const config = initial ? std::get_if<PipelineConfig>(&*initial) : nullptr;
   if (config != nullptr && camera_parent.empty()) camera_parent = config->camera_parent;
@@ -39,7 +39,7 @@ Calibration calibrate_frames(const py::iterable& frames, const Given& given, con
   using Choice = KeptFrames::Choice;
   KeptFrames chosen(robot, camera_of(given),
                     {.choice = motion.empty() ? Choice::rest_first : Choice::any,
-                     .needs_depth = masks.empty(),
+                     .needs_depth = masks.empty() && !images,
                      .parent = find_camera_parent(robot, camera_parent)});
   auto next = motion.begin();
   for (const py::handle each : frames) {
@@ -51,7 +51,11 @@ Calibration calibrate_frames(const py::iterable& frames, const Given& given, con
     for (; next != motion.end() && next->stamp < frame.stamp; ++next) chosen.follow(*next);
     std::optional<KeptFrame> kept = chosen.pass(frame);
     if (!kept) continue;
-    if (!is_empty(frame.depth.view)) kept->depth = chosen.depth_of(frame.depth.view);
+    if (images) {
+      if (frame.color.view.empty()) continue;
+      kept->color = chosen.image_of(frame.color.view);
+    } else if (!is_empty(frame.depth.view))
+      kept->depth = chosen.depth_of(frame.depth.view);
     if (number < masks.size()) kept->mask = chosen.image_of(std::get<0>(masks[number].view));
     chosen.add(*std::move(kept));
   }
@@ -186,19 +190,20 @@ void bind_calibration(py::module_& m) {
     m.def(
         "calibrate", function, py::arg("frames"), py::arg("camera"), py::arg("robot"),
         py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
-        py::arg("masks") = std::vector<MaskArgument>(), py::arg("focal") = false,
-        py::arg("joint_offsets") = false, py::arg("motion") = std::vector<Frame>(),
+        py::arg("masks") = std::vector<MaskArgument>(), py::arg("images") = false,
+        py::arg("focal") = false, py::arg("joint_offsets") = false,
+        py::arg("motion") = std::vector<Frame>(),
         py::arg("joint_accuracy") = CalibrationOptions().joint_accuracy,
         py::arg("accept") = py::none(), py::arg("seed") = 1,
         "Estimates a camera's pose from the robot that it sees. frames: an opened input, or three "
-        "frames or more with joints (or T_root_link) and with depth or masks; those are used "
-        "between "
-        "which the robot moves, at rest if it is. camera: of the images. initial: a guess of the "
+        "frames or more with joints (or T_root_link) and with depth, masks or color; those are "
+        "used between which the robot moves, at rest if it is. camera: of the images. initial: a "
+        "guess of the "
         "camera's pose in its parent link, at most 100 mm and 10 degrees off; a PipelineConfig: as "
         "it or the frames have it; None: it is searched for. masks: images that are not 0 where "
-        "the colour image shows the robot; needed without depth. focal: estimate the focal "
-        "lengths, "
-        "too. joint_offsets: "
+        "the colour image shows the robot, and 128 where that is not known. images: take the "
+        "frames' colour images in place of depth, of a camera that stands still. focal: estimate "
+        "the focal lengths, too. joint_offsets: "
         "estimate the offsets of joints that the images contradict. motion: frames with stamps and "
         "poses "
         "that reach 0.1 s before and after each of `frames`, in which the robot moves: the time "

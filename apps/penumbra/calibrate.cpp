@@ -50,7 +50,8 @@ std::string joined(const auto& values, int digits, const char* separator) {
   return text;
 }
 
-void print_fit(const Calibration& found, const Robot& robot, const Intrinsics& camera) {
+void print_fit(const Calibration& found, const Robot& robot, const Intrinsics& camera,
+               bool by_images) {
   std::cout << "position within " << fixed(1e3 * found.position_error(), 1)
             << " mm, rotation within " << fixed(degrees * found.rotation_error(), 2)
             << " degrees (95 %)\n";
@@ -58,7 +59,8 @@ void print_fit(const Calibration& found, const Robot& robot, const Intrinsics& c
     std::cout << "depth: measured = " << plus_minus(*found.depth_scale, 100.0, 2) << " % + "
               << plus_minus(*found.depth_offset, 1e3, 1) << " mm more than true\n";
   else
-    std::cout << "overlap with the masks " << fixed(100.0 * found.mask_overlap, 1) << " %\n";
+    std::cout << "overlap with " << (by_images ? "what hides the background " : "the masks ")
+              << fixed(100.0 * found.mask_overlap, 1) << " %\n";
   std::cout << "the robot's picture is " << plus_minus(found.outline, 1.0, 1) << " px larger\n";
   if (found.shift_right)
     std::cout << "the pose is that of the colour image: the depth image lies "
@@ -123,7 +125,7 @@ void print_use(const CalibrateArguments& arguments, bool is_bag, const std::stri
 
 /// Returns what is wrong with the input other than the camera's pose; empty: nothing known.
 std::string other_cause(const io::CalibrationInput& input, const CalibrationOptions& options) {
-  if (!options.initial || !input.input.config.has_depth) return {};
+  if (!options.initial || input.frames.empty() || input.frames.front().depth.empty()) return {};
   const Robot& robot = input.input.robot;
   const std::size_t parent =
       options.camera_parent.empty() ? 0 : *robot.find_link(options.camera_parent);
@@ -143,10 +145,13 @@ void add_options(CLI::App& app, CalibrateArguments& calibrate) {
            "input's own",
            "FILE", calibrate.initial);
   app.add_flag("--search", calibrate.search, "find the camera without a first guess");
-  add_text(app, "--masks",
-           "images that are not 0 where the colour image shows the robot, as mask_%d.png; needed "
-           "without depth",
-           "PATTERN", calibrate.input.masks);
+  add_text(
+      app, "--masks",
+      "images that are not 0 where the colour image shows the robot, and 128 where that is not "
+      "known, as mask_%d.png",
+      "PATTERN", calibrate.input.masks);
+  app.add_flag("--images", calibrate.input.images,
+               "take the colour images of a camera that stands still, in place of depth or masks");
   app.add_flag("--focal", calibrate.focal, "estimate the focal lengths fx and fy, too");
   app.add_flag("--joint-offsets", calibrate.joint_offsets,
                "estimate the zero offset of joints that the images contradict, too");
@@ -169,7 +174,8 @@ void check_options(const CLI::App& app, CalibrateArguments& calibrate) {
   note_bag_option(app, calibrate.input.input);
   if (calibrate.search && calibrate.initial)
     throw InputError("--search: --initial is given too; leave one of them out");
-  calibrate.input.input.needs_depth = !calibrate.input.masks;
+  calibrate.input.input.with_color = calibrate.input.images;
+  calibrate.input.input.needs_depth = !calibrate.input.masks && !calibrate.input.images;
   calibrate.input.input.needs_camera_pose = !calibrate.search && !calibrate.initial;
 }
 
@@ -222,7 +228,7 @@ int execute(const CalibrateArguments& arguments) {
   const std::string parent =
       options.camera_parent.empty() ? robot.links().front() : options.camera_parent;
   if (found.is_good() || found.is_wide) {
-    print_fit(found, robot, input.input.camera->intrinsics);
+    print_fit(found, robot, input.input.camera->intrinsics, arguments.input.images);
     print_pose(found, parent, input.input.camera->frame_id);
   }
   if (!found.is_good()) {

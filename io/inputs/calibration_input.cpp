@@ -22,16 +22,19 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
                   input.stamps);
 
   const bool has_depth = input.config.has_depth;
-  if (!has_depth && !masks) throw InputError(path.string() + ": has no depth: give --masks");
+  if (!has_depth && !masks && !options.images)
+    throw InputError(path.string() + ": has no depth: give --images or --masks");
+  if (options.images && masks)
+    throw InputError("--images: --masks is given too; leave one of them out");
   const auto source = input.frames();
   Frame frame;
   KeptFrames frames(
       input.robot, *input.camera,
       {.choice = options.time_offset ? KeptFrames::Choice::moving : KeptFrames::Choice::rest_first,
-       .needs_depth = has_depth,
+       .needs_depth = has_depth && !options.images,
        .parent = find_camera_parent(input.robot, input.config.camera_parent)});
-  std::size_t unmasked = 0;
-  std::string no_mask;
+  std::size_t lacking = 0;  // frames without a mask or a colour image
+  std::string first_lack;
   const auto pass = [&] {
     try {
       return frames.pass(frame);
@@ -47,7 +50,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
       Image<std::uint8_t> mask;
       const auto file = masks->file(static_cast<std::int64_t>(kept->index));
       if (!std::filesystem::exists(file)) {
-        if (unmasked++ == 0) no_mask = file.string();
+        if (lacking++ == 0) first_lack = file.string() + " is not there";
         continue;
       }
       if (const FileResult read = read_png(
@@ -57,7 +60,13 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
         throw InputError("--masks: " + read.message);
       kept->mask = frames.image_of(std::as_const(mask).view());
     }
-    if (has_depth)
+    if (options.images) {
+      if (frame.color.view.empty()) {
+        if (lacking++ == 0) first_lack = frame.color_message;
+        continue;
+      }
+      kept->color = frames.image_of(frame.color.view);
+    } else if (has_depth)
       kept->depth =
           frames.depth_of(frame.depth.view, {input.camera->range.near, input.camera->range.far});
     frames.add(*std::move(kept));
@@ -75,11 +84,13 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
                           .T_by_tf = frames.T_parent_camera(),
                           .seen = frames.seen(),
                           .notes = source->notes()};
-  if (unmasked > 0 && result.frames.empty())
-    throw InputError("--masks: " + no_mask + " is not there");
-  if (unmasked > 0)
-    result.notes.push_back("frames without a mask are left out: " + std::to_string(unmasked) +
-                           ", the first " + no_mask);
+  const std::string what = options.images ? "--images" : "--masks";
+  if (lacking > 0 && result.frames.empty())
+    throw InputError(what + ": " +
+                     (first_lack.empty() ? path.string() + " has no colour images" : first_lack));
+  if (lacking > 0)
+    result.notes.push_back(what + ": frames without one are left out: " + std::to_string(lacking) +
+                           "; the first: " + first_lack);
   std::ranges::move(frames.notes(), std::back_inserter(result.notes));
   return result;
 }

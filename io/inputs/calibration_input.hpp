@@ -17,9 +17,11 @@ namespace penumbra::io {
 /// What is calibrated with.
 struct CalibrationInputOptions {
   InputOptions input;
-  /// Name pattern of images that are not 0 where the robot is, next to the recording.yaml or bag.
-  /// Needed without depth. Frames without one are left out.
+  /// Name pattern of images that are not 0 where the robot is, and KeptFrame::not_known where that
+  /// is not known, next to the recording.yaml or bag. Frames without one are left out.
   std::optional<std::string> masks;
+  /// Take the input's colour images in place of depth. Frames without one are left out.
+  bool images = false;
   bool time_offset = false;  ///< choose moving frames, and give them the poses around them
 };
 

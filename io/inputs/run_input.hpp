@@ -81,7 +81,9 @@ struct RunInput {
 
 /// Says why an input without depth is refused where InputOptions::needs_depth is set.
 inline constexpr const char* needs_depth_images =
-    "this compares depth images with the robot; only `penumbra calibrate` does without, by --masks";
+    "this compares depth images with the robot; only `penumbra calibrate` does without, by "
+    "--images "
+    "or --masks";
 
 /// Returns whether an input is a bag, by its name or, of a folder, its files.
 [[nodiscard]] bool is_bag(const std::filesystem::path& input);

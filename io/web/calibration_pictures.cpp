@@ -17,7 +17,7 @@ namespace {
 
 constexpr float full_color = 0.02F;  // metres of distance that have the full colour
 constexpr float farthest = 0.1F;     // metres: what is farther off is not the robot
-constexpr Rgb8 outline_color{0, 220, 80}, mask_color{160, 160, 160};
+constexpr Rgb8 outline_color{0, 220, 80}, guess_color{230, 0, 0}, mask_color{160, 160, 160};
 constexpr std::size_t most_frames = 10;
 
 /// Blue where the measured point is before the robot's surface, red where it is behind.
@@ -33,14 +33,16 @@ class FramePainter {
       : parent_(parent.empty() ? 0 : robot.find_link(parent).value()),
         renderer_(make_depth_renderer(Backend::cpu, camera, bodies_of(robot))) {}
 
-  /// Returns the frame's depth with the robot at this camera pose.
+  /// Returns the frame's depth or colour image with the robot at this camera pose.
   ImageView<const Rgb8> draw(const KeptFrame& frame, const Calibration& found,
-                             const Eigen::Isometry3d& T_parent_camera) {
+                             const Eigen::Isometry3d& T_parent_camera, const Rgb8& outline) {
     FrameReport report;
     report.index = frame.index;
     const bool has_depth = !frame.depth.empty();
     if (has_depth)
       draw_overlay(report, {frame.depth.view(), {}}, image_);
+    else if (!frame.color.empty())
+      image_ = frame.color;
     else
       image_ = Image<Rgb8>(frame.mask.width(), frame.mask.height());
     std::vector<Eigen::Isometry3d> poses = frame.T_root_link;
@@ -50,7 +52,7 @@ class FramePainter {
     for (int v = 0; v < robot.height; ++v)
       for (int u = 0; u < robot.width; ++u) {
         if (!has_depth) {
-          if (frame.mask(u, v) != 0) image_(u, v) = mask_color;
+          if (frame.color.empty() && frame.mask(u, v) != 0) image_(u, v) = mask_color;
           continue;
         }
         const float distance = (frame.depth(u, v) - static_cast<float>(found.depth_offset->value)) /
@@ -59,7 +61,7 @@ class FramePainter {
         if (robot(u, v) > 0.0F && frame.depth(u, v) > 0.0F && std::abs(distance) < farthest)
           image_(u, v) = distance_color(distance);
       }
-    draw_outline(robot, outline_color, image_);
+    draw_outline(robot, outline, image_);
     return std::as_const(image_).view();
   }
 
@@ -80,10 +82,14 @@ std::vector<PagePicture> calibration_pictures(std::span<const KeptFrame> frames,
   for (const KeptFrame& frame : frames.first(std::min(frames.size(), most_frames))) {
     const std::string name = "frame " + std::to_string(frame.index);
     if (options.initial)
-      pictures.push_back({frame.index, picture_uri(painter.draw(frame, found, *options.initial)),
-                          name + ", first guess"});
-    pictures.push_back({frame.index, picture_uri(painter.draw(frame, found, found.T_parent_camera)),
-                        name + ", result"});
+      pictures.push_back(
+          {frame.index,
+           picture_uri(painter.draw(frame, found, *options.initial,
+                                    frame.color.empty() ? outline_color : guess_color)),
+           name + ", first guess"});
+    pictures.push_back(
+        {frame.index, picture_uri(painter.draw(frame, found, found.T_parent_camera, outline_color)),
+         name + ", result"});
   }
   return pictures;
 }

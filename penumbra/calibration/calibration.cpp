@@ -29,8 +29,13 @@ using calibration::State;
 using calibration::Unknowns;
 using detail::fixed;
 
-constexpr std::size_t searched = 10;      // frames on which poses are tried
-constexpr double least_agreeing = 0.6;    // of the robot's measured pixels
+constexpr std::size_t searched = 10;    // frames on which poses are tried
+constexpr double least_agreeing = 0.6;  // of the robot's measured pixels
+/// How well a pose is known when it is fitted to colours: parts of the image's width.
+constexpr std::array color_margins{32, 64, 128};
+/// Of what a pose explains of the images' changes, the share that it explains with the joints of
+/// other frames, too.
+constexpr double most_by_others = 0.6;
 constexpr double elsewhere = 0.7;         // of the frames' median share that agrees
 constexpr double widest_position = 0.03;  // metres, half axis of the 95 % region
 /// The same for masks alone: the robot's distance shows in the size of its picture only.
@@ -44,17 +49,29 @@ Estimate estimate(double value, const Refined& fit, int unknown) {
   return {value, std::sqrt(fit.covariance(unknown, unknown))};
 }
 
-void check_input(std::span<const KeptFrame> frames, const Intrinsics& camera,
+void check_input(std::span<const KeptFrame> frames, const Intrinsics& camera, const Robot& robot,
                  const CalibrationOptions& options) {
   check_enough(frames, "calibration");
   if (!(options.joint_accuracy > 0.0) || (options.accept && !(*options.accept > 0.0)))
     throw InputError("joint_accuracy and accept must be above 0");
   const bool has_depth = !frames.front().depth.empty();
+  const bool has_colors =
+      !has_depth && frames.front().mask.empty() && !frames.front().color.empty();
+  if (has_colors &&
+      !calibration::stands_still(frames, find_camera_parent(robot, options.camera_parent)))
+    throw InputError("colour images show the robot before a camera that stands still, and " +
+                     options.camera_parent + " moves: give masks or depth");
   if (!has_depth && (options.joint_offsets || options.time_offset))
     throw InputError(
-        "offsets of joints and of the time need depth images; masks alone give the "
+        "offsets of joints and of the time need depth images; masks or colours alone give the "
         "camera's pose and its focal length");
   for (const KeptFrame& frame : frames) {
+    if (has_colors) {
+      if (frame.color.width() != camera.width() || frame.color.height() != camera.height())
+        throw InputError("frame " + std::to_string(frame.index) +
+                         ": its colour image is not of the camera's size");
+      continue;
+    }
     if (frame.depth.empty() == has_depth || (frame.depth.empty() && frame.mask.empty()))
       throw InputError("frame " + std::to_string(frame.index) + ": has no " +
                        (has_depth ? "depth image" : "mask"));
@@ -121,7 +138,11 @@ class Calibrator {
                             return frame.mask.empty();
                           });
     unknowns_.has_time = options.time_offset;
-    used_ = calibration::pointers_to(frames);
+    if (has_colors()) {
+      masked_.assign(frames.begin(), frames.end());
+      frames_ = masked_;
+    }
+    used_ = calibration::pointers_to(frames_);
   }
 
   Calibration run() {
@@ -153,6 +174,9 @@ class Calibrator {
 
  private:
   [[nodiscard]] bool has_depth() const { return !frames_.front().depth.empty(); }
+  [[nodiscard]] bool has_colors() const {
+    return !has_depth() && (!masked_.empty() || frames_.front().mask.empty());
+  }
 
   /// Estimates the focal lengths and the joints that the images contradict, if asked for.
   Refined freed(Observer& observer, Refined fit) {
@@ -226,11 +250,46 @@ class Calibrator {
     return sum / static_cast<double>(used_.size());
   }
 
+  /// Finds poses by all colours, and fits each to the borders of masks that the colours give there.
+  Refined best_by_color(Observer& observer) {
+    PoseSearch search(model_, camera_, used_, true, options_.seed);
+    used_.clear();
+    for (const auto& small : search.frames()) used_.push_back(small.frame);
+    if (used_.size() < KeptFrames::least)
+      throw InputError("the camera moves: only " + std::to_string(used_.size()) + " of " +
+                       std::to_string(frames_.size()) + " images show the same view");
+    std::optional<Refined> best;
+    double best_score = 0.0;
+    for (const Eigen::Isometry3d& pose :
+         options_.initial ? std::vector{search.near(*options_.initial)} : search.candidates()) {
+      Refined fit{.state = {.T_parent_camera = pose, .joint_offsets = {}},
+                  .covariance = {},
+                  .link_residuals = {}};
+      for (const int part : color_margins) {
+        mask_for(search, observer, fit.state, part);
+        fit = calibration::refine(observer, unknowns_, used_, fit.state);
+      }
+      const double score = search.score(fit.state);
+      if (best && score <= best_score) continue;
+      best_score = score;
+      best = std::move(fit);
+    }
+    mask_for(search, observer, best->state, color_margins.back());
+    follows_joints_ =
+        best_score > 0.0 && search.score_of_next(best->state) < most_by_others * best_score;
+    return *std::move(best);
+  }
+  void mask_for(const PoseSearch& search, Observer& observer, const State& state, int part) {
+    calibration::mask_by_color(masked_, search.frames(), observer, state, camera_.width() / part);
+  }
+
   Refined best_fit(Observer& observer) {
+    if (has_colors()) return best_by_color(observer);
     FramePointers some;  // spread over all frames
     for (std::size_t i = 0; i < std::min(searched, used_.size()); ++i)
       some.push_back(used_[i * used_.size() / std::min(searched, used_.size())]);
-    PoseSearch search(model_, camera_, some, parent_ == 0, options_.seed);
+    PoseSearch search(model_, camera_, some, calibration::stands_still(frames_, parent_),
+                      options_.seed);
     std::vector<Eigen::Isometry3d> candidates;
     if (options_.initial)
       candidates = {*options_.initial, search.near(*options_.initial)};
@@ -392,27 +451,36 @@ class Calibrator {
       if (frame.used)
         agreeing += frame.agreeing / static_cast<double>(used_.size());
       else
-        result.notes.push_back("frame " + std::to_string(frame.index) + " is left out: only " +
-                               fixed(100.0 * frame.agreeing, 0) +
-                               (has_depth()
-                                    ? " % of the robot's pixels show it where its joints say"
-                                    : " % of mask and robot overlap"));
+        result.notes.push_back("frame " + std::to_string(frame.index) + " is left out: " +
+                               (has_colors()
+                                    ? "its image shows another view than most"
+                                    : "only " + fixed(100.0 * frame.agreeing, 0) +
+                                          (has_depth() ? " % of the robot's pixels show it "
+                                                         "where its joints say"
+                                                       : " % of mask and robot overlap")));
     }
     if (agreeing >= least_agreeing && !fit.covariance.allFinite()) {
       result.faults.push_back(
           "the images do not tell the pose: all frames repeat one view of one link; record poses "
           "in "
           "which links move in the camera's view");
+    } else if (!follows_joints_) {
+      result.faults.push_back(
+          "the images do not show the robot move as its joints say: it is not in view, the joints "
+          "are of other times, or " +
+          std::string(options_.initial ? "the first guess is too far off (--search does without)"
+                                       : "the search found no better pose"));
     } else if (!(agreeing >= least_agreeing)) {
-      result.faults.push_back("only " + fixed(100.0 * agreeing, 0) +
-                              (has_depth() ? " % of the robot's pixels show it at its depth"
-                                           : " % of masks and robot overlap") +
-                              ": the robot is not in view, the URDF is not this robot's, the "
-                              "joints are of other times, "
-                              "or " +
-                              (options_.initial
-                                   ? "the first guess is too far off (--search does without)"
-                                   : "the search found no better pose"));
+      result.faults.push_back(
+          "only " + fixed(100.0 * agreeing, 0) +
+          (has_depth()    ? " % of the robot's pixels show it at its depth"
+           : has_colors() ? " % of the robot and of what hides the background overlap"
+                          : " % of masks and robot overlap") +
+          ": the robot is not in view, the URDF is not this robot's, the "
+          "joints are of other times, "
+          "or " +
+          (options_.initial ? "the first guess is too far off (--search does without)"
+                            : "the search found no better pose"));
     }
   }
 
@@ -432,6 +500,7 @@ class Calibrator {
   }
 
   std::span<const KeptFrame> frames_;
+  std::vector<KeptFrame> masked_;  // those of colour images, with masks
   const Intrinsics& camera_;
   const Robot& robot_;
   const CalibrationOptions& options_;
@@ -440,6 +509,7 @@ class Calibrator {
   Model model_;
   Unknowns unknowns_;
   FramePointers used_;
+  bool follows_joints_ = true;  // what the images show
 };
 
 }  // namespace
@@ -454,7 +524,7 @@ double Calibration::rotation_error() const {
 
 Calibration calibrate(std::span<const KeptFrame> frames, const Intrinsics& camera,
                       const Robot& robot, const CalibrationOptions& options) {
-  check_input(frames, camera, options);
+  check_input(frames, camera, robot, options);
   return Calibrator(frames, camera, robot, options).run();
 }
 

@@ -30,8 +30,10 @@ struct KeptFrame {
   std::optional<Eigen::Isometry3d> T_root_camera = {};  ///< of a frame that was judged
   bool is_resting = true;                               ///< the robot stands still, or has no stamp
 
+  static constexpr std::uint8_t not_known = 128;  ///< of a mask
+
   Image<float> depth = {};          ///< measured, metres; 0: no measurement
-  Image<std::uint8_t> mask = {};    ///< not 0 where the colour image shows the robot
+  Image<std::uint8_t> mask = {};    ///< 0: not the robot; not_known; any other: the robot
   Image<float> virtual_depth = {};  ///< metres; 0: no robot on the ray
   Image<std::uint16_t> links = {};  ///< of virtual_depth: link index + 1; 0: none
   Image<std::uint8_t> labels = {};

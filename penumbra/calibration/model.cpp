@@ -29,6 +29,13 @@ double longest_axis(const Eigen::Matrix3d& covariance) {
   return chi * std::sqrt(std::max(0.0, dense::principal_axes(covariance).values[2]));
 }
 
+bool stands_still(std::span<const KeptFrame> frames, std::size_t link) {
+  constexpr double same = 1e-6;
+  return std::ranges::all_of(frames, [&](const KeptFrame& frame) {
+    return frame.T_root_link[link].isApprox(frames.front().T_root_link[link], same);
+  });
+}
+
 FramePointers pointers_to(std::span<const KeptFrame> frames) {
   FramePointers pointers;
   for (const KeptFrame& frame : frames) pointers.push_back(&frame);

@@ -207,7 +207,8 @@ void Observer::add_outlines(const View& view, const Reach& reach, Residuals& out
       };
       const auto mask_at = [&](int step) {
         const auto [x, y] = pixel(step);
-        return !is_free(step) ? -1 : view.frame.mask(x, y) != 0 ? 1 : 0;
+        if (!is_free(step) || view.frame.mask(x, y) == KeptFrame::not_known) return -1;
+        return view.frame.mask(x, y) != 0 ? 1 : 0;
       };
 
       const Eigen::Vector3d p = camera_.ray(u, v) * edge;
@@ -299,6 +300,7 @@ double Observer::information(const KeptFrame& frame, const State& state, const T
 void Overlap::add(const ImageView<const float>& robot, const Image<std::uint8_t>& mask) {
   for (int v = 0; v < robot.height; ++v)
     for (int u = 0; u < robot.width; ++u) {
+      if (mask(u, v) == KeptFrame::not_known) continue;
       const bool rendered = robot(u, v) > 0.0f, seen = mask(u, v) != 0;
       both += rendered && seen;
       either += rendered || seen;

@@ -31,10 +31,17 @@ bool is_near(const Eigen::Isometry3d& pose, const std::optional<Eigen::Isometry3
 PoseSearch::PoseSearch(const Model& model, const Intrinsics& camera,
                        std::span<const KeptFrame* const> frames, bool camera_is_fixed,
                        std::uint64_t seed)
-    : model_(model), small_(model.robot(), camera, frames), seed_(seed), tolerance_(wide) {
+    : model_(model),
+      small_(model.robot(), camera, frames),
+      seed_(seed),
+      tolerance_(wide),
+      has_colors_(!small_.frames().front().grey.empty()) {
   if (!camera_is_fixed) return;
-  small_.find_moved();
-  find_anchors();
+  if (has_colors_)
+    small_.compare_colors();
+  else
+    small_.find_moved();
+  if (!small_.frames().empty()) find_anchors();
 }
 
 /// Where the moving part of the robot is: the mean of what moved in the image, and of the links.
@@ -45,18 +52,19 @@ void PoseSearch::find_anchors() {
   std::vector<bool> moves(report.size());
   const std::vector<SmallFrames::Small>& frames = small_.frames();
   const bool has_depth = !frames.front().depth.empty();
+  const bool is_whole = !has_depth && !has_colors_;
   for (const SmallFrames::Small& small : frames)
     for (std::size_t link = 0; link < report.size(); ++link)
       moves[link] =
-          moves[link] || (report[link].drawn &&
-                          (!has_depth || !small.frame->T_root_link[link].isApprox(
-                                             frames.front().frame->T_root_link[link], 0.02)));
+          moves[link] ||
+          (report[link].drawn && (is_whole || !small.frame->T_root_link[link].isApprox(
+                                                  frames.front().frame->T_root_link[link], 0.02)));
   for (const SmallFrames::Small& small : frames) {
     Anchor anchor;
     double pixels = 0.0, links = 0.0, seen_spread = 0.0, spread = 0.0;
     for (int v = 0; v < small.moved.height(); ++v)
       for (int u = 0; u < small.moved.width(); ++u) {
-        if (small.moved(u, v) == 0) continue;
+        if (small.moved(u, v) != 1) continue;
         const Eigen::Vector3d ray = small_.camera().ray(u, v);
         anchor.in_camera += has_depth ? ray * small.depth(u, v) : ray;
         seen_spread += ray.squaredNorm();
@@ -64,16 +72,17 @@ void PoseSearch::find_anchors() {
       }
     for (std::size_t link = 0; link < report.size(); ++link) {
       if (!moves[link]) continue;
-      const Eigen::Vector3d centre = small.frame->T_root_link[link] * report[link].bounds.center();
-      anchor.in_root += centre;
+      const Eigen::Vector3d centre = model_.T_root_parent(*small.frame).inverse() *
+                                     small.frame->T_root_link[link] * report[link].bounds.center();
+      anchor.in_parent += centre;
       spread += centre.squaredNorm();
       links += 1.0;
     }
     if (pixels == 0.0 || links == 0.0) continue;
-    anchor = {anchor.in_camera / pixels, anchor.in_root / links};
+    anchor = {anchor.in_camera / pixels, anchor.in_parent / links};
     if (!has_depth) {  // two of the three dimensions are seen
       seen_spread = seen_spread / pixels - anchor.in_camera.squaredNorm();
-      spread = (spread / links - anchor.in_root.squaredNorm()) * 2.0 / 3.0;
+      spread = (spread / links - anchor.in_parent.squaredNorm()) * 2.0 / 3.0;
       if (!(seen_spread > 0.0) || !(spread > 0.0)) continue;
       anchor.in_camera *= std::sqrt(spread / seen_spread);
     }
@@ -88,6 +97,7 @@ double PoseSearch::score(const Eigen::Isometry3d& T_parent_camera, std::size_t e
 }
 
 double PoseSearch::score(const State& state, std::size_t every_frame) {
+  if (has_colors_) return score_colors(state, every_frame);
   int most = 0, missed = 0, seen = 0, past = 0, before = 0;  // pixels
   double overlaps = 0.0;
   const auto tolerance = static_cast<float>(tolerance_);
@@ -171,7 +181,8 @@ Eigen::Isometry3d PoseSearch::near(const Eigen::Isometry3d& start) {
   tolerance_ = wide;
   pose = climb(pose, 0.5 * sigma, 8, start);
   tolerance_ = sharp;
-  return climb(pose, 0.15 * sigma, 6, start);
+  pose = climb(pose, 0.15 * sigma, 6, start);
+  return has_colors_ ? climb(pose, 0.05 * sigma, 6, start) : pose;
 }
 
 /// A guess: any rotation, or every other time that of a camera upright in the root link, as most
@@ -209,9 +220,15 @@ Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random,
   const bool has_depth = !small_.frames().front().depth.empty();
   const double scale = has_depth ? 1.0 : std::exp(distance_sigma * normal(random));
   for (const Anchor& anchor : anchors_)
-    T.translation() += (anchor.in_root - T.linear() * anchor.in_camera * scale) / anchors_.size();
+    T.translation() += (anchor.in_parent - T.linear() * anchor.in_camera * scale) / anchors_.size();
   T.translation() += 0.15 * any();
   return T;
+}
+
+double PoseSearch::rating(const State& state, std::size_t every_frame) {
+  if (!has_colors_) return score(state, every_frame);
+  return score_colors(state, every_frame) -
+         std::max(0.0, score_colors(state, every_frame, every_frame));
 }
 
 std::vector<Eigen::Isometry3d> PoseSearch::candidates(
@@ -229,7 +246,8 @@ std::vector<Eigen::Isometry3d> PoseSearch::candidates(
   const std::size_t every_frame = std::max<std::size_t>(1, small_.frames().size() / few_frames);
   for (std::size_t i = 0; i < guesses; ++i) {
     const Eigen::Isometry3d pose = guess(random, around);
-    candidates.emplace_back(score(pose, every_frame), pose);
+    candidates.emplace_back(rating({.T_parent_camera = pose, .joint_offsets = {}}, every_frame),
+                            pose);
   }
   keep_best(tried);
   Twist sigma;
@@ -238,7 +256,7 @@ std::vector<Eigen::Isometry3d> PoseSearch::candidates(
   tolerance_ = wide;
   for (auto& [its_score, pose] : candidates) {
     pose = climb(pose, sigma, 6, {});
-    its_score = score(pose);
+    its_score = rating({.T_parent_camera = pose, .joint_offsets = {}});
   }
   keep_best(kept);
   std::vector<Eigen::Isometry3d> poses;

@@ -33,6 +33,8 @@ using Twist = Eigen::Matrix<double, 6, 1>;  ///< rotation vector (rad), then tra
 
 using FramePointers = std::vector<const KeptFrame*>;
 [[nodiscard]] FramePointers pointers_to(std::span<const KeptFrame> frames);
+/// Returns whether a link is at one place in all frames.
+[[nodiscard]] bool stands_still(std::span<const KeptFrame> frames, std::size_t link);
 
 /// What is estimated.
 struct State {
@@ -117,6 +119,10 @@ class Model {
   [[nodiscard]] std::vector<std::vector<Twist>> link_twists(const KeptFrame& frame,
                                                             const State& state,
                                                             const Unknowns& unknowns) const;
+  /// Returns where the link that carries the camera is in the root.
+  [[nodiscard]] const Eigen::Isometry3d& T_root_parent(const KeptFrame& frame) const {
+    return frame.T_root_link[parent_];
+  }
   [[nodiscard]] const Robot& robot() const { return robot_; }
 
  private:
@@ -198,6 +204,7 @@ class Observer {
   void overlap(const KeptFrame& frame, const State& state, Overlap& out) {
     out.add(render(frame, state).depth, frame.mask);
   }
+  [[nodiscard]] VirtualDepthView render(const KeptFrame& frame, const State& state);
   [[nodiscard]] const Model& model() const { return model_; }
   /// What observe() estimates from now on.
   void set_unknowns(const Unknowns& unknowns) { unknowns_ = unknowns; }
@@ -208,7 +215,6 @@ class Observer {
   void add_outlines(const View& view, const Reach& reach, Residuals& out) const;
   void add_row(const View& view, const Residual& residual, const Twist& gradient,
                const Eigen::Vector2d& by_focal, const Eigen::Vector3d& ray, Residuals& out) const;
-  [[nodiscard]] VirtualDepthView render(const KeptFrame& frame, const State& state);
 
   const Model& model_;
   Intrinsics nominal_, camera_;  // camera_: with State::focal, that of renderer_
@@ -327,6 +333,8 @@ class SmallFrames {
     const KeptFrame* frame;
     Image<float> depth;
     Image<std::uint8_t> moved;  ///< 1: nearer than the background; without depth, the mask
+    Image<float> grey;          ///< of a colour image in place of both, as bright as most
+    float brightness = 1.0f;    ///< factor that makes it so
     TileMask moved_tiles;       ///< with a pixel of `moved`; only with depth
   };
   static constexpr double occluded = 0.3;  ///< cost of a pixel with something before the robot
@@ -355,6 +363,9 @@ class SmallFrames {
         if (robot.touched->holds(first, v) || small.moved_tiles.holds(first, v))
           f(first, std::min(first + step, width), v);
   }
+  /// Brings colour images to the brightness of most, finds what moved in them, and leaves out those
+  /// that show another view than most.
+  void compare_colors();
   /// Returns a sum over pixels as a share of `most` of them. A robot out of view, or a speck, is as
   /// bad as one in free space.
   [[nodiscard]] double score(double sum, double most, double frames) const;
@@ -369,7 +380,8 @@ class SmallFrames {
 
 /// Rates camera poses on small images: agreement of measured and virtual depth, against what was
 /// measured behind the robot's surface and what moved and is not the robot. Without depth:
-/// intersection over union of robot and masks.
+/// intersection over union of robot and masks; by colours, how much of the images' changes the
+/// robot explains.
 class PoseSearch {
  public:
   PoseSearch(const Model& model, const Intrinsics& camera, std::span<const KeptFrame* const> frames,
@@ -378,6 +390,12 @@ class PoseSearch {
   /// Returns the score: at most 1 if all of the robot's pixels agree.
   [[nodiscard]] double score(const State& state, std::size_t every_frame = 1);
   [[nodiscard]] double score(const Eigen::Isometry3d& T_parent_camera, std::size_t every_frame = 1);
+  /// Returns the score; of colour images, how much lower it is with the joints of other frames: a
+  /// pose that covers what changes by itself explains as much with them.
+  [[nodiscard]] double rating(const State& state, std::size_t every_frame = 1);
+  [[nodiscard]] double score_of_next(const State& state) { return score_colors(state, 1, 1); }
+  /// Returns the images that are used.
+  [[nodiscard]] std::span<const SmallFrames::Small> frames() const { return small_.frames(); }
   /// Returns the best pose near `start`: within 100 mm and 10 degrees.
   [[nodiscard]] Eigen::Isometry3d near(const Eigen::Isometry3d& start);
   /// Returns candidates from everywhere, the best first; or the best one within about 300 mm and
@@ -387,8 +405,11 @@ class PoseSearch {
 
  private:
   struct Anchor {
-    Eigen::Vector3d in_camera = Eigen::Vector3d::Zero(), in_root = Eigen::Vector3d::Zero();
+    Eigen::Vector3d in_camera = Eigen::Vector3d::Zero(), in_parent = Eigen::Vector3d::Zero();
   };
+  [[nodiscard]] double score_colors(const State& state, std::size_t every_frame,
+                                    std::size_t shift = 0);
+  void find_costs(int v, int first, int end, std::size_t every_frame, bool is_still);
   void find_anchors();
   [[nodiscard]] Eigen::Isometry3d guess(std::mt19937_64& random,
                                         const std::optional<Eigen::Isometry3d>& around) const;
@@ -400,6 +421,22 @@ class PoseSearch {
   std::vector<Anchor> anchors_;  // by frame; empty for a camera on a moving link
   std::uint64_t seed_;
   double tolerance_;  // metres
+  bool has_colors_;
+  // For score_colors:
+  std::vector<Image<float>> bare_;  // by frame, 1 where the robot does not cover
+  std::vector<float> all_bare_;     // a row of such
+  std::array<std::vector<float>, 4> sums_;
+  Image<float> seen_;                  // 0: outside of what the lens shows
+  Image<float> still_;                 // each pixel's cost if the robot covers none
+  std::size_t still_every_frame_ = 0;  // for which still_ holds
+  double explainable_ = 0.0;           // its sum
 };
+
+/// Makes masks from the colours of a fixed camera, for a pose that is known within `margin` pixels.
+/// A pixel's background is seen in frames in which the robot is farther off than that. What differs
+/// from it is robot, and what is farther from the robot than that is not known. `small`: of these
+/// frames, in their order; the masks of others know nothing.
+void mask_by_color(std::vector<KeptFrame>& frames, std::span<const SmallFrames::Small> small,
+                   Observer& observer, const State& state, int margin);
 
 }  // namespace penumbra::calibration

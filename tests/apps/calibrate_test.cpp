@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include <io/files/camera_info.hpp>
+#include <io/files/png.hpp>
 #include <io/files/pose_file.hpp>
 
 namespace penumbra::test {
@@ -165,14 +166,98 @@ TEST_F(CalibrateMasksTest, FindsThePoseOfTheMasks) {
 
 TEST_F(CalibrateMasksTest, LeavesOutFramesWithoutAMaskAndRefusesWhatNeedsDepth) {
   fs::remove(path("masked/out/robot_mask/000002.png"));
-  expect_has(succeed(calibrate(masks)).err, {"frames without a mask are left out: 1"});
+  expect_has(succeed(calibrate(masks)).err, {"frames without one are left out: 1"});
   for (const auto& [options, named] :
        {std::pair(masks + Words{"--joint-offsets"}, "need depth images"),
         {masks + Words{"--time-offset"}, "need depth images"},
-        {Words{}, "--masks"},
+        {Words{}, "by --images or --masks"},
         {Words{"--masks", "color/%d.png"}, ""}}) {
     expect_failed(calibrate(options), {named});
   }
+}
+
+TEST_F(CalibrateMasksTest, WhatAMaskDoesNotKnowIsLeftOut) {
+  constexpr std::uint8_t not_known = 128;
+  for (const auto& file : fs::directory_iterator(path("masked/out/robot_mask"))) {
+    Image<std::uint8_t> mask;
+    ASSERT_TRUE(io::read_png(file.path(), mask, {}).ok());
+    for (int v = 0; v < mask.height(); ++v)  // two thirds of its rows
+      for (int u = 0; u < mask.width(); ++u)
+        if (v / 8 % 3 != 0) mask(u, v) = not_known;
+    io::write_png(file.path(), std::as_const(mask).view());
+  }
+  succeed(calibrate(masks + Words{"-o", out()}));
+  constexpr double limit = 0.002;  // metres: as with all of them
+  EXPECT_LT(metres_between(io::read_pose_csv(out("camera_pose.csv")),
+                           io::read_pose_csv(example / "camera_pose.csv")),
+            limit);
+  EXPECT_GT(read_json(out("calibration.json"))["masks"]["overlap"], 0.98);
+}
+
+/// The shipped recording's colour images alone.
+class CalibrateImagesTest : public FolderTest {
+ protected:
+  CalibrateImagesTest() {
+    fs::copy(example, path("in"), fs::copy_options::recursive);
+    edit_file(path("in/recording.yaml"), "  depth: depth/%d.png", "");
+  }
+  Outcome calibrate(const Words& options) const {
+    return penumbra(Words{"calibrate", path("in"), "--images"} + options);
+  }
+};
+
+TEST_F(CalibrateImagesTest, FindThePose) {
+  const Isometry3d truth = io::read_pose_csv(example / "camera_pose.csv");
+  Isometry3d off = truth;
+  off.translation() += Vector3d(0.04, -0.05, 0.05);
+  off.linear() = off.linear() * Eigen::AngleAxisd(0.12, Vector3d(1, 2, -1).normalized()).matrix();
+  io::write_pose_csv(path("off.csv"), off);
+  succeed(calibrate({"--initial", path("off.csv"), "-o", out()}));
+  constexpr double near = 0.006;  // metres: the poses are near each other
+  const Json json = read_json(out("calibration.json"));
+  const double found = metres_between(io::read_pose_csv(out("camera_pose.csv")), truth);
+  EXPECT_LT(found, near);
+  EXPECT_LT(found, json["position_error_95_m"].get<double>());
+  const Json pictures = page_json(read_file(out("report.html")), "penumbra-pictures");
+  EXPECT_EQ(pictures[0]["caption"], "frame 0, first guess");
+}
+
+TEST_F(CalibrateImagesTest, RefuseWhatTheyCannotTell) {
+  expect_failed(calibrate({"--masks", "mask_%d.png"}), {"--masks is given too"});
+  expect_failed(calibrate({"--joint-offsets"}), {"need depth images"});
+  expect_failed(calibrate({"--frames", "0:1"}), {"3 frames"});
+  edit_file(path("in/recording.yaml"), "parent: base_link", "parent: wrist_1_link");
+  expect_failed(calibrate({}), {"a camera that stands still, and wrist_1_link moves"});
+  edit_file(path("in/recording.yaml"), "parent: wrist_1_link", "parent: base_link");
+
+  // The camera shows a still picture while the joints move, then images of another size.
+  for (const auto& file : fs::directory_iterator(path("in/color")))
+    if (file.path().filename() != "0.png")
+      fs::copy_file(path("in/color/0.png"), file.path(), fs::copy_options::overwrite_existing);
+  expect_failed(calibrate({"-o", out()}), {"do not show the robot move as its joints say"});
+  EXPECT_FALSE(fs::exists(out("camera_pose.csv")));
+  Image<Rgb8> small(64, 48);
+  io::write_png(path("in/color/1.png"), std::as_const(small).view());
+  expect_has(calibrate({}).err, {"has 64 x 48 pixels"});
+}
+
+/// Real webcams with strong lenses; a board on the flange, whose corners gave the pose, is not in
+/// the URDF. Four images of the second are of another view.
+TEST(CalibrateWebcam, FindsThePoseOfTheBoard) {
+  PENUMBRA_REQUIRE_DATA();
+  const fs::path webcam = data_folder() / "ur3e_webcam_4";
+  TemporaryFolder folder;
+  const Isometry3d board = io::read_pose_csv(webcam / "board_pose.csv");
+  Isometry3d off = board;
+  off.translation() += Vector3d(0.05, -0.06, 0.05);
+  off.linear() = off.linear() * Eigen::AngleAxisd(0.15, Vector3d(1, 2, -1).normalized()).matrix();
+  io::write_pose_csv(folder.path() / "off.csv", off);
+  const Outcome outcome =
+      succeed(penumbra({"calibrate", webcam, "--images", "--initial", folder.path() / "off.csv",
+                        "-o", folder.path() / "out"}));
+  expect_has(outcome.err, {"frame 15 is left out: its image shows another view"});
+  constexpr double near = 0.006;  // metres; the board's pose is good to one or two millimetres
+  EXPECT_LT(metres_between(io::read_pose_csv(folder.path() / "out/camera_pose.csv"), board), near);
 }
 
 using CalibrateOfAnUnknownCamera = FolderTest;

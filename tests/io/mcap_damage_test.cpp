@@ -37,7 +37,8 @@ class McapDamage : public testing::TestWithParam<Compression> {
 
   McapContents read(const std::string& bytes) {
     const test::MemoryFile file(bytes);
-    // A damaged chunk may claim so much, and Zstandard may ask for it (since 1.5.4+dfsg2-5+deb12u1).
+    // A damaged chunk may claim so much, and Zstandard may ask for it
+    // (since 1.5.4+dfsg2-5+deb12u1).
     const test::MemoryShortage none(most_decompressed(bytes.size()) + 1, 0);
     McapContents all;
     test::refusal([&] { all = test::read_mcap(file.path()); });

@@ -65,6 +65,16 @@ def test_masks_alone_are_enough():
     refuses("need depth images", lambda: calibrated(frames, ROUGH, masks=masks, joint_offsets=True))
 
 
+def test_colour_images_alone_are_enough():
+    opened = penumbra.open(SHIPPED, color=True)
+    frames = [frame.replace(depth=None) for frame in opened]
+    found = calibrated(frames, ROUGH, images=True)
+    assert found.is_good
+    off = np.linalg.norm(found.T_parent_camera[:3, 3] - TRUTH[:3, 3])
+    assert off < min(0.006, found.position_error)
+    refuses("need depth images", lambda: calibrated(frames, ROUGH, images=True, joint_offsets=True))
+
+
 def test_the_time_between_images_and_joints():
     late = 0.03  # seconds: the stamps of the images
     stamps = [frame.stamp for frame in FRAMES]

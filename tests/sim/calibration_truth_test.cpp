@@ -15,14 +15,15 @@ constexpr double rotation_limit = 0.2 * degree;  // rad
 
 /// Frames of the scene "random": the arm in new poses, with things before, behind and beside it.
 struct Seen {
-  explicit Seen(std::uint64_t seed, std::size_t count = 6)
-      : simulation("random", without_color(seed, true)), random(seed, 5) {
+  explicit Seen(std::uint64_t seed, std::size_t count = 6, bool color = false)
+      : simulation("random", options(seed, color)), random(seed, 5) {
     sim::SimFrame frame;
     while (frames.size() < count && simulation.next(frame)) {
       KeptFrame kept{.index = frames.size(),
                      .joints = frame.joints,
                      .T_root_link = std::vector<Eigen::Isometry3d>(robot().links().size()),
-                     .depth = in_metres(frame.depth)};
+                     .depth = in_metres(frame.depth),
+                     .color = frame.color};
       robot().forward_kinematics(kept.joints, kept.T_root_link);
       masks.push_back(mask_of(frame));
       frames.push_back(std::move(kept));
@@ -30,6 +31,12 @@ struct Seen {
   }
 
   [[nodiscard]] const Robot& robot() const { return simulation.robot(); }
+
+  static sim::SimulationOptions options(std::uint64_t seed, bool color) {
+    sim::SimulationOptions options = without_color(seed, true);
+    options.color = color;
+    return options;
+  }
 
   /// MuJoCo's picture of the visible robot.
   static Image<std::uint8_t> mask_of(const sim::SimFrame& frame) {
@@ -146,6 +153,29 @@ TEST_F(CalibrationTruth, MasksAloneAreEnough) {
     EXPECT_FALSE(found.depth_offset || found.shift_right);
     EXPECT_GT(found.mask_overlap, 0.85) << "things before the arm are not in the masks";
   }
+}
+
+TEST_F(CalibrationTruth, ColorsAloneAreEnough) {
+  constexpr std::size_t darker = 2;
+  Seen seen(31, 10, true);
+  for (KeptFrame& frame : seen.frames) {
+    frame.depth = {};
+    if (frame.index != darker) continue;
+    for (std::size_t i = 0; i < frame.color.size(); ++i) {
+      Rgb8& pixel = frame.color.data()[i];
+      pixel = {std::uint8_t(pixel.r / 2), std::uint8_t(pixel.g / 2), std::uint8_t(pixel.b / 2)};
+    }
+  }
+  const Calibration found = seen.from_guess();
+  seen.expect_right(found);
+  EXPECT_TRUE(found.frames[darker].used);
+
+  // Joints of other frames: the robot does not move as they say.
+  const std::vector<Eigen::Isometry3d> first = seen.frames[0].T_root_link;
+  for (std::size_t i = 0; i + 1 < seen.frames.size(); ++i)
+    seen.frames[i].T_root_link = seen.frames[i + 1].T_root_link;
+  seen.frames.back().T_root_link = first;
+  EXPECT_FALSE(seen.from_guess().is_good());
 }
 
 TEST_F(CalibrationTruth, AWrongMaskIsNamed) {
