@@ -38,8 +38,10 @@ namespace {
 
 struct Outcome {
   bool refused = false;
+  std::string fault = {};                 ///< of a refused one
   double position = 0.0, rotation = 0.0;  ///< metres and rad
   double mahalanobis = 0.0;               ///< squared, of the six
+  double region = 0.0;                    ///< half axis of the position's, metres
   double seconds = 0.0;
   double late = 0.0, late_sigma = 0.0;  ///< error of the time offset, and what is stated, seconds
 };
@@ -57,6 +59,7 @@ Outcome calibrated(const RobotChoice& robot, const Setup& setup, std::uint64_t s
   Outcome outcome;
   outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   outcome.refused = !found.is_good();
+  if (outcome.refused) outcome.fault = found.faults.front();
   if (found.time_offset) {
     outcome.late = found.time_offset->value - setup.late;
     outcome.late_sigma = found.time_offset->sigma;
@@ -67,6 +70,7 @@ Outcome calibrated(const RobotChoice& robot, const Setup& setup, std::uint64_t s
   twist << turn.angle() * turn.axis(), error.translation();
   outcome.position = error.translation().norm();
   outcome.rotation = std::abs(turn.angle());
+  outcome.region = found.position_error();
   outcome.mahalanobis = twist.dot(found.covariance.ldlt().solve(twist));
   return outcome;
 }
@@ -85,6 +89,8 @@ std::vector<std::string> run(const RobotChoice& robot, const Setup& setup, std::
     const Outcome outcome = calibrated(robot, setup, seed);
     seconds.push_back(outcome.seconds);
     if (outcome.refused) {
+      std::cerr << robot.name << ", " << setup.name << ", seed " << seed << ": " << outcome.fault
+                << ", off by " << 1e3 * outcome.position << " mm" << std::endl;
       ++refused;
       continue;
     }
@@ -92,6 +98,10 @@ std::vector<std::string> run(const RobotChoice& robot, const Setup& setup, std::
     right += is_right;
     wrong += !is_right;
     held += outcome.mahalanobis < six_freedoms;
+    if (outcome.mahalanobis >= six_freedoms)
+      std::cerr << robot.name << ", " << setup.name << ", seed " << seed << ": off by "
+                << 1e3 * outcome.position << " mm, region " << 1e3 * outcome.region
+                << " mm, outside " << outcome.mahalanobis / six_freedoms << std::endl;
     position.push_back(1e3 * outcome.position);
     rotation.push_back(outcome.rotation / degree);
   }

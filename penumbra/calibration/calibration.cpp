@@ -31,11 +31,13 @@ using detail::fixed;
 
 constexpr std::size_t searched = 10;    // frames on which poses are tried
 constexpr double least_agreeing = 0.6;  // of the robot's measured pixels
+/// Colours differ the farther from an edge the less they do: all of it is off together.
+constexpr double color_step = 2.5;  // pixels
 /// How well a pose is known when it is fitted to colours: parts of the image's width.
 constexpr std::array color_margins{32, 64, 128};
-/// Of what a pose explains of the images' changes, the share that it explains with the joints of
-/// other frames, too.
-constexpr double most_by_others = 0.6;
+/// Of what a pose explains of the images' changes, the share that it does not with the joints of
+/// other frames.
+constexpr double least_by_joints = 0.4;
 constexpr double elsewhere = 0.7;         // of the frames' median share that agrees
 constexpr double widest_position = 0.03;  // metres, half axis of the 95 % region
 /// The same for masks alone: the robot's distance shows in the size of its picture only.
@@ -139,6 +141,7 @@ class Calibrator {
                           });
     unknowns_.has_time = options.time_offset;
     if (has_colors()) {
+      unknowns_.edge_step = color_step;
       masked_.assign(frames.begin(), frames.end());
       frames_ = masked_;
     }
@@ -275,8 +278,9 @@ class Calibrator {
       best = std::move(fit);
     }
     mask_for(search, observer, best->state, color_margins.back());
-    follows_joints_ =
-        best_score > 0.0 && search.score_of_next(best->state) < most_by_others * best_score;
+    const double by_others = search.score_of_others(best->state);
+    follows_joints_ = best_score - by_others >
+                      least_by_joints * std::max(std::abs(best_score), std::abs(by_others));
     return *std::move(best);
   }
   void mask_for(const PoseSearch& search, Observer& observer, const State& state, int part) {

@@ -99,7 +99,8 @@ class InnerColors {
   static constexpr int step = 4;  // pixels: every fourth is enough
 
   [[nodiscard]] std::size_t index(int u, int v) const {
-    return static_cast<std::size_t>(v * (width_ + 1) + u);
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_ + 1) +
+           static_cast<std::size_t>(u);
   }
   [[nodiscard]] std::array<float, 4>& at(int u, int v) { return sums_[index(u, v)]; }
   [[nodiscard]] const std::array<float, 4>& at(int u, int v) const { return sums_[index(u, v)]; }

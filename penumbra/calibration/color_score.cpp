@@ -18,8 +18,8 @@ constexpr int rounds = 2;           // of the robust mean that is the background
 
 }  // namespace
 
-/// Of the pixels first <= u < end of a row, into sums_[2]. Loops over pixels are the inner ones: the
-/// compiler makes vectors of them.
+/// Of the pixels first <= u < end of a row, into sums_[2]. Loops over pixels are the inner ones:
+/// the compiler makes vectors of them.
 void PoseSearch::find_costs(int v, int first, int end, std::size_t every_frame, bool is_still) {
   const std::vector<SmallFrames::Small>& frames = small_.frames();
   const auto for_each_frame = [&](auto&& f) {
@@ -46,12 +46,12 @@ void PoseSearch::find_costs(int v, int first, int end, std::size_t every_frame, 
     for (int u = first; u < end; ++u) mean[u] = sum[u] / std::max(weights[u], 1e-6f);
   }
   std::fill(cost, cost + end, 0.0f);
+  const float covered = static_cast<float>(cost_of_covering_) * any_color;
   for_each_frame([&](const float* grey, const float* bare) {
-    all += never_bare;
+    all += static_cast<float>(cost_of_covering_) * never_bare;
     for (int u = first; u < end; ++u) {
       const float away = (grey[u] - mean[u]) / noise;
-      cost[u] +=
-          bare[u] * std::min(0.5f * away * away, surprise) + (1.0f - bare[u]) * any_color;
+      cost[u] += bare[u] * std::min(0.5f * away * away, surprise) + (1.0f - bare[u]) * covered;
     }
   });
   const float* const seen = &seen_(0, v);
@@ -83,8 +83,7 @@ double PoseSearch::score_colors(const State& state, std::size_t every_frame, std
   for (std::size_t k = 0; k < frames.size(); k += every_frame) {
     const KeptFrame& posed = *frames[(k + shift) % frames.size()].frame;
     const VirtualDepthView robot = small_.render(model_.T_camera_link(posed, state));
-    for (std::size_t j = 0; j < touched.rows.size(); ++j)
-      touched.rows[j] |= robot.touched->rows[j];
+    for (std::size_t j = 0; j < touched.rows.size(); ++j) touched.rows[j] |= robot.touched->rows[j];
     for (int v = 0; v < height; ++v) {
       const float* const rendered = robot.depth.row(v);
       float* const bare = &bare_[k](0, v);

@@ -66,6 +66,7 @@ struct Unknowns {
   double accuracy = 0.0;     ///< rad or m, standard deviation
   bool has_time = false, has_lens = false;
   bool holds_depth = false;  ///< depth offset and scale stay as they are: there may be no depth
+  double edge_step = 1.0;    ///< pixels to which edges are given
 
   [[nodiscard]] int focal() const { return has_shift ? shift + 2 : shift; }
   [[nodiscard]] int joints() const { return focal() + focal_count; }
@@ -393,7 +394,10 @@ class PoseSearch {
   /// Returns the score; of colour images, how much lower it is with the joints of other frames: a
   /// pose that covers what changes by itself explains as much with them.
   [[nodiscard]] double rating(const State& state, std::size_t every_frame = 1);
-  [[nodiscard]] double score_of_next(const State& state) { return score_colors(state, 1, 1); }
+  /// Returns the score of colour images with the joints of other frames.
+  [[nodiscard]] double score_of_others(const State& state, std::size_t every_frame = 1) {
+    return score_colors(state, every_frame, std::max<std::size_t>(1, frames().size() / 2));
+  }
   /// Returns the images that are used.
   [[nodiscard]] std::span<const SmallFrames::Small> frames() const { return small_.frames(); }
   /// Returns the best pose near `start`: within 100 mm and 10 degrees.
@@ -410,6 +414,8 @@ class PoseSearch {
   [[nodiscard]] double score_colors(const State& state, std::size_t every_frame,
                                     std::size_t shift = 0);
   void find_costs(int v, int first, int end, std::size_t every_frame, bool is_still);
+  [[nodiscard]] Eigen::Isometry3d narrowed(const Eigen::Isometry3d& start,
+                                           const std::array<double, 3>& costs);
   void find_anchors();
   [[nodiscard]] Eigen::Isometry3d guess(std::mt19937_64& random,
                                         const std::optional<Eigen::Isometry3d>& around) const;
@@ -420,7 +426,8 @@ class PoseSearch {
   SmallFrames small_;
   std::vector<Anchor> anchors_;  // by frame; empty for a camera on a moving link
   std::uint64_t seed_;
-  double tolerance_;  // metres
+  double tolerance_;               // metres
+  double cost_of_covering_ = 1.0;  // of colours: a factor
   bool has_colors_;
   // For score_colors:
   std::vector<Image<float>> bare_;  // by frame, 1 where the robot does not cover

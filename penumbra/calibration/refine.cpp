@@ -129,7 +129,8 @@ Equations equations_of(const Residuals& residuals, const Unknowns& unknowns, con
       part = {Matrix::Zero(size, size), Vector::Zero(size), Matrix::Zero(size, kinds)};
     part.information.selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
     part.gradient += weight * residual.value * row;
-    part.steps.col(static_cast<Eigen::Index>(k)) += weight * rounded[k] * row;
+    const double step = residual.kind == Kind::surface ? 1.0 : unknowns.edge_step;
+    part.steps.col(static_cast<Eigen::Index>(k)) += weight * step * rounded[k] * row;
   }
   for (Part& part : all.parts) {
     if (part.information.size() == 0) continue;
