@@ -416,6 +416,25 @@ int study_faults(std::size_t runs, const std::string& wanted, std::uint64_t firs
   return 0;
 }
 
+/// Runs setups with each robot, and writes the table if it is whole.
+int write_table(const std::string& name, const std::vector<Setup>& setups, std::uint64_t seeds,
+                const std::string& wanted, const std::string& only) {
+  std::vector<std::vector<std::string>> rows{heads};
+  for (const RobotChoice& robot : robots())
+    for (const Setup& setup : setups) {
+      if (robot.name.find(only) == std::string::npos ||
+          setup.name.find(wanted) == std::string::npos)
+        continue;
+      rows.push_back(run(robot, setup, seeds));
+      for (const std::string& cell : rows.back()) std::cout << cell << "  ";
+      std::cout << std::endl;
+    }
+  if (wanted.empty() && only.empty())
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md", name,
+                table(rows));
+  return 0;
+}
+
 /// The table of calibrations from masks alone.
 int study_masks(std::uint64_t seeds, const std::string& wanted, const std::string& only) {
   const auto with = [](std::string name, std::size_t frames, auto change) {
@@ -437,20 +456,7 @@ int study_masks(std::uint64_t seeds, const std::string& wanted, const std::strin
       with("12, 10 % of the masks wrong", 12, [](Setup& setup) { setup.wrong_masks = 0.1; }),
       with("12, a tool that the URDF lacks", 12, [](Setup& setup) { setup.tool = true; }),
       with("12, something before the arm", 12, [](Setup& setup) { setup.object = true; })};
-  std::vector<std::vector<std::string>> rows{heads};
-  for (const RobotChoice& robot : robots())
-    for (const Setup& setup : setups) {
-      if (robot.name.find(only) == std::string::npos ||
-          setup.name.find(wanted) == std::string::npos)
-        continue;
-      rows.push_back(run(robot, setup, seeds));
-      for (const std::string& cell : rows.back()) std::cout << cell << "  ";
-      std::cout << std::endl;
-    }
-  if (wanted.empty() && only.empty())
-    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md",
-                "calibration_masks", table(rows));
-  return 0;
+  return write_table("calibration_masks", setups, seeds, wanted, only);
 }
 
 /// The table of colour images.
@@ -470,20 +476,7 @@ int study_images(std::uint64_t seeds, const std::string& wanted, const std::stri
       with("12, a tool that the URDF lacks", 12, [](Setup& setup) { setup.tool = true; }),
       with("12, one wrong joint state", 12, [](Setup& setup) { setup.wrong_joints = true; }),
       with("12, `--search`", 12, [](Setup& setup) { setup.search = true; })};
-  std::vector<std::vector<std::string>> rows{heads};
-  for (const RobotChoice& robot : robots())
-    for (const Setup& setup : setups) {
-      if (robot.name.find(only) == std::string::npos ||
-          setup.name.find(wanted) == std::string::npos)
-        continue;
-      rows.push_back(run(robot, setup, seeds));
-      for (const std::string& cell : rows.back()) std::cout << cell << "  ";
-      std::cout << std::endl;
-    }
-  if (wanted.empty() && only.empty())
-    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md",
-                "calibration_images", table(rows));
-  return 0;
+  return write_table("calibration_images", setups, seeds, wanted, only);
 }
 
 /// What happened to runs with few poses.

@@ -36,6 +36,8 @@ Calibration calibrate_frames(const py::iterable& frames, const Given& given, con
     if (!motion[i].stamp)
       throw py::value_error("motion[" + std::to_string(i) + "]: needs a stamp for the time offset");
   std::ranges::stable_sort(motion, {}, &Frame::stamp);
+  if (images && !masks.empty())
+    throw py::value_error("images: masks are given too; leave one of them out");
   using Choice = KeptFrames::Choice;
   KeptFrames chosen(robot, camera_of(given),
                     {.choice = motion.empty() ? Choice::rest_first : Choice::any,
@@ -52,7 +54,10 @@ Calibration calibrate_frames(const py::iterable& frames, const Given& given, con
     std::optional<KeptFrame> kept = chosen.pass(frame);
     if (!kept) continue;
     if (images) {
-      if (frame.color.view.empty()) continue;
+      if (frame.color.view.empty())
+        throw InputError("frames[" + std::to_string(number) + "]: has no colour image" +
+                         (frame.color_message.empty() ? "; open the input with color=True"
+                                                      : ": " + frame.color_message));
       kept->color = chosen.image_of(frame.color.view);
     } else if (!is_empty(frame.depth.view))
       kept->depth = chosen.depth_of(frame.depth.view);

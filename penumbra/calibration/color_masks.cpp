@@ -82,7 +82,7 @@ class InnerColors {
     }
   }
 
-  /// Returns null where there is none.
+  /// Returns null if no inner pixel is near.
   [[nodiscard]] std::optional<Levels> near(int u, int v) const {
     u /= step, v /= step;
     const int u0 = std::clamp(u - reach_, 0, width_), u1 = std::clamp(u + reach_ + 1, 0, width_);

@@ -66,7 +66,7 @@ struct Unknowns {
   double accuracy = 0.0;     ///< rad or m, standard deviation
   bool has_time = false, has_lens = false;
   bool holds_depth = false;  ///< depth offset and scale stay as they are: there may be no depth
-  double edge_step = 1.0;    ///< pixels to which edges are given
+  double edge_step = 1.0;    ///< pixels between two values of an edge
 
   [[nodiscard]] int focal() const { return has_shift ? shift + 2 : shift; }
   [[nodiscard]] int joints() const { return focal() + focal_count; }

@@ -73,6 +73,9 @@ def test_colour_images_alone_are_enough():
     off = np.linalg.norm(found.T_parent_camera[:3, 3] - TRUTH[:3, 3])
     assert off < min(0.006, found.position_error)
     refuses("need depth images", lambda: calibrated(frames, ROUGH, images=True, joint_offsets=True))
+    refuses("color=True", lambda: calibrated(FRAMES, ROUGH, images=True))
+    masks = [np.zeros((480, 640), np.uint8)] * len(frames)
+    refuses("masks are given too", lambda: calibrated(frames, ROUGH, images=True, masks=masks), ValueError)
 
 
 def test_the_time_between_images_and_joints():
