@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spoils right setups by one mistake at a time, and counts what the diagnosis says. Without
-// arguments it writes the table of docs/diagnosis.md. VERBOSE=1 prints each diagnosis.
-// usage: diagnosis_study [TIMES [PART OF A MISTAKE [PART OF A CELL [SEED [CELLS OF EACH KIND]]]]]
+// arguments, or of images or masks, it writes a table of docs/diagnosis.md. VERBOSE=1 prints each
+// diagnosis.
+// usage: diagnosis_study [images | masks]
+//            [TIMES [PART OF A MISTAKE [PART OF A CELL [SEED [CELLS OF EACH KIND]]]]]
 #include "simulated_cell.hpp"
 #include "study_page.hpp"
 
@@ -23,14 +25,14 @@ namespace {
 struct Sequence {
   std::string name;
   std::shared_ptr<const Robot> robot;
-  Intrinsics camera{1, 1, 1, 1, 0, 0};
+  Camera camera{{1, 1, 1, 1, 0, 0}, {}, {}, {}};
   std::size_t parent = 0;
   Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();
   struct Instant {
     std::size_t index;
     std::optional<std::int64_t> stamp;
     std::vector<double> joints;
-    std::shared_ptr<const Image<float>> depth;
+    std::shared_ptr<const KeptFrame> seen;  // its images
   };
   std::vector<Instant> instants;
   double depth_factor = 1.0;
@@ -41,15 +43,37 @@ struct Outcome {
   double seconds = 0.0;
 };
 
-Outcome outcome_of(const Sequence& sequence) {
+Diagnosis diagnosis_of(const Sequence& sequence) {
+  if (sequence.instants[0].seen->depth.empty()) {
+    KeptFrames kept(*sequence.robot, sequence.camera,
+                    {.most = SetupCheck::most_by_color,
+                     .needs_depth = false,
+                     .parent = sequence.parent,
+                     .camera_stays = false,
+                     .columns = 640});
+    for (const auto& instant : sequence.instants) {
+      Frame frame{.index = instant.index, .stamp = instant.stamp};
+      frame.pose.positions = instant.joints;
+      std::optional<KeptFrame> wanted = kept.pass(frame);
+      if (!wanted) continue;
+      const KeptFrame& seen = *instant.seen;
+      if (seen.mask.empty())
+        wanted->color = kept.image_of(seen.color.view());
+      else
+        wanted->mask = kept.image_of(seen.mask.view());
+      kept.add(*std::move(wanted));
+    }
+    return diagnose(kept.frames(), kept.camera(), kept.raw_camera(), *sequence.robot,
+                    sequence.parent, sequence.T_parent_camera);
+  }
   PipelineConfig config;
   config.camera_parent = sequence.robot->links()[sequence.parent];
   config.T_parent_camera = sequence.T_parent_camera;
-  Pipeline pipeline(*sequence.robot, {sequence.camera, {}, {}, {}}, config);
-  SetupCheck check(pipeline.robot(), {sequence.camera, {}, {}, {}}, sequence.parent);
+  Pipeline pipeline(*sequence.robot, sequence.camera, config);
+  SetupCheck check(pipeline.robot(), sequence.camera, sequence.parent);
   Image<float> depth;
   for (const auto& instant : sequence.instants) {
-    depth = *instant.depth;
+    depth = instant.seen->depth;
     for (std::size_t i = 0; i < depth.size(); ++i)
       depth.data()[i] *= static_cast<float>(sequence.depth_factor);
     const FrameReport& report = pipeline.process({.index = instant.index,
@@ -58,9 +82,13 @@ Outcome outcome_of(const Sequence& sequence) {
                                                   .pose = {.positions = instant.joints}});
     check.add(report, instant.joints);
   }
+  return check.diagnose();
+}
+
+Outcome outcome_of(const Sequence& sequence) {
   const auto start = std::clock();
   Outcome outcome;
-  outcome.diagnosis = check.diagnose();
+  outcome.diagnosis = diagnosis_of(sequence);
   outcome.seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   return outcome;
 }
@@ -68,25 +96,28 @@ Outcome outcome_of(const Sequence& sequence) {
 Sequence recorded(const std::filesystem::path& path) {
   io::InputOptions options;
   options.path = path;
+  options.with_color = true;
+  options.needs_depth = false;
   io::RunInput input = io::open_input(options, [](const std::string&) {});
   Sequence sequence;
   sequence.name = path.stem().string();
   sequence.robot = std::make_shared<Robot>(std::move(input.robot));
-  sequence.camera = input.camera->intrinsics;
+  sequence.camera = *input.camera;
   sequence.parent = find_camera_parent(*sequence.robot, input.config.camera_parent);
   sequence.T_parent_camera = input.config.T_parent_camera;
   const auto source = input.frames();
   Frame frame;
   while (source->next(frame)) {
-    auto depth = std::make_shared<Image<float>>(sequence.camera.width(), sequence.camera.height());
-    std::visit(
-        [&](const auto& view) {
-          for (int v = 0; v < view.height; ++v)
-            for (int u = 0; u < view.width; ++u) (*depth)(u, v) = metres_of(view(u, v));
-        },
-        frame.depth.view);
-    sequence.instants.push_back(
-        {sequence.instants.size(), frame.stamp, frame.pose.positions, depth});
+    KeptFrame seen;
+    if (input.config.has_depth) {
+      seen.depth = metres_of(frame.depth.view, {});
+    } else {
+      const ImageView<const Rgb8>& color = frame.color.view;
+      seen.color = Image<Rgb8>(color.width, color.height);
+      std::copy_n(color.data, seen.color.size(), seen.color.data());
+    }
+    sequence.instants.push_back({sequence.instants.size(), frame.stamp, frame.pose.positions,
+                                 std::make_shared<KeptFrame>(std::move(seen))});
   }
   return sequence;
 }
@@ -99,7 +130,7 @@ Sequence simulated(const RobotChoice& choice, const Setup& setup, std::uint64_t 
                   (setup.person ? ", person" : "") + (setup.object ? ", object" : "") + " " +
                   std::to_string(seed);
   sequence.robot = std::make_shared<Robot>(cell.robot());
-  sequence.camera = Cell::intrinsics();
+  sequence.camera.intrinsics = Cell::intrinsics();
   if (setup.on_hand) sequence.parent = *cell.robot().find_link(choice.flange);
   sequence.T_parent_camera = cell.truth();
   if (setup.speed > 0.0) {
@@ -110,14 +141,17 @@ Sequence simulated(const RobotChoice& choice, const Setup& setup, std::uint64_t 
       const double seconds = static_cast<double>(i) / 30.0;
       frame.joints = cell.joints_at(seconds);
       cell.draw(frame);
-      sequence.instants.push_back({i, static_cast<std::int64_t>(1e9 * seconds), frame.joints,
-                                   std::make_shared<Image<float>>(std::move(frame.depth))});
+      if (setup.masks) cell.draw_mask(frame);
+      if (setup.colors) cell.draw_colors(frame);
+      std::vector<double> joints = frame.joints;
+      sequence.instants.push_back({i, static_cast<std::int64_t>(1e9 * seconds), std::move(joints),
+                                   std::make_shared<KeptFrame>(std::move(frame))});
     }
     return sequence;
   }
   for (KeptFrame& frame : cell.frames())
     sequence.instants.push_back(
-        {frame.index, {}, frame.joints, std::make_shared<Image<float>>(std::move(frame.depth))});
+        {frame.index, {}, frame.joints, std::make_shared<KeptFrame>(std::move(frame))});
   return sequence;
 }
 
@@ -167,10 +201,11 @@ std::vector<Fault> faults() {
   };
   const auto focal = [](double sx, double sy, double sc) {
     return [=](Sequence& s, sim::Random&) {
-      s.camera =
-          Intrinsics(s.camera.width(), s.camera.height(), sx * s.camera.fx(), sy * s.camera.fy(),
-                     sc * (s.camera.cx() + 0.5) - 0.5, sc * (s.camera.cy() + 0.5) - 0.5);
-      return "f " + number(s.camera.fx(), 0) + ", cx " + number(s.camera.cx(), 0);
+      const Intrinsics right = s.camera.intrinsics;
+      const Intrinsics& wrong = s.camera.intrinsics =
+          Intrinsics(right.width(), right.height(), sx * right.fx(), sy * right.fy(),
+                     sc * (right.cx() + 0.5) - 0.5, sc * (right.cy() + 0.5) - 0.5);
+      return "f " + number(wrong.fx(), 0) + ", cx " + number(wrong.cx(), 0);
     };
   };
   Eigen::Matrix3d optical_body, gl;
@@ -250,6 +285,12 @@ std::vector<Fault> faults() {
 }
 
 int study_all(int argc, char** argv) {
+  const std::string kind = argc > 1 ? argv[1] : "";
+  const bool by_color = kind == "images", by_masks = kind == "masks";
+  if (by_color || by_masks) --argc, ++argv;
+  const auto is_of_depth = [](Cause cause) {
+    return cause == Cause::depth_unit || cause == Cause::depth_scale || cause == Cause::depth_ray;
+  };
   const int times = argc > 1 ? std::stoi(argv[1]) : 5;
   const std::uint64_t first_seed = argc > 4 ? std::stoull(argv[4]) : 100;
   const std::string wanted = argc > 2 ? argv[2] : "", only = argc > 3 ? argv[3] : "";
@@ -258,8 +299,13 @@ int study_all(int argc, char** argv) {
     return name.find(only) != std::string::npos;
   };
   const std::filesystem::path data = data_folder();
-  for (const char* path : {"xarm7_realsense", "xarm7_realsense_2"})
-    if (is_wanted(path)) cells.push_back(recorded(data / path));
+  if (by_color) {
+    for (const char* path : {"ur3e_webcam_1", "ur3e_webcam_4"})
+      if (is_wanted(path)) cells.push_back(recorded(data / path));
+  } else if (!by_masks) {
+    for (const char* path : {"xarm7_realsense", "xarm7_realsense_2"})
+      if (is_wanted(path)) cells.push_back(recorded(data / path));
+  }
   std::uint64_t seed = 1;
   const int rounds = argc > 5 ? std::stoi(argv[5]) : 1;
   std::vector<RobotChoice> choices = robots();
@@ -271,7 +317,8 @@ int study_all(int argc, char** argv) {
         sim::Random random(++seed, 8);
         const auto chance = [&](double share) { return random.uniform(0.0, 1.0) < share; };
         Setup setup{.name = "", .frames = moves ? 60U : 10U, .speed = moves ? 0.4 : 0.0};
-        setup.on_hand = !moves && chance(0.25);
+        setup.on_hand = !moves && chance(0.25) && !by_color;
+        setup.colors = by_color, setup.masks = by_masks;
         setup.tool = chance(0.4), setup.person = chance(0.3), setup.object = chance(0.3);
         setup.missing = chance(0.3) ? 0.2 : 0.0;
         if (chance(0.33)) {  // a time-of-flight camera
@@ -290,6 +337,7 @@ int study_all(int argc, char** argv) {
                                               "nothing said", "another alone", "CPU s, mean"}};
   for (const Fault& fault : faults()) {
     if (fault.name.find(wanted) == std::string::npos) continue;
+    if ((by_color || by_masks) && is_of_depth(fault.cause)) continue;
     int right = 0, shared = 0, none = 0, wrong = 0, count = 0;
     double longest = 0.0, seconds = 0.0;
     std::uint64_t draw = first_seed;  // each setup and time has its own amount
@@ -323,8 +371,8 @@ int study_all(int argc, char** argv) {
                     number(seconds / std::max(count, 1), 1)});
   }
   if (wanted.empty() && only.empty())
-    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/diagnosis.md", "diagnosis_study",
-                table(rows));
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/diagnosis.md",
+                "diagnosis_" + (kind == "images" || kind == "masks" ? kind : "study"), table(rows));
   return 0;
 }
 

@@ -188,8 +188,9 @@ void bind_calibration(py::module_& m) {
             "A second cause that the frames cannot rule out, or none."},
       Field{"message", &S::message, "One line with the amount and the remedy; empty: nothing."},
       Field{"frame", &S::frame, "Index of the frame that shows it most."},
-      Field{"score", &S::score, "Agreement of measured and virtual depth, at most 1."},
-      Field{"best", &S::best, "The same after the mend."});
+      Field{"score", &S::score, "Agreement of the images and the virtual depth, at most 1."},
+      Field{"best", &S::best, "The same after the mend."},
+      Field{"poses", &S::poses, "Poses of the robot that were compared; below 3 tell little."});
   bind_repr(diagnosis, {"cause", "message"});
   const auto define = [&](auto function) {
     m.def(

@@ -125,11 +125,12 @@ void print_use(const CalibrateArguments& arguments, bool is_bag, const std::stri
 
 /// Returns what is wrong with the input other than the camera's pose; empty: nothing known.
 std::string other_cause(const io::CalibrationInput& input, const CalibrationOptions& options) {
-  if (!options.initial || input.frames.empty() || input.frames.front().depth.empty()) return {};
+  if (!options.initial || input.frames.empty()) return {};
   const Robot& robot = input.input.robot;
   const std::size_t parent =
       options.camera_parent.empty() ? 0 : *robot.find_link(options.camera_parent);
-  const Diagnosis found = diagnose(input.frames, input.camera, robot, parent, *options.initial);
+  const Diagnosis found = diagnose(input.frames, input.camera, input.input.camera->intrinsics,
+                                   robot, parent, *options.initial);
   using Cause = Diagnosis::Cause;
   const bool is_other = found.cause != Cause::camera_pose && found.cause != Cause::unexplained;
   return is_other ? found.message : std::string();

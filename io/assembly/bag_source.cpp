@@ -101,7 +101,11 @@ bool BagSource::read(std::size_t /*number*/, Frame& frame) {
   if (current.scan && time_note_.empty()) time_note_ = current.scan->received->points.time_note;
   frame = std::move(static_cast<Frame&>(current));
   *frame.index += static_cast<std::size_t>(options_.first.value_or(0));
-  if ((options_.topics.color || !options_.topics.has_depth) && options_.with_color) {
+  // Without depth Session diagnoses the setup by some colour images.
+  constexpr std::size_t color_step = 8;
+  const bool has_depth = options_.topics.has_depth;
+  const bool is_shown = options_.with_color && (options_.topics.color || !has_depth);
+  if (is_shown || (!has_depth && !options_.cloud && *frame.index % color_step == 0)) {
     Image<Rgb8> color;
     frame.color_message = current.color_image ? decode_color(*current.color_image,
                                                              options_.camera->cameras.judged, color)

@@ -40,6 +40,7 @@ class FrameReader {
   /// with status missing_joints, before the first row of a later frame. The depth image is read
   /// even if the joints are missing. Images are owned by the frame. Several threads may call this.
   [[nodiscard]] Frame read(std::size_t i, bool with_color) const;
+  [[nodiscard]] bool has_depth() const { return files_.depth.has_value(); }
 
  private:
   class DepthCamera;

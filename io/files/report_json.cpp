@@ -229,6 +229,7 @@ Json summary_json(const Statistics& statistics, std::span<const std::string> mis
             {"missing_links", list(missing_links)},
             {"calibration", drift_json(statistics.drift())},
             {"diagnosis", diagnosis_json(statistics.diagnosis())},
+            {"compared_poses", statistics.diagnosis().poses},
             {"notes", list(notes)}};
   if (statistics.parts() > 0) json["most_parts"] = statistics.parts();
   return json;

@@ -67,6 +67,9 @@ LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatche
     };
   if (tools_->depth) static_cast<void>(tools_->depth->read(job));
   Session& session = tools_->session;
+  constexpr std::size_t color_step = 8;  // frames; enough to diagnose a setup without depth
+  if (!job.scan && !job.setup->cameras()->has_depth && *job.index % color_step == 0)
+    show_color(job, true);
   const FrameReport& report = session.process(job);
   if (const Pipeline& pipeline = session.pipeline(); !job.scan) {
     const bool draws = std::ranges::find(skipped, Result::overlay) == skipped.end();

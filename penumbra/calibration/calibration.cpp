@@ -31,15 +31,11 @@ using detail::fixed;
 
 constexpr std::size_t searched = 10;    // frames on which poses are tried
 constexpr double least_agreeing = 0.6;  // of the robot's measured pixels
-/// The same of colours. On the shared webcams poses that are centimetres off have 0.64 to 0.70,
-/// right ones of ten images and more 0.75 to 0.82.
-constexpr double least_by_color = 0.72;
-constexpr double color_step = 2.5;  // pixels by which the edges of a link may be off together
-/// How well a pose is known when it is fitted to colours: parts of the image's width.
-constexpr std::array color_margins{32, 64, 128};
+constexpr double color_step = 2.5;      // pixels by which the edges of a link may be off together
 /// Of what a pose explains of the images' changes, the share that it does not with the joints of
 /// other frames.
 constexpr double least_by_joints = 0.4;
+constexpr double low_contrast = 0.3;      // PoseSearch::candidates()'s `covering`
 constexpr double elsewhere = 0.7;         // of the frames' median share that agrees
 constexpr double widest_position = 0.03;  // metres, half axis of the 95 % region
 /// The same for masks alone: the robot's distance shows in the size of its picture only.
@@ -162,9 +158,7 @@ class Calibrator {
       result.frames.back().used = std::find(used_.begin(), used_.end(), &frame) != used_.end();
     }
     if (unknowns_.has_shift || !has_depth()) {
-      calibration::Overlap overlap;
-      for (const KeptFrame& frame : frames_) observer.overlap(frame, known.state, overlap);
-      result.mask_overlap = overlap.share();
+      result.mask_overlap = observer.overlap(frames_, known.state);
     }
     judge(result, known);
     if (!result.is_good()) return result;
@@ -265,29 +259,33 @@ class Calibrator {
                        std::to_string(frames_.size()) +
                        " images show the same background: the camera moves");
     std::optional<Refined> best;
-    double best_score = 0.0;
-    for (const Eigen::Isometry3d& pose :
-         options_.initial ? std::vector{search.near(*options_.initial)} : search.candidates()) {
-      Refined fit{.state = {.T_parent_camera = pose, .joint_offsets = {}},
-                  .covariance = {},
-                  .link_residuals = {}};
-      for (const int part : color_margins) {
-        mask_for(search, observer, fit.state, part);
-        fit = calibration::refine(observer, unknowns_, used_, fit.state);
+    double best_score = 0.0, best_overlap = 0.0;
+    const auto try_all = [&](const std::vector<Eigen::Isometry3d>& poses, bool by_score) {
+      for (const Eigen::Isometry3d& pose : poses) {
+        Refined fit = calibration::refine_by_color(masked_, search, observer, unknowns_, pose);
+        const double score = search.score(fit.state),
+                     overlap = observer.overlap(masked_, fit.state);
+        const bool follows = follows_joints(search, fit.state);
+        if (best && (by_score ? score <= best_score : !follows || overlap <= best_overlap))
+          continue;
+        best = std::move(fit);
+        best_score = score, best_overlap = overlap, follows_joints_ = follows;
       }
-      const double score = search.score(fit.state);
-      if (best && score <= best_score) continue;
-      best_score = score;
-      best = std::move(fit);
-    }
-    mask_for(search, observer, best->state, color_margins.back());
-    const double by_others = search.score_of_others(best->state);
-    follows_joints_ = best_score - by_others >
-                      least_by_joints * std::max(std::abs(best_score), std::abs(by_others));
+    };
+    if (options_.initial)
+      try_all({search.near(*options_.initial)}, true);
+    else
+      try_all(search.candidates(), true);
+    // A robot with little contrast to its background scores best out of view.
+    if (!options_.initial && best_overlap < calibration::least_by_color)
+      try_all(search.candidates({}, low_contrast), false);
+    calibration::mask_by_color(masked_, search.frames(), observer, best->state);
     return *std::move(best);
   }
-  void mask_for(const PoseSearch& search, Observer& observer, const State& state, int part) {
-    calibration::mask_by_color(masked_, search.frames(), observer, state, camera_.width() / part);
+  /// Whether the images follow the joints.
+  static bool follows_joints(PoseSearch& search, const State& state) {
+    const double own = search.score(state), others = search.score_of_others(state);
+    return own - others > least_by_joints * std::max(std::abs(own), std::abs(others));
   }
 
   Refined best_fit(Observer& observer) {
@@ -455,7 +453,7 @@ class Calibrator {
   }
 
   void judge(Calibration& result, const Refined& fit) const {
-    const double least = has_colors() ? least_by_color : least_agreeing;
+    const double least = has_colors() ? calibration::least_by_color : least_agreeing;
     double agreeing = 0.0;
     for (const FrameFit& frame : result.frames) {
       if (frame.used)

@@ -139,7 +139,8 @@ Background background_of(std::array<std::vector<float>, 3>& values) {
 /// Where background and robot have the same colour nothing is known. The robot's colour is that of
 /// its inner pixels nearby.
 void mask_by_color(std::vector<KeptFrame>& frames, std::span<const SmallFrames::Small> small,
-                   Observer& observer, const State& state, int margin) {
+                   Observer& observer, const State& state, int part) {
+  const int margin = frames.front().color.width() / part;
   constexpr float same = 2.5f, other = 5.0f;  // sigmas from the background
   std::vector<KeptFrame*> used;
   std::vector<Image<std::int16_t>> away;  // from the outline
@@ -176,6 +177,22 @@ void mask_by_color(std::vector<KeptFrame>& frames, std::span<const SmallFrames::
         if (!robot || background.away(*robot) > other) used[k]->mask(u, v) = 0;
       }
     }
+}
+
+Refined refine_by_color(std::vector<KeptFrame>& frames, const PoseSearch& search,
+                        Observer& observer, const Unknowns& unknowns,
+                        const Eigen::Isometry3d& start) {
+  FramePointers used;
+  for (const SmallFrames::Small& small : search.frames()) used.push_back(small.frame);
+  Refined fit{.state = {.T_parent_camera = start, .joint_offsets = {}},
+              .covariance = {},
+              .link_residuals = {}};
+  for (const int part : {narrow_part / 4, narrow_part / 2, narrow_part}) {
+    mask_by_color(frames, search.frames(), observer, fit.state, part);
+    fit = refine(observer, unknowns, used, fit.state);
+  }
+  mask_by_color(frames, search.frames(), observer, fit.state);
+  return fit;
 }
 
 }  // namespace penumbra::calibration

@@ -18,12 +18,24 @@ constexpr int rounds = 2;           // of the robust mean that is the background
 
 }  // namespace
 
+ColorScore::ColorScore(SmallFrames& frames) : frames_(frames) {
+  const std::vector<SmallFrames::Small>& all = frames.frames();
+  const int width = frames.camera().width(), height = frames.camera().height();
+  still_ = seen_ = Image<float>(width, height);
+  bare_.assign(all.size(), seen_);
+  all_bare_.assign(static_cast<std::size_t>(width), 1.0f);
+  sums_.fill(std::vector<float>(static_cast<std::size_t>(width)));
+  for (std::size_t i = 0; i < seen_.size(); ++i)
+    for (const SmallFrames::Small& small : all)
+      if (small.grey.data()[i] > 0.0f) seen_.data()[i] = 1.0f;
+}
+
 /// Of the pixels first <= u < end of a row, into sums_[2]. Loops over pixels are the inner ones:
 /// the compiler makes vectors of them.
-void PoseSearch::find_costs(int v, int first, int end, std::size_t every_frame, bool is_still) {
-  const std::vector<SmallFrames::Small>& frames = small_.frames();
+void ColorScore::find_costs(int v, int first, int end, bool is_still) {
+  const std::vector<SmallFrames::Small>& frames = frames_.frames();
   const auto for_each_frame = [&](auto&& f) {
-    for (std::size_t k = 0; k < frames.size(); k += every_frame)
+    for (std::size_t k = 0; k < frames.size(); k += every_frame_)
       f(&frames[k].grey(0, v), is_still ? all_bare_.data() : &bare_[k](0, v));
   };
   float* const mean = sums_[0].data();
@@ -46,9 +58,9 @@ void PoseSearch::find_costs(int v, int first, int end, std::size_t every_frame, 
     for (int u = first; u < end; ++u) mean[u] = sum[u] / std::max(weights[u], 1e-6f);
   }
   std::fill(cost, cost + end, 0.0f);
-  const float covered = static_cast<float>(cost_of_covering_) * any_color;
+  const float covered = static_cast<float>(covering_) * any_color;
   for_each_frame([&](const float* grey, const float* bare) {
-    all += static_cast<float>(cost_of_covering_) * never_bare;
+    all += static_cast<float>(covering_) * never_bare;
     for (int u = first; u < end; ++u) {
       const float away = (grey[u] - mean[u]) / noise;
       cost[u] += bare[u] * std::min(0.5f * away * away, surprise) + (1.0f - bare[u]) * covered;
@@ -58,31 +70,23 @@ void PoseSearch::find_costs(int v, int first, int end, std::size_t every_frame, 
   for (int u = first; u < end; ++u) cost[u] = seen[u] * (weights[u] > 0.0f ? cost[u] : all);
 }
 
-/// The likelihood of all colours, compared with that of a scene in which nothing moves.
-double PoseSearch::score_colors(const State& state, std::size_t every_frame, std::size_t shift) {
-  const std::vector<SmallFrames::Small>& frames = small_.frames();
-  const int width = frames.front().grey.width(), height = frames.front().grey.height();
-  if (still_every_frame_ != every_frame) {
-    still_every_frame_ = every_frame;
-    still_ = Image<float>(width, height);
-    bare_.assign(frames.size(), Image<float>(width, height));
-    all_bare_.assign(static_cast<std::size_t>(width), 1.0f);
-    sums_.fill(std::vector<float>(static_cast<std::size_t>(width)));
+double ColorScore::score(
+    const std::function<std::vector<Eigen::Isometry3d>(std::size_t)>& T_camera_link,
+    std::size_t every_frame, double covering) {
+  const int width = still_.width(), height = still_.height();
+  covering_ = covering;
+  if (every_frame_ != every_frame) {
+    every_frame_ = every_frame;
     explainable_ = 1.0;
-    seen_ = Image<float>(width, height);
-    for (std::size_t i = 0; i < seen_.size(); ++i)
-      for (const SmallFrames::Small& small : frames)
-        if (small.grey.data()[i] > 0.0f) seen_.data()[i] = 1.0f;
     for (int v = 0; v < height; ++v) {
-      find_costs(v, 0, width, every_frame, true);
+      find_costs(v, 0, width, true);
       std::copy(sums_[2].begin(), sums_[2].end(), &still_(0, v));
       for (const float cost : sums_[2]) explainable_ += cost;
     }
   }
   TileMask touched(width, height);
-  for (std::size_t k = 0; k < frames.size(); k += every_frame) {
-    const KeptFrame& posed = *frames[(k + shift) % frames.size()].frame;
-    const VirtualDepthView robot = small_.render(model_.T_camera_link(posed, state));
+  for (std::size_t k = 0; k < bare_.size(); k += every_frame) {
+    const VirtualDepthView robot = frames_.render(T_camera_link(k));
     for (std::size_t j = 0; j < touched.rows.size(); ++j) touched.rows[j] |= robot.touched->rows[j];
     for (int v = 0; v < height; ++v) {
       const float* const rendered = robot.depth.row(v);
@@ -93,7 +97,7 @@ double PoseSearch::score_colors(const State& state, std::size_t every_frame, std
   double explained = 0.0;
   touched.for_each_span([&](int u0, int u1, int v0, int v1) {
     for (int v = v0; v < v1; ++v) {
-      find_costs(v, u0, u1, every_frame, false);
+      find_costs(v, u0, u1, false);
       float sum = 0.0f;
       for (int u = u0; u < u1; ++u) sum += still_(u, v) - sums_[2][static_cast<std::size_t>(u)];
       explained += sum;

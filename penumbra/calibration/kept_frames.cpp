@@ -145,7 +145,7 @@ void KeptFrames::add(KeptFrame frame) {
 }
 
 void KeptFrames::check_size(int width, int height) const {
-  if (width == raw_.width() && height == raw_.height()) return;
+  if (is_size(width, height)) return;
   throw InputError("an image is " + std::to_string(width) + "x" + std::to_string(height) +
                    ", the camera's are " + std::to_string(raw_.width()) + "x" +
                    std::to_string(raw_.height()));
@@ -221,9 +221,10 @@ std::optional<KeptFrame> KeptFrames::pass(const Frame& frame) {
   return {};
 }
 
-bool KeptFrames::is_usable(const FrameReport& report) {
+bool KeptFrames::is_usable(const FrameReport& report) const {
   const auto is_finite = [](const Eigen::Isometry3d& T) { return T.matrix().allFinite(); };
-  return has_depth(report.status) && report.T_root_camera && !is_empty(report.depth) &&
+  return has_depth(report.status) && report.T_root_camera &&
+         (!options_.needs_depth || !is_empty(report.depth)) &&
          std::ranges::all_of(report.T_root_link, is_finite);
 }
 

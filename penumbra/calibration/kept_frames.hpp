@@ -92,8 +92,8 @@ class KeptFrames {
   /// Robot::variables(); others: the poses are from TF.
   [[nodiscard]] std::optional<KeptFrame> pass(const FrameReport& report,
                                               std::span<const double> joints);
-  /// Returns whether a judged frame has depth and the poses of all links.
-  [[nodiscard]] static bool is_usable(const FrameReport& report);
+  /// Returns whether a judged frame has the poses of all links, and depth if that is needed.
+  [[nodiscard]] bool is_usable(const FrameReport& report) const;
   /// Keeps the frame of the last pass(); drops others when there are too many.
   void add(KeptFrame frame);
 
@@ -121,8 +121,14 @@ class KeptFrames {
     return image_of(metres.view());
   }
 
+  /// Returns whether an image is of the camera's size.
+  [[nodiscard]] bool is_size(int width, int height) const {
+    return width == raw_.width() && height == raw_.height();
+  }
   /// Returns how many pixels of an image become one of the kept image, in each direction.
   [[nodiscard]] int block() const { return block_; }
+  /// Returns the camera of the images as they come, without its lens.
+  [[nodiscard]] const Intrinsics& raw_camera() const { return raw_; }
   /// Returns the camera of the kept images.
   [[nodiscard]] const Intrinsics& camera() const { return camera_; }
   [[nodiscard]] std::span<const KeptFrame> frames() const { return frames_; }

@@ -31,16 +31,14 @@ bool is_near(const Eigen::Isometry3d& pose, const std::optional<Eigen::Isometry3
 PoseSearch::PoseSearch(const Model& model, const Intrinsics& camera,
                        std::span<const KeptFrame* const> frames, bool camera_is_fixed,
                        std::uint64_t seed)
-    : model_(model),
-      small_(model.robot(), camera, frames),
-      seed_(seed),
-      tolerance_(wide),
-      has_colors_(!small_.frames().front().grey.empty()) {
+    : model_(model), small_(model.robot(), camera, frames), seed_(seed), tolerance_(wide) {
   if (!camera_is_fixed) return;
-  if (has_colors_)
-    small_.compare_colors();
-  else
+  if (small_.frames().front().grey.empty()) {
     small_.find_moved();
+  } else {
+    small_.compare_colors();
+    colors_.emplace(small_);
+  }
   if (!small_.frames().empty()) find_anchors();
 }
 
@@ -52,7 +50,7 @@ void PoseSearch::find_anchors() {
   std::vector<bool> moves(report.size());
   const std::vector<SmallFrames::Small>& frames = small_.frames();
   const bool has_depth = !frames.front().depth.empty();
-  const bool is_whole = !has_depth && !has_colors_;
+  const bool is_whole = !has_depth && !colors_;
   for (const SmallFrames::Small& small : frames)
     for (std::size_t link = 0; link < report.size(); ++link)
       moves[link] =
@@ -96,8 +94,17 @@ double PoseSearch::score(const Eigen::Isometry3d& T_parent_camera, std::size_t e
   return score(state, every_frame);
 }
 
+double PoseSearch::score_colors(const State& state, std::size_t every_frame, std::size_t shift) {
+  const std::vector<SmallFrames::Small>& all = small_.frames();
+  return colors_->score(
+      [&](std::size_t k) {
+        return model_.T_camera_link(*all[(k + shift) % all.size()].frame, state);
+      },
+      every_frame, cost_of_covering_);
+}
+
 double PoseSearch::score(const State& state, std::size_t every_frame) {
-  if (has_colors_) return score_colors(state, every_frame);
+  if (colors_) return score_colors(state, every_frame);
   int most = 0, missed = 0, seen = 0, past = 0, before = 0;  // pixels
   double overlaps = 0.0;
   const auto tolerance = static_cast<float>(tolerance_);
@@ -174,7 +181,7 @@ Eigen::Isometry3d PoseSearch::climb(Eigen::Isometry3d mean, const Twist& sigma, 
 }
 
 Eigen::Isometry3d PoseSearch::near(const Eigen::Isometry3d& start) {
-  if (!has_colors_) return narrowed(start, {1.0, 1.0, 1.0});
+  if (!colors_) return narrowed(start, {1.0, 1.0, 1.0});
   // A robot that covers much without contrast is explained best out of view, unless covering costs
   // little at first. Then one with contrast may cover too much.
   const Eigen::Isometry3d strict = narrowed(start, {1.0, 1.0, 1.0});
@@ -196,7 +203,7 @@ Eigen::Isometry3d PoseSearch::narrowed(const Eigen::Isometry3d& start,
   tolerance_ = sharp;
   cost_of_covering_ = costs[2];
   pose = climb(pose, 0.15 * sigma, 6, start);
-  return has_colors_ ? climb(pose, 0.05 * sigma, 6, start) : pose;
+  return colors_ ? climb(pose, 0.05 * sigma, 6, start) : pose;
 }
 
 /// A guess: any rotation, or every other time that of a camera upright in the root link, as most
@@ -240,13 +247,14 @@ Eigen::Isometry3d PoseSearch::guess(std::mt19937_64& random,
 }
 
 double PoseSearch::rating(const State& state, std::size_t every_frame) {
-  if (!has_colors_) return score(state, every_frame);
+  if (!colors_) return score(state, every_frame);
   return score_colors(state, every_frame) - std::max(0.0, score_of_others(state, every_frame));
 }
 
 std::vector<Eigen::Isometry3d> PoseSearch::candidates(
-    const std::optional<Eigen::Isometry3d>& around) {
+    const std::optional<Eigen::Isometry3d>& around, double covering) {
   constexpr std::size_t few_frames = 3;
+  cost_of_covering_ = covering;
   const std::size_t guesses = around ? 1500 : 20000, tried = around ? 5 : 32, kept = around ? 1 : 4;
   std::vector<std::pair<double, Eigen::Isometry3d>> candidates;  // with their scores
   const auto keep_best = [&](std::size_t count) {

@@ -13,16 +13,28 @@ constexpr double least_of_scan = 0.0005;  // the same where most of the image is
 }  // namespace
 
 Agreement::Agreement(const Setup& setup, std::span<const KeptFrame* const> frames)
-    : setup_(setup), small_(setup.robot, setup.camera, frames) {}
+    : setup_(setup), small_(setup.robot, setup.camera, frames) {
+  if (!setup.has_colors()) return;
+  small_.compare_colors();
+  colors_.emplace(small_);
+}
+
+/// Of a frame for which the hypothesis has no poses, the given ones.
+Poses Agreement::T_camera_link(const Hypothesis& hypothesis, std::size_t frame) const {
+  const Poses& of_hypothesis = hypothesis.T_root_link[frame];
+  const Poses& T_root_link =
+      of_hypothesis.empty() ? setup_.frames[frame].T_root_link : of_hypothesis;
+  const Eigen::Isometry3d T_camera_root =
+      (T_root_link[setup_.parent] * hypothesis.T_parent_camera).inverse();
+  Poses poses;
+  poses.reserve(T_root_link.size());
+  for (const Eigen::Isometry3d& pose : T_root_link) poses.push_back(T_camera_root * pose);
+  return poses;
+}
 
 Agreement::Counts Agreement::count(const Hypothesis& hypothesis, std::size_t frame,
                                    float tolerance) {
-  const Poses& T_root_link = hypothesis.T_root_link[frame];
-  const Eigen::Isometry3d T_camera_root =
-      (T_root_link[setup_.parent] * hypothesis.T_parent_camera).inverse();
-  Poses T_camera_link;
-  for (const Eigen::Isometry3d& pose : T_root_link) T_camera_link.push_back(T_camera_root * pose);
-  const VirtualDepthView view = small_.render(T_camera_link);
+  const VirtualDepthView view = small_.render(T_camera_link(hypothesis, frame));
   const auto factor = static_cast<float>(hypothesis.depth_factor);
   const SmallFrames::Small& small = small_.frames()[frame];
   Counts counts;
@@ -62,9 +74,53 @@ std::size_t Agreement::worst() const {
       given_.begin());
 }
 
+Rating Agreement::rate_masks(const Hypothesis& hypothesis) {
+  Rating rating;
+  const bool is_given = given_.empty();
+  const auto frames = static_cast<double>(compared());
+  for (std::size_t k = 0; k < compared(); ++k) {
+    calibration::Overlap overlap;
+    overlap.add(small_.render(T_camera_link(hypothesis, k)).depth, small_.frames()[k].moved);
+    const auto both = static_cast<double>(overlap.both);
+    if (is_given) given_.push_back({.score = overlap.share(), .agreeing = both});
+    rating.score += overlap.share() / frames;
+    rating.more += (both - given_[k].agreeing) / frames;
+  }
+  rating.fit = rating.score;
+  return rating;
+}
+
+Rating Agreement::rate_colors(const Hypothesis& hypothesis) {
+  const std::vector<SmallFrames::Small>& small = small_.frames();
+  const auto score = [&](std::size_t shift) {
+    return colors_->score([&](std::size_t k) {
+      const KeptFrame* const of = small[(k + shift) % small.size()].frame;
+      return T_camera_link(hypothesis, static_cast<std::size_t>(of - setup_.frames.data()));
+    });
+  };
+  Rating rating{.score = score(0)};
+  const double by_others = score(calibration::half_of(small.size()));
+  const double most = std::max(std::abs(rating.score), std::abs(by_others));
+  if (most > 0.0) rating.fit = (rating.score - by_others) / most;
+  if (given_.empty()) {
+    given_score_ = rating.score;
+    given_.resize(setup_.frames.size(), {.score = 1.0});
+    for (const SmallFrames::Small& one : small) {
+      const auto at = static_cast<std::size_t>(one.frame - setup_.frames.data());
+      calibration::Overlap overlap;
+      overlap.add(small_.render(T_camera_link(hypothesis, at)).depth, one.moved);
+      given_[at].score = overlap.share();
+    }
+  }
+  rating.more = rating.score - given_score_;
+  return rating;
+}
+
 Rating Agreement::rate(const Hypothesis& hypothesis, double tolerance) {
-  if (setup_.parent == 0) small_.find_moved(hypothesis.depth_factor);
   small_.set_camera(hypothesis.camera);
+  if (colors_) return rate_colors(hypothesis);
+  if (setup_.has_masks()) return rate_masks(hypothesis);
+  if (setup_.parent == 0) small_.find_moved(hypothesis.depth_factor);
   const bool is_given = given_.empty();
   Counts sum, of_given, all_given;
   double used = 0.0;

@@ -13,26 +13,40 @@ namespace diagnosis {
 namespace {
 
 constexpr double wide = 0.06;        // metres between measured and virtual depth that agree
-constexpr double least_gain = 0.03;  // of the score; right setups gain up to 0.012
-constexpr double explains = 0.85;    // of the best gain: as good as the best
-constexpr double great_gain = 0.3;   // of the score
-constexpr double good_fit = 0.8;     // Rating::fit of a right setup, about
-constexpr double least_fit = 0.6;    // of one that is named
 constexpr double may_explain = 0.6;  // of the best gain: cannot be ruled out
+constexpr double good_fit = 0.8;     // Rating::fit of a right setup, about
+
+struct Limits {
+  double gain, great_gain;  // of the score, of a mistake that is named, and of one beyond doubt
+  double fit;               // of one that is named
+  double explains;          // of the best gain: as good as the best
+};
+constexpr Limits usual{0.03, 0.3, 0.6, 0.85};  // right setups gain up to 0.012
+/// Their best score is 0.1 to 0.5, and right setups gain up to 0.015. A pose is judged by its
+/// masks: what explains a little less is another mistake.
+constexpr Limits of_colors{0.02, 0.08, 0.4, 0.95};
 
 class Comparison {
  public:
   explicit Comparison(const Setup& setup)
       : setup_(setup),
+        limits_(setup.has_colors() ? of_colors : usual),
         model_(setup.robot, setup.parent),
-        observer_(model_, setup.camera, {}),
+        unknowns_{.holds_depth = !setup.has_depth()},
+        observer_(model_, setup.camera, unknowns_),
         frames_(calibration::pointers_to(setup.frames)),
         agreement_(setup, frames_),
-        given_(agreement_.rate(as_given(setup), wide)) {}
+        given_(agreement_.rate(as_given(setup), wide)) {
+    if (!setup.has_colors()) return;
+    masked_.assign(setup.frames.begin(), setup.frames.end());
+    frames_ = calibration::pointers_to(masked_);
+  }
 
   Diagnosis run(bool is_suspicious) {
     Diagnosis result;
+    if (agreement_.compared() < std::min(KeptFrames::least, frames_.size())) return result;
     result.score = given_.score;
+    result.poses = agreement_.compared();
     result.frame = setup_.frames[agreement_.worst()].index;
     if (is_suspicious) {
       for (Hypothesis& hypothesis : mistakes(setup_)) add(std::move(hypothesis));
@@ -42,7 +56,9 @@ class Comparison {
       std::erase_if(rated_, [](const Hypothesis& rated) { return !!rated.with_amount; });
     else if (!is_explained())
       add_pose();
-    std::erase_if(rated_, [](const Hypothesis& rated) { return !(rated.rating.more > 0.0); });
+    std::erase_if(rated_, [&](const Hypothesis& rated) {
+      return !(rated.rating.more > 0.0) || (setup_.has_colors() && rated.rating.fit < limits_.fit);
+    });
     std::ranges::stable_sort(rated_, std::ranges::greater{},
                              [](const Hypothesis& rated) { return rated.rating.score; });
     choose(result);
@@ -55,8 +71,13 @@ class Comparison {
   [[nodiscard]] bool is_explained() const {
     return std::ranges::any_of(rated_, [&](const Hypothesis& rated) {
       return !rated.with_amount && rated.rating.fit > good_fit &&
-             rated.rating.score > std::max(0.0, given_.score) + great_gain;
+             rated.rating.score > std::max(0.0, given_.score) + limits_.great_gain;
     });
+  }
+
+  [[nodiscard]] bool is_fixed() const { return setup_.parent == 0 || setup_.has_colors(); }
+  [[nodiscard]] bool shows_robot() const {
+    return shows_robot_.value_or(given_.fit >= limits_.fit);
   }
 
   void add(Hypothesis hypothesis) {
@@ -94,36 +115,74 @@ class Comparison {
 
   /// Adds the camera's pose that fits best.
   void add_pose() {
+    if (setup_.has_colors()) return add_pose_by_color();
     // A camera on a moving link sees less of the robot in each frame.
-    const std::size_t count =
-        setup_.parent == 0 ? std::min<std::size_t>(4, frames_.size()) : frames_.size();
+    const std::size_t count = is_fixed() && setup_.has_depth()
+                                  ? std::min<std::size_t>(4, frames_.size())
+                                  : frames_.size();
     calibration::FramePointers some;
     for (std::size_t i = 0; i < count; ++i) some.push_back(frames_[i * frames_.size() / count]);
     std::vector<Eigen::Isometry3d> starts{setup_.T_parent_camera};
     if (given_.fit < good_fit) {
-      calibration::PoseSearch search(model_, setup_.camera, some, setup_.parent == 0, 1);
+      calibration::PoseSearch search(model_, setup_.camera, some, is_fixed(), 1);
       starts.push_back(search.candidates(starts[0]).front());
-      if (setup_.parent != 0) starts.push_back(search.near(starts[0]));
+      if (!is_fixed() || setup_.has_masks()) starts.push_back(search.near(starts[0]));
     }
     Hypothesis best = as_given(setup_);
     best.rating.score = -10.0;
     for (const Eigen::Isometry3d& start : starts) {
-      calibration::State state;
-      state.T_parent_camera = start;
-      calibration::Refined refined = calibration::refine(observer_, {}, frames_, state);
-      Hypothesis hypothesis = as_given(setup_);
-      hypothesis.cause = Cause::camera_pose;
-      hypothesis.T_parent_camera = refined.state.T_parent_camera;
-      hypothesis.rating = agreement_.rate(hypothesis, wide);
+      calibration::Refined refined = calibration::refine(
+          observer_, unknowns_, frames_, {.T_parent_camera = start, .joint_offsets = {}});
+      Hypothesis hypothesis = with_pose(refined.state.T_parent_camera);
       if (hypothesis.rating.score <= best.rating.score) continue;
       best = std::move(hypothesis);
       refined_ = std::move(refined);
     }
+    add_refined(std::move(best));
+  }
+
+  void add_refined(Hypothesis hypothesis) {
     // Farther off it is another mistake, which the search happens to undo.
-    constexpr double farthest = 1.0;  // metres
+    const double farthest = setup_.has_colors() ? 0.4 : 1.0;  // metres
     if (off().position() > farthest) return;
-    best.message = pose_text();
-    rated_.push_back(std::move(best));
+    hypothesis.message = pose_text();
+    rated_.push_back(std::move(hypothesis));
+  }
+
+  [[nodiscard]] Hypothesis with_pose(const Eigen::Isometry3d& T_parent_camera) {
+    Hypothesis hypothesis = as_given(setup_);
+    hypothesis.cause = Cause::camera_pose;
+    hypothesis.T_parent_camera = T_parent_camera;
+    hypothesis.rating = agreement_.rate(hypothesis, wide);
+    return hypothesis;
+  }
+
+  /// The same by colours: searches take seconds, and are made if the given pose does not lead
+  /// there.
+  void add_pose_by_color() {
+    using calibration::State;
+    const Eigen::Isometry3d& given = setup_.T_parent_camera;
+    calibration::PoseSearch search(model_, setup_.camera, frames_, true, 1);
+    const auto overlap = [&](const State& state) { return observer_.overlap(masked_, state); };
+    const State as_given{.T_parent_camera = given, .joint_offsets = {}};
+    calibration::mask_by_color(masked_, search.frames(), observer_, as_given);
+    shows_robot_ = overlap(as_given) >= calibration::least_by_color;
+    const auto fits_from = [&](const Eigen::Isometry3d& start) {
+      refined_ = calibration::refine_by_color(masked_, search, observer_, unknowns_, start);
+      return overlap(refined_->state) >= calibration::least_by_color;
+    };
+    std::vector<Eigen::Isometry3d> found;
+    bool fits = fits_from(given);
+    if (!fits) fits = fits_from(found.emplace_back(search.near(given)));
+    if (!fits) fits = fits_from(found.emplace_back(search.candidates(given).front()));
+    if (fits) return add_refined(with_pose(refined_->state.T_parent_camera));
+    refined_.reset();
+    for (const Eigen::Isometry3d& pose : found) {
+      rated_.push_back(with_pose(pose));
+      rated_.back().message =
+          "the camera's pose or camera_info is off, and these frames do not tell which and how "
+          "far: run 'penumbra calibrate --search' on this input";
+    }
   }
 
   /// How far the camera is from where it is said to be.
@@ -150,14 +209,16 @@ class Comparison {
   void name_small_error(Diagnosis& result) {
     constexpr double certain = 1.5;  // error bars: one in a thousand right setups is this far off
     constexpr double position = 0.008, rotation = 0.5 * std::numbers::pi / 180.0;  // metres, rad
-    if (!refined_ || !refined_->covariance.allFinite() || given_.fit < least_fit) return;
+    if (!refined_ || !refined_->covariance.allFinite()) return;
+    if (!setup_.has_colors() && !shows_robot()) return;
     const Drift found = off();
     if (!(found.position() > position && found.position() > certain * found.position_error()) &&
         !(found.rotation() > rotation && found.rotation() > certain * found.rotation_error()))
       return;
     result.cause = Cause::camera_pose;
     result.message = pose_text();
-    calibration::Explained explained = calibration::explain(observer_, {}, frames_, *refined_);
+    calibration::Explained explained =
+        calibration::explain(observer_, unknowns_, frames_, *refined_);
     if (setup_.is_scanner)  // its images have the focal length that they were drawn with
       std::erase_if(explained.causes, [](const calibration::FoundCause& one) {
         return one.cause.kind == calibration::Cause::Kind::focal;
@@ -166,9 +227,9 @@ class Comparison {
     using Kind = calibration::Cause::Kind;
     const Kind kind = explained.causes.front().cause.kind;
     result.other = Cause::camera_pose;
-    result.cause = kind == Kind::focal   ? Cause::intrinsics
-                   : kind == Kind::joint ? Cause::joint_zero
-                                         : Cause::joint_time;
+    result.cause = kind == Kind::joint   ? Cause::joint_zero
+                   : kind == Kind::clock ? Cause::joint_time
+                                         : Cause::intrinsics;
     result.message =
         calibration::text_of(explained.causes.front(), explained, setup_.robot, setup_.camera) +
         "; or " + result.message;
@@ -176,17 +237,20 @@ class Comparison {
 
   /// Of those that explain as much as the best, the simplest; and what else cannot be ruled out.
   void choose(Diagnosis& result) const {
-    if (rated_.empty() || rated_.front().rating.fit < least_fit) {
-      if (given_.fit >= least_fit) return;
+    if (rated_.empty() || rated_.front().rating.fit < limits_.fit) {
+      if (shows_robot()) return;
       result.cause = Cause::unexplained;
       result.message =
-          "the depth images do not show the robot where the setup says, and no single known "
-          "mistake "
-          "explains it: compare the overlay of frame " +
+          std::string("the ") +
+          (setup_.has_depth()   ? "depth images"
+           : setup_.has_masks() ? "masks"
+                                : "colour images") +
+          " do not show the robot where the setup says, and no single known mistake explains it: "
+          "compare the overlay of frame " +
           std::to_string(result.frame) +
           " with the URDF, the joint positions, camera_info and the camera's pose (of the optical "
           "frame, in metres)";
-      if (largest_depth(setup_) <= normalised)
+      if (setup_.has_depth() && largest_depth(setup_) <= normalised)
         result.message += "; no depth is above 1 m: is it normalised to 0 to 1? give metres";
       if (setup_.frames.size() < KeptFrames::least)
         result.message += "; three different poses of the robot would tell more";
@@ -195,7 +259,8 @@ class Comparison {
     result.best = rated_.front().rating.score;
     const double gain = result.best - given_.score;
     // Few frames fit some wrong setup by chance.
-    if (gain < (setup_.frames.size() < KeptFrames::least ? great_gain : least_gain)) return;
+    if (gain < (setup_.frames.size() < KeptFrames::least ? limits_.great_gain : limits_.gain))
+      return;
     const auto explained = [&](const Hypothesis& rated) {
       return (rated.rating.score - given_.score) / gain;
     };
@@ -204,15 +269,22 @@ class Comparison {
     };
     const Hypothesis* best = &rated_.front();
     for (const Hypothesis& rated : rated_)
-      if (explained(rated) >= explains && unknowns(rated) < unknowns(*best)) best = &rated;
+      if (explained(rated) >= limits_.explains && rated.rating.fit >= limits_.fit &&
+          unknowns(rated) < unknowns(*best))
+        best = &rated;
     result.cause = best->cause;
     result.message = best->message;
+    if (best->cause == Cause::camera_pose && !refined_) {
+      result.other = Cause::intrinsics;
+      return;
+    }
     const auto is_other = [&](Cause cause) {  // a unit is a scale
-      return cause != result.cause &&
+      return cause != result.cause && (cause != Cause::camera_pose || refined_) &&
              !(result.cause == Cause::depth_unit && cause == Cause::depth_scale);
     };
     for (const Hypothesis& rated : rated_)
-      if (explained(rated) >= may_explain && is_other(rated.cause)) {
+      if (explained(rated) >= may_explain && rated.rating.fit >= limits_.fit &&
+          is_other(rated.cause)) {
         result.other = rated.cause;
         result.message += "; or " + rated.message;
         break;
@@ -220,12 +292,16 @@ class Comparison {
   }
 
   const Setup& setup_;
+  const Limits& limits_;
   calibration::Model model_;
+  calibration::Unknowns unknowns_;
   calibration::Observer observer_;
+  std::vector<KeptFrame> masked_;  // those of colour images, with masks
   calibration::FramePointers frames_;
   Agreement agreement_;
   Rating given_;
   std::optional<calibration::Refined> refined_;  // the camera's pose that fits best
+  std::optional<bool> shows_robot_;  // by colours: the background is hidden where the robot is
   std::vector<Hypothesis> rated_;
 };
 
@@ -241,11 +317,12 @@ std::string_view to_string(Diagnosis::Cause cause) {
   return names.at(static_cast<std::size_t>(cause));
 }
 
-Diagnosis diagnose(std::span<const KeptFrame> frames, const Intrinsics& camera, const Robot& robot,
-                   std::size_t camera_parent, const Eigen::Isometry3d& T_parent_camera,
-                   bool is_suspicious, bool is_scanner) {
+Diagnosis diagnose(std::span<const KeptFrame> frames, const Intrinsics& camera,
+                   const Intrinsics& raw_camera, const Robot& robot, std::size_t camera_parent,
+                   const Eigen::Isometry3d& T_parent_camera, bool is_suspicious, bool is_scanner) {
   if (frames.empty()) return {};
-  const diagnosis::Setup setup{frames, camera, robot, camera_parent, T_parent_camera, is_scanner};
+  const diagnosis::Setup setup{frames,        camera,          raw_camera, robot,
+                               camera_parent, T_parent_camera, is_scanner};
   Diagnosis found = diagnosis::Comparison(setup).run(is_suspicious);
   if (is_scanner) found.message = calibration::of_scans(std::move(found.message));
   return found;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include <penumbra/base/image.hpp>
 #include <penumbra/calibration/kept_frames.hpp>
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/pipeline/frame.hpp>
@@ -42,6 +43,7 @@ struct Diagnosis {
   std::size_t frame = 0;      ///< index of the frame that shows it most
   double score = 0.0;         ///< agreement of the setup as given, at most 1
   double best = 0.0;          ///< the same after the mend
+  std::size_t poses = 0;      ///< of the robot that were compared; fewer than 3 tell little
 };
 
 [[nodiscard]] std::string_view to_string(Diagnosis::Cause cause);
@@ -49,21 +51,28 @@ struct Diagnosis {
 /// Keeps a few frames of a sequence, between which the robot moves, and diagnoses the setup.
 class SetupCheck {
  public:
-  static constexpr std::size_t most = 12;  ///< frames that are kept
+  static constexpr std::size_t most = 12;           ///< frames that are kept
+  static constexpr std::size_t most_by_color = 20;  ///< the same of Sensor::color
 
-  /// `camera`: of the reports' images; `camera_parent`: index of the link that carries it.
-  /// `is_scanner`: they are drawn from a sensor's scans, and the camera is the sensor.
+  enum class Sensor : std::uint8_t {
+    depth,   ///< a depth camera
+    color,   ///< a camera without depth, which stands still
+    scanner  ///< of points, whose scans are drawn as images
+  };
+
+  /// `camera`: of the reports' images, of Sensor::color that of the colour images; `camera_parent`:
+  /// index of the link that carries it.
   SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent,
-             bool is_scanner = false);
+             Sensor sensor = Sensor::depth);
 
-  /// Adds a frame in which the robot's pose and depth are known; ignores others. `joints`: its
-  /// positions in the order of Robot::variables(); empty if the poses are from TF. Copies the
-  /// images of few frames only, once `draw` has made them; null: they are there.
+  /// Adds a frame in which the robot's pose and depth, or `color`, are known; ignores others.
+  /// `joints`: its positions in the order of Robot::variables(); empty if the poses are from TF.
+  /// Copies the images of few frames only, once `draw` has made them; null: they are there.
   void add(const FrameReport& report, std::span<const double> joints,
-           const std::function<void()>& draw = nullptr);
+           const std::function<void()>& draw = nullptr, const ImageView<const Rgb8>& color = {});
 
   /// Compares the setup with what it would be if one mistake was mended. Takes a tenth of a second
-  /// if nothing looks wrong, else about a second.
+  /// if nothing looks wrong, else about a second; by colours some seconds.
   [[nodiscard]] Diagnosis diagnose() const;
 
   /// Returns the number of kept frames. The robot's pose differs in all of them.
@@ -75,15 +84,18 @@ class SetupCheck {
  private:
   Robot robot_;
   std::size_t parent_;
-  bool is_scanner_;
+  Sensor sensor_;
   KeptFrames kept_;
   std::size_t pixels_ = 0, measured_ = 0, elsewhere_ = 0;  // all, and the robot's
 };
 
-/// Diagnoses a setup from frames of a pinhole camera. If nothing about them is suspicious, only
-/// small errors of the camera's pose are looked for. `is_scanner`: as of SetupCheck.
+/// Diagnoses a setup from frames of a pinhole camera, all of which have depth, or masks, or colour
+/// images of a camera that stands still. If nothing about them is suspicious, only small errors of
+/// the camera's pose are looked for. `raw_camera`: as it is given, if `camera`, of the frames, is
+/// without its lens or smaller. `is_scanner`: of Sensor::scanner.
 [[nodiscard]] Diagnosis diagnose(std::span<const KeptFrame> frames, const Intrinsics& camera,
-                                 const Robot& robot, std::size_t camera_parent,
+                                 const Intrinsics& raw_camera, const Robot& robot,
+                                 std::size_t camera_parent,
                                  const Eigen::Isometry3d& T_parent_camera,
                                  bool is_suspicious = true, bool is_scanner = false);
 

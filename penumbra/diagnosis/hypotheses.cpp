@@ -23,8 +23,8 @@ class Mistakes {
   explicit Mistakes(const Setup& setup) : setup_(setup) {}
 
   std::vector<Hypothesis> all() {
+    if (setup_.has_depth() && !setup_.is_scanner) depth_units();
     if (!setup_.is_scanner) {  // how a camera's files may be written
-      depth_units();
       camera_poses();
       other_cameras();
     }
@@ -119,11 +119,16 @@ class Mistakes {
   /// camera_info of another resolution, whose principal point is not in the image's middle, or of
   /// another camera.
   void other_cameras() {
-    const Intrinsics& given = setup_.camera;
+    const Intrinsics& given = setup_.raw_camera;
     const double width = given.width(), height = given.height();
-    const auto with = [&](double scale, double cx, double cy) {
-      return Intrinsics(given.width(), given.height(), scale * given.fx(), scale * given.fy(), cx,
-                        cy);
+    // Of the frames' images, which may be free of a lens's distortion and smaller, if the given
+    // camera has another focal length and its principal point in the middle.
+    const auto with = [&](double scale) {
+      const Intrinsics& kept = setup_.camera;
+      const double x = (given.cx() - 0.5 * (width - 1.0)) / given.fx(),
+                   y = (given.cy() - 0.5 * (height - 1.0)) / given.fy();
+      return Intrinsics(kept.width(), kept.height(), scale * kept.fx(), scale * kept.fy(),
+                        kept.cx() - kept.fx() * x, kept.cy() - kept.fy() * y);
     };
     constexpr double off_centre = 0.12;  // of the image; principal points of sensors are nearer
     const double across = width / (2.0 * given.cx() + 1.0),
@@ -135,7 +140,7 @@ class Mistakes {
                                    "x" + fixed(height / scale, 0) + " pixels, but these are " +
                                    std::to_string(given.width()) + "x" +
                                    std::to_string(given.height()))
-            .camera = with(scale, 0.5 * (width - 1.0), 0.5 * (height - 1.0));
+            .camera = with(scale);
     constexpr double step = 0.05;  // of the logarithm
     for (int i = -16; i <= 16; ++i)
       if (std::abs(i) >= 2)
@@ -146,9 +151,9 @@ class Mistakes {
           hypothesis.cause = Cause::intrinsics;
           hypothesis.camera = Intrinsics(camera.width(), camera.height(), scale * camera.fx(),
                                          scale * camera.fy(), camera.cx(), camera.cy());
-          hypothesis.message = "the focal length in camera_info is " + fixed(camera.fx(), 0) +
-                               " pixels, but the images show about " +
-                               fixed(scale * camera.fx(), 0) +
+          const double focal = setup.raw_camera.fx();
+          hypothesis.message = "the focal length in camera_info is " + fixed(focal, 0) +
+                               " pixels, but the images show about " + fixed(scale * focal, 0) +
                                ": is camera_info of another stream or camera?";
           return hypothesis;
         });

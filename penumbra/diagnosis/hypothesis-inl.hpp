@@ -19,16 +19,17 @@ using calibration::SmallFrames;
 using Cause = Diagnosis::Cause;
 using Poses = std::vector<Eigen::Isometry3d>;
 
-/// How well rendered and measured depth agree.
+/// How well the rendered robot and the frames agree: with depth, masks, or colours.
 struct Rating {
   /// At most 1: all of the robot's pixels agree. Of a hypothesis for some of the frames only, what
   /// it gains there, more than the given setup's score of all frames.
   double score = 0.0;
   /// Share of the robot's measured pixels that agree, where those with something in front count
-  /// less; 0 if there are nearly none.
+  /// less; 0 if there are nearly none. Of masks the intersection over union; of colours what is
+  /// explained with the frames' joints and not with those of other frames.
   double fit = 0.0;
-  /// How many pixels agree that do not in the given setup, by frame. A setup that only moves the
-  /// robot out of view explains nothing.
+  /// How many pixels agree that do not in the given setup, by frame; of colours, how much more of
+  /// the images is explained. A setup that only moves the robot out of view explains nothing.
   double more = 0.0;
 };
 
@@ -51,11 +52,16 @@ struct Hypothesis {
 /// What is given.
 struct Setup {
   std::span<const KeptFrame> frames;
-  const Intrinsics& camera;
+  const Intrinsics& camera;      ///< of the frames
+  const Intrinsics& raw_camera;  ///< as it is given, with a lens whose distortion they are free of
   const Robot& robot;
   std::size_t parent;
   Eigen::Isometry3d T_parent_camera;
   bool is_scanner = false;  ///< as of SetupCheck
+
+  [[nodiscard]] bool has_depth() const { return !frames.front().depth.empty(); }
+  [[nodiscard]] bool has_masks() const { return !has_depth() && !frames.front().mask.empty(); }
+  [[nodiscard]] bool has_colors() const { return !has_depth() && !has_masks(); }
 };
 
 /// Metres: depth that is nowhere above it may be normalised to 0 to 1.
@@ -76,16 +82,24 @@ class Agreement {
   [[nodiscard]] Rating rate(const Hypothesis& hypothesis, double tolerance);
   /// Returns the number of the frame in which the given setup, rated first, agrees least.
   [[nodiscard]] std::size_t worst() const;
+  /// Returns the number of frames that are compared: colour images of another view than most are
+  /// not.
+  [[nodiscard]] std::size_t compared() const { return small_.frames().size(); }
 
  private:
   struct Counts {
     double score = 0.0, most = 0.0, agreeing = 0.0, beyond = 0.0, front = 0.0;
   };
+  [[nodiscard]] Poses T_camera_link(const Hypothesis& hypothesis, std::size_t frame) const;
   [[nodiscard]] Counts count(const Hypothesis& hypothesis, std::size_t frame, float tolerance);
+  [[nodiscard]] Rating rate_masks(const Hypothesis& hypothesis);
+  [[nodiscard]] Rating rate_colors(const Hypothesis& hypothesis);
 
   const Setup& setup_;
   SmallFrames small_;
-  std::vector<Counts> given_;  // of each frame, as the setup is given
+  std::optional<calibration::ColorScore> colors_;  // null: depth or masks
+  double given_score_ = 0.0;                       // of colours
+  std::vector<Counts> given_;                      // of each frame, as the setup is given
 };
 
 }  // namespace penumbra::diagnosis

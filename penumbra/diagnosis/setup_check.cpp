@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
+#include <penumbra/calibration/problem.hpp>
 #include <penumbra/diagnosis/diagnosis.hpp>
 #include <penumbra/tuning/missing_parts.hpp>
 
@@ -9,19 +10,20 @@ namespace penumbra {
 constexpr int enough_columns = 640;  // finer images find no more mistakes
 
 SetupCheck::SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent,
-                       bool is_scanner)
+                       Sensor sensor)
     : robot_(robot),
       parent_(camera_parent),
-      is_scanner_(is_scanner),
+      sensor_(sensor),
       kept_(robot, camera,
-            {.most = most,
+            {.most = sensor == Sensor::color ? most_by_color : most,
+             .needs_depth = sensor != Sensor::color,
              .parent = camera_parent,
              .camera_stays = false,
              .columns = enough_columns}) {}
 
 void SetupCheck::add(const FrameReport& report, std::span<const double> joints,
-                     const std::function<void()>& draw) {
-  if (!KeptFrames::is_usable(report)) return;
+                     const std::function<void()>& draw, const ImageView<const Rgb8>& color) {
+  if (!kept_.is_usable(report)) return;
   pixels_ += static_cast<std::size_t>(report.labels.width) *
              static_cast<std::size_t>(report.labels.height);
   measured_ += report.pixels.front + report.pixels.occluded + report.pixels.beyond;
@@ -29,8 +31,14 @@ void SetupCheck::add(const FrameReport& report, std::span<const double> joints,
   std::optional<KeptFrame> frame = kept_.pass(report, joints);
   if (!frame) return;
   if (draw) draw();
+  if (sensor_ == Sensor::color) {
+    if (!kept_.is_size(color.width, color.height)) return;
+    frame->color = kept_.image_of(color);
+    kept_.add(*std::move(frame));
+    return;
+  }
   frame->depth = kept_.depth_of(report.depth);
-  if (!is_scanner_) {  // whose labels are those of a scan
+  if (sensor_ == Sensor::depth) {  // whose labels are those of a scan
     frame->labels = kept_.image_of(report.labels);
     frame->links = kept_.image_of(report.virtual_depth.links);
   }
@@ -40,16 +48,19 @@ void SetupCheck::add(const FrameReport& report, std::span<const double> joints,
 Diagnosis SetupCheck::diagnose() const {
   // Of the robot's measured pixels those that are measured elsewhere; its measured pixels of all.
   constexpr double most_elsewhere = 0.05, least_measured = 0.002;
-  if (kept_.frames().empty()) return {};
+  const std::span<const KeptFrame> frames = kept_.frames();
+  const bool by_color = sensor_ == Sensor::color;
+  if (frames.empty() || (by_color && !calibration::stands_still(frames, parent_))) return {};
   const auto measured = static_cast<double>(measured_);
-  const bool is_suspicious = static_cast<double>(elsewhere_) > most_elsewhere * measured ||
+  const bool is_suspicious = by_color ||
+                             static_cast<double>(elsewhere_) > most_elsewhere * measured ||
                              measured < least_measured * static_cast<double>(pixels_);
-  return penumbra::diagnose(kept_.frames(), kept_.camera(), robot_, parent_,
-                            *kept_.T_parent_camera(), is_suspicious, is_scanner_);
+  return penumbra::diagnose(frames, kept_.camera(), kept_.raw_camera(), robot_, parent_,
+                            *kept_.T_parent_camera(), is_suspicious, sensor_ == Sensor::scanner);
 }
 
 std::vector<std::string> SetupCheck::missing_parts(int fringe_reach) const {
-  if (is_scanner_) return {};                      // the fringe of scans has other causes
+  if (sensor_ != Sensor::depth) return {};         // the fringe of scans has other causes
   const int reach = fringe_reach / kept_.block();  // of the kept images
   return penumbra::missing_parts(kept_.frames(), robot_, reach);
 }

@@ -12,6 +12,7 @@ Session::Session(Robot robot, const Camera& camera, const PipelineConfig& config
                  const DriftLimits& limits)
     : pipeline_(std::move(robot), camera, config),
       config_(config),
+      camera_(camera),
       limits_(limits),
       warnings_(new_warnings()),
       watch_(std::in_place, pipeline_.report_camera(), limits_),
@@ -29,7 +30,7 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
 std::unique_ptr<Warnings> Session::new_warnings() const {
-  return config_ ? std::make_unique<Warnings>(pipeline_, *config_)
+  return config_ ? std::make_unique<Warnings>(pipeline_, *camera_, *config_)
                  : std::make_unique<Warnings>(pipeline_.robot());
 }
 

@@ -68,6 +68,7 @@ class Session {
 
   Pipeline pipeline_;
   std::optional<PipelineConfig> config_;  // of a camera; null: scans
+  std::optional<Camera> camera_;          // likewise
   std::shared_ptr<ScanImage> scan_;       // null of a camera
   DriftLimits limits_;
   std::unique_ptr<Warnings> warnings_;

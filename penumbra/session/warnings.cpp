@@ -13,6 +13,8 @@
 namespace penumbra {
 namespace {
 
+using Input = SetupCheck::Sensor;
+
 bool is_beyond(const Joint& joint, std::span<const double> positions) {
   // A <limit> without lower and upper has 0 for both by the format, and means no range.
   if (!joint.variable || !joint.lower || !joint.upper || *joint.lower == *joint.upper) return false;
@@ -42,13 +44,13 @@ bool exceeds(std::size_t part, double share, std::size_t whole) {
 Warnings::Warnings(const Robot& robot)
     : robot_(robot), frames_beyond_(robot.joints().size()), frames_near_(robot.links().size()) {}
 
-Warnings::Warnings(const Pipeline& pipeline, const PipelineConfig& config)
+Warnings::Warnings(const Pipeline& pipeline, const Camera& camera, const PipelineConfig& config)
     : Warnings(pipeline.robot()) {
   has_depth_ = config.has_depth;
-  if (!has_depth_) return;
   const std::size_t parent =
       config.camera_parent.empty() ? 0 : *robot_.find_link(config.camera_parent);
-  sensor_.emplace(Sensor{.setup = SetupCheck(robot_, pipeline.report_camera(), parent),
+  sensor_.emplace(Sensor{.setup = has_depth_ ? SetupCheck(robot_, pipeline.report_camera(), parent)
+                                             : SetupCheck(robot_, camera, parent, Input::color),
                          .image = config.image,
                          .fringe_reach = pipeline.rule().fringe_reach});
 }
@@ -60,7 +62,8 @@ void Warnings::add(const FrameReport& report, const Frame& frame) {
     ++posed_frames_;
     robot_seen_ = robot_seen_ || *report.pixels.robot > 0;
     if (is_scanner_ && has_depth(report.status)) ++labelled_scans_;
-    if ((sensor_ || is_scanner_) && (has_depth(report.status) || report.nothing_measured)) {
+    if (has_depth_ && (sensor_ || is_scanner_) &&
+        (has_depth(report.status) || report.nothing_measured)) {
       robot_pixels_ += *report.pixels.robot;
       const PixelCounts& pixels = report.pixels;
       measured_ += pixels.front + pixels.occluded + pixels.beyond;
@@ -76,7 +79,7 @@ void Warnings::add(const FrameReport& report, const Frame& frame) {
   add_targets(report);
   add_stamp(report);
   if (sensor_ && !is_scanner_) {
-    sensor_->setup.add(report, positions);
+    sensor_->setup.add(report, positions, nullptr, frame.color.view);
     diagnosis_.reset();
   }
   if (positions.size() != robot_.variables().size()) return;
@@ -86,9 +89,10 @@ void Warnings::add(const FrameReport& report, const Frame& frame) {
 
 void Warnings::add(ScanImage& image) {
   if (!sensor_)
-    sensor_.emplace(Sensor{.setup = SetupCheck(robot_, image.camera(), image.parent(), true),
-                           .image = ImageSpace::raw,
-                           .fringe_reach = 0});
+    sensor_.emplace(
+        Sensor{.setup = SetupCheck(robot_, image.camera(), image.parent(), Input::scanner),
+               .image = ImageSpace::raw,
+               .fringe_reach = 0});
   sensor_->setup.add(image.report(), image.positions(), [&] { image.draw(); });
   diagnosis_.reset();
 }

@@ -38,10 +38,10 @@ class Warnings {
   /// images a second.
   static constexpr std::uint64_t shortest_period = 1'000'000;
 
-  /// For scans, and for frames whose depth no sensor measured.
+  /// For scans.
   explicit Warnings(const Robot& robot);
-  /// `pipeline`: which judges the frames; `config`: the pipeline's.
-  Warnings(const Pipeline& pipeline, const PipelineConfig& config);
+  /// `pipeline`: which judges the frames; `camera`, `config`: the pipeline's.
+  Warnings(const Pipeline& pipeline, const Camera& camera, const PipelineConfig& config);
 
   /// `frame`: the report's.
   void add(const FrameReport& report, const Frame& frame);
@@ -54,8 +54,8 @@ class Warnings {
   /// Takes a tenth of a second, or about a second if something looks wrong.
   [[nodiscard]] const Diagnosis& diagnosis() const;
 
-  /// Returns the number of different poses of the robot, up to SetupCheck::most; 0 for frames whose
-  /// depth no sensor measured.
+  /// Returns the number of different poses of the robot, up to SetupCheck::most; 0 for scans
+  /// that are not drawn.
   [[nodiscard]] std::size_t poses() const { return sensor_ ? sensor_->setup.poses() : 0; }
 
  private:
@@ -70,7 +70,7 @@ class Warnings {
   void add_scan_lines(std::vector<std::string>& lines) const;
   [[nodiscard]] std::string depth_line() const;
 
-  /// What compares frames that a sensor measured.
+  /// What compares frames with the setup.
   struct Sensor {
     SetupCheck setup;
     ImageSpace image;

@@ -42,6 +42,7 @@ most_record_bytes = 1 << 20
 part_name = ".part"  # folder of unfinished results
 summary_name = "summary.csv"
 nothing_judged = 2  # exit status of penumbra run
+least_poses = 3  # of the robot, that tell about a setup
 libc = ctypes.CDLL(None)
 dask_settings = {
     # A worker that dies is not the input's fault: the scheduler gives the input to another one.
@@ -64,7 +65,7 @@ columns = (
     "input", "result", "status", "fault", "frames", "bad_frames", "seconds", "bytes",
     "pixels_robot", "pixels_front", "pixels_occluded", "pixels_unknown", "pixels_beyond",
     "pixels_fringe", "targets", "visible", "partial", "hidden", "unknown", "out_of_view", "held",
-    "penumbra",
+    "cause", "diagnosis", "camera_off_mm", "camera_off_degrees", "penumbra",
 )  # fmt: skip
 
 
@@ -111,8 +112,9 @@ def _reports(result: pathlib.Path) -> Iterator[pathlib.Path]:
 
 
 def _numbers(reports: Iterable[pathlib.Path]) -> dict[str, Any]:
-    """The sums over the reports, one of each camera."""
+    """The sums over the reports, one of each camera, and what is wrong with their setups."""
     numbers: collections.Counter[str] = collections.Counter()
+    causes, messages = [], []
     for report in reports:
         with report.open(encoding="utf-8") as file:
             summary = json.load(file)["summary"]
@@ -121,7 +123,11 @@ def _numbers(reports: Iterable[pathlib.Path]) -> dict[str, Any]:
         numbers.update({"targets": len(summary["targets"])})
         for target in summary["targets"]:
             numbers.update(target["verdicts"])
-    return dict(numbers)
+        diagnosis = summary["diagnosis"]
+        is_compared = summary["compared_poses"] >= least_poses
+        causes.append(diagnosis["cause"] if diagnosis else "none" if is_compared else "not judged")
+        messages += [diagnosis["message"]] if diagnosis else []
+    return {**numbers, "cause": "; ".join(causes), "diagnosis": "; ".join(messages)}
 
 
 def _remove_parts(output: pathlib.Path) -> None:
@@ -311,7 +317,8 @@ def run(
     on_progress: called with the number of finished inputs, that of all, and the newest record.
 
     A record has "status": "done" or "failed" with a "fault"; "seconds", "bytes" of the result,
-    "frames", "bad_frames", numbers of pixels by label and of verdicts over all targets.
+    "frames", "bad_frames", numbers of pixels by label and of verdicts over all targets; "cause" of
+    a wrong setup, "none" or "not judged", and its "diagnosis".
     Raises InputError for no input, an output that cannot be written or that another call writes,
     and a scheduler that does not answer.
     """
@@ -336,11 +343,18 @@ def calibrate(
 
     Returns the records and the camera's poses in turn, which are in output/cameras.json, too:
     "T_parent_camera" of all its inputs together, "covariance", "inputs", and how far it had moved
-    when they began: "moved_mm" and "moved_degrees", 0 at first. Raises what run() raises.
+    when they began: "moved_mm" and "moved_degrees", 0 at first. "camera_off_mm" and
+    "camera_off_degrees" of a record are from the pose of most inputs. Raises what run() raises.
     """
     given = _inputs(inputs, options)
-    records = run_work(_penumbra_calibrate, given, _files_of, output, **where)
-    poses = camera_poses.of(record for record in records if record["status"] == "done")
+    poses: list[dict[str, Any]] = []
+
+    def compare(records: list[dict[str, Any]]) -> None:
+        done = [record for record in records if record["status"] == "done"]
+        poses.extend(camera_poses.of(done))
+        camera_poses.add_distances(done, poses)
+
+    records = run_work(_penumbra_calibrate, given, _files_of, output, at_end=compare, **where)
     text = json.dumps(poses, indent=1) + "\n"
     part = pathlib.Path(output, f"cameras.json-{uuid.uuid4().hex}{part_name}")
     part.write_text(text, encoding="utf-8")
@@ -358,11 +372,13 @@ def run_work(
     scheduler: str | None = None,
     retry_failed: bool = False,
     on_progress: Progress = lambda done, all_inputs, record: None,
+    at_end: Callable[[list[dict[str, Any]]], None] = lambda records: None,
 ) -> list[dict[str, Any]]:
     """Does any work on inputs as run() does `penumbra run`.
 
     work: a function of a module; writes a report.json into run/ of the folder that it is given.
     given: inputs, each once, with their options. files_of: the files that an input is made of.
+    at_end: may add to all records before the summary is written.
     """
     folder = pathlib.Path(output).absolute()
     records: dict[str, dict[str, Any]] = {}
@@ -384,6 +400,7 @@ def run_work(
     with _alone_in(folder):
         _run_on_cluster(jobs(), keep, workers, scheduler)
         ordered = [records[path] for path, _ in given]
+        at_end(ordered)
         _write_summary(folder, ordered)
     return ordered
 

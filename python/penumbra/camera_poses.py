@@ -45,6 +45,18 @@ def of(records: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     return poses
 
 
+def add_distances(records: Iterable[dict[str, Any]], poses: list[dict[str, Any]]) -> None:
+    """Adds to each record how far its camera is from the pose of of() that most inputs have."""
+    if not poses:
+        return
+    most = max(poses, key=lambda pose: len(pose["inputs"]))
+    T_inverse = np.linalg.inv(np.array(most["T_parent_camera"]))
+    for record in records:
+        twist = _twist(T_inverse @ np.array(record["T_parent_camera"]))
+        record["camera_off_mm"] = round(1e3 * float(np.linalg.norm(twist[3:])), 1)
+        record["camera_off_degrees"] = round(math.degrees(float(np.linalg.norm(twist[:3]))), 2)
+
+
 def _twist(T: NDArray[np.float64]) -> NDArray[np.float64]:
     """Rotation vector (rad), then translation (m)."""
     turn = np.array([T[2, 1] - T[1, 2], T[0, 2] - T[2, 0], T[1, 0] - T[0, 1]]) / 2

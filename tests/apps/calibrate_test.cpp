@@ -260,6 +260,31 @@ TEST(CalibrateWebcam, FindsThePoseOfTheBoard) {
   EXPECT_LT(metres_between(io::read_pose_csv(folder.path() / "out/camera_pose.csv"), board), near);
 }
 
+/// The same camera is given elsewhere, and right.
+TEST(CalibrateWebcam, AWrongPoseIsNamedByTheImages) {
+  PENUMBRA_REQUIRE_DATA();
+  TemporaryFolder folder;
+  const fs::path webcam = folder.path() / "webcam", out = folder.path() / "out";
+  fs::copy(data_folder() / "ur3e_webcam_1", webcam);
+  edit_file(webcam / "recording.yaml", "urdf: ..", "urdf: " + data_folder().string());
+  edit_file(webcam / "recording.yaml", "ur_description: ..",
+            "ur_description: " + data_folder().string());
+  const auto cause = [&] {
+    succeed(penumbra({"run", webcam, "-o", out, "--save", "labels"}));
+    const Json summary = read_json(out / "report.json")["summary"];
+    EXPECT_EQ(summary["compared_poses"], 20);
+    return summary["diagnosis"].is_null() ? Json() : summary["diagnosis"]["cause"];
+  };
+  EXPECT_EQ(cause(), Json());
+  const Isometry3d right = io::read_pose_csv(webcam / "board_pose.csv");
+  Isometry3d off = right;
+  off.translation() += Vector3d(0.03, -0.03, 0.02);
+  io::write_pose_csv(webcam / "board_pose.csv", off);
+  EXPECT_EQ(cause(), "camera_pose");
+  io::write_pose_csv(webcam / "board_pose.csv", right.inverse());
+  EXPECT_EQ(cause(), "camera_inverted");
+}
+
 using CalibrateOfAnUnknownCamera = FolderTest;
 
 TEST_F(CalibrateOfAnUnknownCamera, IsSearchedFor) {

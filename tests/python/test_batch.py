@@ -130,6 +130,7 @@ def test_each_input_has_one_result_though_workers_die(tmp_path):
     assert left == {row["result"] for row in rows} | {"summary.csv"}
     good = [row for row in rows if row["status"] == "done"]
     assert len(good) == INPUTS - BROKEN
+    assert {row["cause"] for row in good} == {"none"}
     for row in good:
         expect_single_run(row, out, tmp_path)
 
@@ -167,6 +168,7 @@ def test_a_list_has_options_and_a_function_does_the_same(tmp_path):
     records = penumbra.batch.run([inputs], tmp_path / "out", workers=1,
                                  on_progress=lambda done, all_inputs, record: told.append(done))
     assert [record["frames"] for record in records] == [2]
+    assert [record["cause"] for record in records] == ["not judged"]
     assert told == [1]
 
 
@@ -199,6 +201,7 @@ def test_episodes_tell_where_their_camera_is_and_when_it_moved(tmp_path):
         assert 1e3 * np.linalg.norm(found[:3, 3] - truth[:3, 3]) < limit
     assert cameras[0]["moved_mm"] == 0
     assert cameras[1]["moved_mm"] == pytest.approx(30, abs=2 * limit)
+    assert [record["camera_off_mm"] for record in records[:3]] == pytest.approx([0, 0, 30], abs=2 * limit)
     assert json.loads((tmp_path / "out/cameras.json").read_text()) == cameras
 
     told = run_python("-m", "penumbra.batch", "--calibrate", *episodes, "-o", tmp_path / "out", "--", *masks,

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Setups that are right but for one mistake, in MuJoCo's images under a D415's noise.
+// Setups that are right but for one mistake, in MuJoCo's images: depth under a D415's noise, or
+// colour images alone.
 #include "simulated.hpp"
 
 #include <cstdio>
 
 #include <penumbra/diagnosis/diagnosis.hpp>
+#include <penumbra/session/session.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -18,6 +20,7 @@ struct Given {
   Eigen::Isometry3d T_base_camera;
   std::vector<Image<float>> depth;  // metres
   std::vector<std::vector<double>> joints;
+  std::vector<Image<Rgb8>> color;  // in place of depth; empty: it is not
 };
 
 /// The camera is given elsewhere, by metres and degrees.
@@ -35,7 +38,8 @@ class DiagnosisTruth : public testing::Test {
   void SetUp() override {
     PENUMBRA_REQUIRE_SIMULATION();
     simulation_.emplace("random", without_color(3, true));
-    given_.emplace(Given{simulation_->camera().intrinsics, simulation_->T_base_camera(), {}, {}});
+    given_.emplace(
+        Given{simulation_->camera().intrinsics, simulation_->T_base_camera(), {}, {}, {}});
     sim::SimFrame frame;
     while (given_->depth.size() < 8 && simulation_->next(frame)) {
       given_->depth.push_back(in_metres(frame.depth));
@@ -49,13 +53,17 @@ class DiagnosisTruth : public testing::Test {
     const Camera camera{given.camera, {}, {}, {}};
     PipelineConfig config;
     config.T_parent_camera = given.T_base_camera;
-    Pipeline pipeline(simulation_->robot(), camera, config);
-    SetupCheck check(pipeline.robot(), camera, 0);
-    for (std::size_t i = 0; i < given.depth.size(); ++i)
-      check.add(pipeline.process(
-                    {.depth = given.depth[i].view(), .pose = {.positions = given.joints[i]}}),
-                given.joints[i]);
-    return check.diagnose();
+    config.has_depth = given.color.empty();
+    Session session(simulation_->robot(), camera, config);
+    for (std::size_t i = 0; i < given.joints.size(); ++i) {
+      Frame frame{.pose = {.positions = given.joints[i]}};
+      if (config.has_depth)
+        frame.depth = given.depth[i].view();
+      else
+        frame.color = std::as_const(given.color[i]).view();
+      session.process(frame);
+    }
+    return session.diagnosis();
   }
 
   /// The cause is named alone.
@@ -152,6 +160,43 @@ TEST_F(DiagnosisTruth, JointsOfAnotherConventionOrOfOtherFrames) {
     expect(Cause::joint_time, [&](Given& given) {
       std::rotate(given.joints.begin(), given.joints.begin() + shift, given.joints.end());
     });
+}
+
+/// The scene changes from image to image. The last joint turns little that is seen.
+class DiagnosisByColor : public DiagnosisTruth {
+ protected:
+  void SetUp() override {
+    DiagnosisTruth::SetUp();
+    if (IsSkipped()) return;
+    simulation_.emplace("random", sim::SimulationOptions{.seed = 3});
+    sim::SimFrame frame;
+    for (given_->joints.clear(); given_->color.size() < 16 && simulation_->next(frame);) {
+      given_->color.push_back(std::move(frame.color));
+      given_->joints.push_back(frame.joints);
+    }
+  }
+};
+
+TEST_F(DiagnosisByColor, NamesTheSameMistakes) {
+  EXPECT_EQ(diagnosed().message, "");
+  expect(Cause::camera_pose, moved(0.05, 3.0));
+  expect(Cause::camera_unit, [](Given& given) { given.T_base_camera.translation() *= 1000.0; });
+  expect(Cause::camera_inverted,
+         [](Given& given) { given.T_base_camera = given.T_base_camera.inverse(); });
+  const std::size_t elbow = *simulation_->robot().find_variable("elbow");
+  const auto changed = [](const std::function<void(std::vector<double>&)>& change) {
+    return [=](Given& given) {
+      for (auto& joints : given.joints) change(joints);
+    };
+  };
+  expect(Cause::joint_unit, changed([](auto& joints) {
+           for (double& joint : joints) joint /= degree;
+         }));
+  expect(Cause::joint_sign, changed([&](auto& joints) { joints[elbow] = -joints[elbow]; }));
+  expect(Cause::joint_zero, changed([&](auto& joints) { joints[elbow] += 20.0 * degree; }));
+  expect(Cause::joint_time, [&](Given& given) {
+    std::rotate(given.joints.begin(), given.joints.begin() + 1, given.joints.end());
+  });
 }
 
 TEST_F(DiagnosisTruth, NothingIsInvented) {

@@ -63,25 +63,37 @@ export async function stopTime(context) {
   });
 }
 
+const children = new Set();
+// Those of a test whose hook failed would keep the tests from ending.
+after(() => children.forEach((child) => child.kill('SIGKILL')));
+
 /** Starts `penumbra view`, or another command, and waits until all frames are judged. */
 export async function serve(input, port = '0', command = 'view', ...options) {
   const child = spawn(program, [command, input, '--port', port, ...options], {
     stdio: ['ignore', 'pipe', 'pipe'],
   });
+  children.add(child);
+  child.once('exit', () => children.delete(child));
   const lines = createInterface({ input: child.stdout });
   child.stderr.resume();
   let url;
   while (!url) [, url] = /(http\S*)/.exec((await once(lines, 'line'))[0]) ?? [];
   const stop = async () => {
-    if (child.exitCode !== null) return;
+    if (!children.has(child)) return;
     child.kill('SIGINT');
     await once(child, 'exit');
   };
-  for (;;) {
-    const session = await (await fetch(new URL('/api/session', url))).json();
-    if (session.complete) return { url, stop };
+  while (children.has(child)) {
+    try {
+      const session = await (await fetch(new URL('/api/session', url))).json();
+      if (session.complete) return { url, stop };
+    } catch (error) {
+      // On a busy machine the server may have closed the connection that fetch kept.
+      if (!(error instanceof TypeError)) throw error;
+    }
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
+  throw new Error(`penumbra ${command} ended`);
 }
 
 export const desktop = { viewport: { width: 1440, height: 900 }, colorScheme: 'light' };
