@@ -219,8 +219,8 @@ void bind_input(py::module_& m) {
         py::arg("bag") = std::optional<io::BagOptions>(), py::arg("camera") = defaults.camera,
         py::arg("joints") = std::map<std::string, double>(),
         "Opens what `penumbra run` or `penumbra cloud` takes, as their options of these names say. "
-        "color: read colour "
-        "images, too; frames: (first, end) of those wanted; bag: of bags alone; camera: which one, "
+        "color: read colour images, too (of a camera without depth some are, to diagnose the "
+        "setup); frames: (first, end) of those wanted; bag: of bags alone; camera: which one, "
         "of a recording with several; joints: positions at which joints are held, rad or m. "
         "Raises InputError that names the file.");
 }

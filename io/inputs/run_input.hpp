@@ -32,8 +32,9 @@ struct FrameRange {
 /// A recording folder or a bag, and how it is read.
 struct InputOptions {
   std::filesystem::path path;
-  std::string camera;                 ///< which one, of a recording with several
-  bool with_color = false;            ///< read colour images
+  std::string camera;  ///< which one, of a recording with several
+  /// Read colour images; of a camera without depth some are, for Session's diagnosis.
+  bool with_color = false;
   std::optional<Geometry> geometry;   ///< in place of the recording's
   bool geometry_fallback = false;     ///< of RobotOptions, in addition to the recording's
   bool allow_missing_meshes = false;  ///< likewise

@@ -35,7 +35,6 @@ constexpr double color_step = 2.5;      // pixels by which the edges of a link m
 /// Of what a pose explains of the images' changes, the share that it does not with the joints of
 /// other frames.
 constexpr double least_by_joints = 0.4;
-constexpr double low_contrast = 0.3;      // PoseSearch::candidates()'s `covering`
 constexpr double elsewhere = 0.7;         // of the frames' median share that agrees
 constexpr double widest_position = 0.03;  // metres, half axis of the 95 % region
 /// The same for masks alone: the robot's distance shows in the size of its picture only.
@@ -278,7 +277,7 @@ class Calibrator {
       try_all(search.candidates(), true);
     // A robot with little contrast to its background scores best out of view.
     if (!options_.initial && best_overlap < calibration::least_by_color)
-      try_all(search.candidates({}, low_contrast), false);
+      try_all(search.candidates({}, calibration::low_contrast), false);
     calibration::mask_by_color(masked_, search.frames(), observer, best->state);
     return *std::move(best);
   }

@@ -390,8 +390,7 @@ class ColorScore {
 
   /// Returns how much better the images are explained than by a scene in which nothing moves, of
   /// what could be; less than 0: worse. `T_camera_link`: of a frame by its number. `covering`: a
-  /// factor of what a covered pixel costs; at less than 1 a robot with little contrast to its
-  /// background is found.
+  /// factor of what a covered pixel costs.
   [[nodiscard]] double score(
       const std::function<std::vector<Eigen::Isometry3d>(std::size_t)>& T_camera_link,
       std::size_t every_frame = 1, double covering = 1.0);
@@ -409,6 +408,10 @@ class ColorScore {
   double covering_ = 1.0;
   double explainable_ = 0.0;  // the sum of still_
 };
+
+/// A factor of what a covered pixel costs, with which a robot is found that has little contrast to
+/// its background.
+constexpr double low_contrast = 0.3;
 
 /// Returns the number of frames by which joints are shifted to compare them with those of others.
 [[nodiscard]] inline std::size_t half_of(std::size_t frames) {

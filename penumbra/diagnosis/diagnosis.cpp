@@ -14,17 +14,17 @@ namespace {
 
 constexpr double wide = 0.06;        // metres between measured and virtual depth that agree
 constexpr double may_explain = 0.6;  // of the best gain: cannot be ruled out
+constexpr double great_gain = 0.3;   // of the score
 constexpr double good_fit = 0.8;     // Rating::fit of a right setup, about
 
 struct Limits {
-  double gain, great_gain;  // of the score, of a mistake that is named, and of one beyond doubt
-  double fit;               // of one that is named
-  double explains;          // of the best gain: as good as the best
+  double gain, fit;  // of a mistake that is named
+  double explains;   // of the best gain: as good as the best
 };
-constexpr Limits usual{0.03, 0.3, 0.6, 0.85};  // right setups gain up to 0.012
+constexpr Limits usual{0.03, 0.6, 0.85};  // right setups gain up to 0.012
 /// Their best score is 0.1 to 0.5, and right setups gain up to 0.015. A pose is judged by its
 /// masks: what explains a little less is another mistake.
-constexpr Limits of_colors{0.02, 0.08, 0.4, 0.95};
+constexpr Limits of_colors{0.02, 0.4, 0.98};
 
 class Comparison {
  public:
@@ -44,7 +44,7 @@ class Comparison {
 
   Diagnosis run(bool is_suspicious) {
     Diagnosis result;
-    if (agreement_.compared() < std::min(KeptFrames::least, frames_.size())) return result;
+    if (setup_.has_colors() && agreement_.compared() < KeptFrames::least) return result;
     result.score = given_.score;
     result.poses = agreement_.compared();
     result.frame = setup_.frames[agreement_.worst()].index;
@@ -54,13 +54,13 @@ class Comparison {
     }
     if (setup_.frames.size() < KeptFrames::least)
       std::erase_if(rated_, [](const Hypothesis& rated) { return !!rated.with_amount; });
+    else if (setup_.has_colors())
+      compare_colors();
     else if (!is_explained())
       add_pose();
-    std::erase_if(rated_, [&](const Hypothesis& rated) {
-      return !(rated.rating.more > 0.0) || (setup_.has_colors() && rated.rating.fit < limits_.fit);
-    });
-    std::ranges::stable_sort(rated_, std::ranges::greater{},
-                             [](const Hypothesis& rated) { return rated.rating.score; });
+    if (!setup_.has_colors())
+      std::erase_if(rated_, [](const Hypothesis& rated) { return !(rated.rating.more > 0.0); });
+    sort();
     choose(result);
     if (result.cause == Cause::none) name_small_error(result);
     return result;
@@ -71,11 +71,10 @@ class Comparison {
   [[nodiscard]] bool is_explained() const {
     return std::ranges::any_of(rated_, [&](const Hypothesis& rated) {
       return !rated.with_amount && rated.rating.fit > good_fit &&
-             rated.rating.score > std::max(0.0, given_.score) + limits_.great_gain;
+             rated.rating.score > std::max(0.0, given_.score) + great_gain;
     });
   }
 
-  [[nodiscard]] bool is_fixed() const { return setup_.parent == 0 || setup_.has_colors(); }
   [[nodiscard]] bool shows_robot() const {
     return shows_robot_.value_or(given_.fit >= limits_.fit);
   }
@@ -85,10 +84,15 @@ class Comparison {
     rated_.push_back(std::move(hypothesis));
   }
 
-  /// Finds better amounts near the best of each cause.
-  void polish() {
+  /// Brings the best to the front.
+  void sort() {
     std::ranges::stable_sort(rated_, std::ranges::greater{},
                              [](const Hypothesis& rated) { return rated.rating.score; });
+  }
+
+  /// Finds better amounts near the best of each cause.
+  void polish() {
+    sort();
     constexpr int most = 3;
     constexpr double least_amount = 0.3;  // of a step; less is no mistake
     std::map<Cause, int> done;
@@ -115,18 +119,17 @@ class Comparison {
 
   /// Adds the camera's pose that fits best.
   void add_pose() {
-    if (setup_.has_colors()) return add_pose_by_color();
     // A camera on a moving link sees less of the robot in each frame.
-    const std::size_t count = is_fixed() && setup_.has_depth()
+    const std::size_t count = setup_.parent == 0 && setup_.has_depth()
                                   ? std::min<std::size_t>(4, frames_.size())
                                   : frames_.size();
     calibration::FramePointers some;
     for (std::size_t i = 0; i < count; ++i) some.push_back(frames_[i * frames_.size() / count]);
     std::vector<Eigen::Isometry3d> starts{setup_.T_parent_camera};
     if (given_.fit < good_fit) {
-      calibration::PoseSearch search(model_, setup_.camera, some, is_fixed(), 1);
+      calibration::PoseSearch search(model_, setup_.camera, some, setup_.parent == 0, 1);
       starts.push_back(search.candidates(starts[0]).front());
-      if (!is_fixed() || setup_.has_masks()) starts.push_back(search.near(starts[0]));
+      if (setup_.parent != 0 || setup_.has_masks()) starts.push_back(search.near(starts[0]));
     }
     Hypothesis best = as_given(setup_);
     best.rating.score = -10.0;
@@ -157,32 +160,53 @@ class Comparison {
     return hypothesis;
   }
 
-  /// The same by colours: searches take seconds, and are made if the given pose does not lead
-  /// there.
-  void add_pose_by_color() {
-    using calibration::State;
+  /// Keeps what shows the robot: a robot with little contrast to its background has its best score
+  /// out of view. Searches for a pose, which take seconds, are made if nothing else explains it.
+  void compare_colors() {
+    constexpr std::size_t most_tested = 8;  // with amounts
+    search_.emplace(model_, setup_.camera, frames_, true, 1);
+    Hypothesis as_it_is = as_given(setup_);
+    as_it_is.rating = given_;
+    shows_robot_ = is_shown(as_it_is);
+    sort();
+    if (!*shows_robot_)
+      for (Hypothesis& rated : rated_)
+        if (!rated.with_amount && is_shown(rated)) {
+          rated_ = std::vector{Hypothesis(std::move(rated))};
+          return;
+        }
+    std::size_t tested = 0;
+    std::erase_if(rated_, [&](const Hypothesis& rated) {
+      const bool may_be = !*shows_robot_ || rated.rating.score - given_.score >= limits_.gain;
+      return !may_be || !(rated.with_amount || *shows_robot_) || tested++ >= most_tested ||
+             !is_shown(rated);
+    });
     const Eigen::Isometry3d& given = setup_.T_parent_camera;
-    calibration::PoseSearch search(model_, setup_.camera, frames_, true, 1);
-    const auto overlap = [&](const State& state) { return observer_.overlap(masked_, state); };
-    const State as_given{.T_parent_camera = given, .joint_offsets = {}};
-    calibration::mask_by_color(masked_, search.frames(), observer_, as_given);
-    shows_robot_ = overlap(as_given) >= calibration::least_by_color;
-    const auto fits_from = [&](const Eigen::Isometry3d& start) {
-      refined_ = calibration::refine_by_color(masked_, search, observer_, unknowns_, start);
-      return overlap(refined_->state) >= calibration::least_by_color;
-    };
-    std::vector<Eigen::Isometry3d> found;
-    bool fits = fits_from(given);
-    if (!fits) fits = fits_from(found.emplace_back(search.near(given)));
-    if (!fits) fits = fits_from(found.emplace_back(search.candidates(given).front()));
-    if (fits) return add_refined(with_pose(refined_->state.T_parent_camera));
-    refined_.reset();
-    for (const Eigen::Isometry3d& pose : found) {
-      rated_.push_back(with_pose(pose));
-      rated_.back().message =
-          "the camera's pose or camera_info is off, and these frames do not tell which and how "
-          "far: run 'penumbra calibrate --search' on this input";
-    }
+    if (fits_from(given) || fits_from(search_->near(given)) ||
+        fits_from(search_->candidates(given).front()) ||
+        fits_from(search_->candidates(given, calibration::low_contrast).front()))
+      add_refined(with_pose(refined_->state.T_parent_camera));
+    else
+      refined_.reset();
+  }
+
+  /// Whether colour images show the robot by a hypothesis as calibrate() wants it.
+  [[nodiscard]] bool is_shown(const Hypothesis& hypothesis) {
+    for (std::size_t k = 0; k < masked_.size(); ++k)
+      if (!hypothesis.T_root_link[k].empty()) masked_[k].T_root_link = hypothesis.T_root_link[k];
+    const calibration::State state{.T_parent_camera = hypothesis.T_parent_camera,
+                                   .joint_offsets = {}};
+    calibration::Observer observer(model_, hypothesis.camera, unknowns_);
+    calibration::mask_by_color(masked_, search_->frames(), observer, state);
+    const double overlap = observer.overlap(masked_, state);
+    for (std::size_t k = 0; k < masked_.size(); ++k)
+      masked_[k].T_root_link = setup_.frames[k].T_root_link;
+    return hypothesis.rating.fit >= limits_.fit && overlap >= calibration::least_by_color;
+  }
+
+  bool fits_from(const Eigen::Isometry3d& start) {
+    refined_ = calibration::refine_by_color(masked_, *search_, observer_, unknowns_, start);
+    return observer_.overlap(masked_, refined_->state) >= calibration::least_by_color;
   }
 
   /// How far the camera is from where it is said to be.
@@ -257,9 +281,10 @@ class Comparison {
       return;
     }
     result.best = rated_.front().rating.score;
-    const double gain = result.best - given_.score;
+    const double gain = std::max(1e-9, result.best - given_.score);
     // Few frames fit some wrong setup by chance.
-    if (gain < (setup_.frames.size() < KeptFrames::least ? limits_.great_gain : limits_.gain))
+    const bool is_shown = setup_.has_colors() && !shows_robot();
+    if (!is_shown && gain < (setup_.frames.size() < KeptFrames::least ? great_gain : limits_.gain))
       return;
     const auto explained = [&](const Hypothesis& rated) {
       return (rated.rating.score - given_.score) / gain;
@@ -274,12 +299,8 @@ class Comparison {
         best = &rated;
     result.cause = best->cause;
     result.message = best->message;
-    if (best->cause == Cause::camera_pose && !refined_) {
-      result.other = Cause::intrinsics;
-      return;
-    }
     const auto is_other = [&](Cause cause) {  // a unit is a scale
-      return cause != result.cause && (cause != Cause::camera_pose || refined_) &&
+      return cause != result.cause &&
              !(result.cause == Cause::depth_unit && cause == Cause::depth_scale);
     };
     for (const Hypothesis& rated : rated_)
@@ -300,7 +321,8 @@ class Comparison {
   calibration::FramePointers frames_;
   Agreement agreement_;
   Rating given_;
-  std::optional<calibration::Refined> refined_;  // the camera's pose that fits best
+  std::optional<calibration::Refined> refined_;    // the camera's pose that fits best
+  std::optional<calibration::PoseSearch> search_;  // by colours
   std::optional<bool> shows_robot_;  // by colours: the background is hidden where the robot is
   std::vector<Hypothesis> rated_;
 };

@@ -270,7 +270,7 @@ TEST(CalibrateWebcam, AWrongPoseIsNamedByTheImages) {
   edit_file(webcam / "recording.yaml", "ur_description: ..",
             "ur_description: " + data_folder().string());
   const auto cause = [&] {
-    succeed(penumbra({"run", webcam, "-o", out, "--save", "labels"}));
+    succeed(penumbra({"run", webcam, "-o", out, "--save", "labels", "--force"}));
     const Json summary = read_json(out / "report.json")["summary"];
     EXPECT_EQ(summary["compared_poses"], 20);
     return summary["diagnosis"].is_null() ? Json() : summary["diagnosis"]["cause"];

@@ -171,7 +171,7 @@ class DiagnosisByColor : public DiagnosisTruth {
     simulation_.emplace("random", sim::SimulationOptions{.seed = 3});
     sim::SimFrame frame;
     for (given_->joints.clear(); given_->color.size() < 16 && simulation_->next(frame);) {
-      given_->color.push_back(std::move(frame.color));
+      given_->color.push_back(frame.color);
       given_->joints.push_back(frame.joints);
     }
   }
