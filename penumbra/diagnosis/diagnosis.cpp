@@ -13,9 +13,10 @@ namespace diagnosis {
 namespace {
 
 constexpr double wide = 0.06;        // metres between measured and virtual depth that agree
-constexpr double may_explain = 0.6;  // of the best gain: cannot be ruled out
-constexpr double great_gain = 0.3;   // of the score
-constexpr double good_fit = 0.8;     // Rating::fit of a right setup, about
+constexpr double may_explain = 0.6;  // of the best gain: cannot be ruled out; of overlaps:
+constexpr double may_overlap = 0.9;
+constexpr double great_gain = 0.3;  // of the score
+constexpr double good_fit = 0.8;    // Rating::fit of a right setup, about
 
 struct Limits {
   double gain, fit;  // of a mistake that is named
@@ -45,7 +46,6 @@ class Comparison {
   Diagnosis run(bool is_suspicious) {
     Diagnosis result;
     if (setup_.has_colors() && agreement_.compared() < KeptFrames::least) return result;
-    result.score = given_.score;
     result.poses = agreement_.compared();
     result.frame = setup_.frames[agreement_.worst()].index;
     if (is_suspicious) {
@@ -61,6 +61,7 @@ class Comparison {
     if (!setup_.has_colors())
       std::erase_if(rated_, [](const Hypothesis& rated) { return !(rated.rating.more > 0.0); });
     sort();
+    result.score = given_.score;
     choose(result);
     if (result.cause == Cause::none) name_small_error(result);
     return result;
@@ -160,38 +161,47 @@ class Comparison {
     return hypothesis;
   }
 
-  /// Keeps what shows the robot: a robot with little contrast to its background has its best score
-  /// out of view. Searches for a pose, which take seconds, are made if nothing else explains it.
+  /// Keeps what shows the robot as calibrate() wants it. If the given setup does not, the overlap
+  /// is the score: a robot with little contrast to its background scores best out of view.
   void compare_colors() {
     constexpr std::size_t most_tested = 8;  // with amounts
     search_.emplace(model_, setup_.camera, frames_, true, 1);
     Hypothesis as_it_is = as_given(setup_);
     as_it_is.rating = given_;
-    shows_robot_ = is_shown(as_it_is);
+    const double overlap = overlap_of(as_it_is);
+    shows_robot_ = overlap >= calibration::least_by_color;
     sort();
-    if (!*shows_robot_)
-      for (Hypothesis& rated : rated_)
-        if (!rated.with_amount && is_shown(rated)) {
-          rated_ = std::vector{Hypothesis(std::move(rated))};
-          return;
-        }
+    std::vector<Hypothesis> shown;
     std::size_t tested = 0;
-    std::erase_if(rated_, [&](const Hypothesis& rated) {
-      const bool may_be = !*shows_robot_ || rated.rating.score - given_.score >= limits_.gain;
-      return !may_be || !(rated.with_amount || *shows_robot_) || tested++ >= most_tested ||
-             !is_shown(rated);
-    });
+    bool is_explained = false;  // the camera's pose is written in another way
+    for (Hypothesis& rated : rated_) {
+      if (*shows_robot_ && rated.rating.score - given_.score < limits_.gain) break;
+      if (rated.with_amount && tested++ >= most_tested) continue;
+      const double its = overlap_of(rated);
+      if (its < calibration::least_by_color) continue;
+      if (!*shows_robot_) rated.rating.score = its;
+      is_explained |= !rated.T_parent_camera.isApprox(setup_.T_parent_camera);
+      shown.push_back(std::move(rated));
+    }
+    rated_ = std::move(shown);
+    if (!*shows_robot_) given_.score = overlap;
     const Eigen::Isometry3d& given = setup_.T_parent_camera;
-    if (fits_from(given) || fits_from(search_->near(given)) ||
-        fits_from(search_->candidates(given).front()) ||
-        fits_from(search_->candidates(given, calibration::low_contrast).front()))
-      add_refined(with_pose(refined_->state.T_parent_camera));
-    else
+    if (is_explained) return;
+    if (!fits_from(given) && !fits_from(search_->near(given)) &&
+        !fits_from(search_->candidates(given).front()) &&
+        !fits_from(search_->candidates(given, calibration::low_contrast).front())) {
       refined_.reset();
+      return;
+    }
+    Hypothesis pose = with_pose(refined_->state.T_parent_camera);
+    if (!*shows_robot_) pose.rating.score = observer_.overlap(masked_, refined_->state);
+    add_refined(std::move(pose));
   }
 
-  /// Whether colour images show the robot by a hypothesis as calibrate() wants it.
-  [[nodiscard]] bool is_shown(const Hypothesis& hypothesis) {
+  /// Of the robot by a hypothesis and what hides the background there; 0 if it does not follow the
+  /// joints.
+  [[nodiscard]] double overlap_of(const Hypothesis& hypothesis) {
+    if (hypothesis.rating.fit < limits_.fit) return 0.0;
     for (std::size_t k = 0; k < masked_.size(); ++k)
       if (!hypothesis.T_root_link[k].empty()) masked_[k].T_root_link = hypothesis.T_root_link[k];
     const calibration::State state{.T_parent_camera = hypothesis.T_parent_camera,
@@ -201,7 +211,7 @@ class Comparison {
     const double overlap = observer.overlap(masked_, state);
     for (std::size_t k = 0; k < masked_.size(); ++k)
       masked_[k].T_root_link = setup_.frames[k].T_root_link;
-    return hypothesis.rating.fit >= limits_.fit && overlap >= calibration::least_by_color;
+    return overlap;
   }
 
   bool fits_from(const Eigen::Isometry3d& start) {
@@ -283,8 +293,9 @@ class Comparison {
     result.best = rated_.front().rating.score;
     const double gain = std::max(1e-9, result.best - given_.score);
     // Few frames fit some wrong setup by chance.
-    const bool is_shown = setup_.has_colors() && !shows_robot();
-    if (!is_shown && gain < (setup_.frames.size() < KeptFrames::least ? great_gain : limits_.gain))
+    const bool is_certain = setup_.has_colors() && !shows_robot();
+    if (!is_certain &&
+        gain < (setup_.frames.size() < KeptFrames::least ? great_gain : limits_.gain))
       return;
     const auto explained = [&](const Hypothesis& rated) {
       return (rated.rating.score - given_.score) / gain;
@@ -304,8 +315,8 @@ class Comparison {
              !(result.cause == Cause::depth_unit && cause == Cause::depth_scale);
     };
     for (const Hypothesis& rated : rated_)
-      if (explained(rated) >= may_explain && rated.rating.fit >= limits_.fit &&
-          is_other(rated.cause)) {
+      if (explained(rated) >= (is_certain ? may_overlap : may_explain) &&
+          rated.rating.fit >= limits_.fit && is_other(rated.cause)) {
         result.other = rated.cause;
         result.message += "; or " + rated.message;
         break;
