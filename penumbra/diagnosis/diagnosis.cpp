@@ -167,7 +167,7 @@ class Comparison {
     constexpr std::size_t most_tested = 8;  // with amounts
     search_.emplace(model_, setup_.camera, frames_, true, 1);
     Hypothesis as_it_is = as_given(setup_);
-    as_it_is.rating = given_;
+    as_it_is.rating.fit = limits_.fit;  // the overlap decides alone
     const double overlap = overlap_of(as_it_is);
     shows_robot_ = overlap >= calibration::least_by_color;
     sort();
