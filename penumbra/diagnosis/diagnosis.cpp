@@ -178,7 +178,7 @@ class Comparison {
       if (*shows_robot_ && rated.rating.score - given_.score < limits_.gain) break;
       if (rated.with_amount && tested++ >= most_tested) continue;
       const double its = overlap_of(rated);
-      if (its < calibration::least_by_color) continue;
+      if (its < std::max(overlap, calibration::least_by_color)) continue;
       if (!*shows_robot_) rated.rating.score = its;
       is_explained |= !rated.T_parent_camera.isApprox(setup_.T_parent_camera);
       shown.push_back(std::move(rated));
