@@ -66,10 +66,10 @@ Examples:
   penumbra tune bag.mcap -o tuned --package ur_description=/opt/ur_description)";
 
 inline constexpr const char* calibrate_examples = R"(
-Finds a camera's pose from the robot that it sees in depth, colour images or masks, without markers. The
-camera is fixed in the cell, or to a link of the robot. Ten poses of the arm, near and far, left and
-right, are enough. Prints the pose in several forms and how far off it may be. If the frames show too little, or not
-this robot, it says so and what to record, with exit status 2.
+Finds a camera's pose from the robot that it sees in depth, colour images or masks, without markers.
+The camera is fixed in the cell, or to a link of the robot. Ten poses of the arm, near and far, left
+and right, are enough. Prints the pose in several forms and how far off it may be. If the frames
+show too little, or not this robot, it says so and what to record, with exit status 2.
 OUT gets camera_pose.csv (only a good one), calibration.json (all numbers) and report.html: the
 result, residuals by frame and by link, and pictures before and after.
 With --masks the pose is that of the colour image; frames without a mask are left out. A recording

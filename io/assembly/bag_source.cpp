@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/diagnosis/diagnosis.hpp>
 
 #include <io/assembly/bag_scene.hpp>
 #include <io/assembly/bag_source.hpp>
@@ -101,17 +102,18 @@ bool BagSource::read(std::size_t /*number*/, Frame& frame) {
   if (current.scan && time_note_.empty()) time_note_ = current.scan->received->points.time_note;
   frame = std::move(static_cast<Frame&>(current));
   *frame.index += static_cast<std::size_t>(options_.first.value_or(0));
-  // Without depth Session diagnoses the setup by some colour images.
-  constexpr std::size_t color_step = 8;
   const bool has_depth = options_.topics.has_depth;
   const bool is_shown = options_.with_color && (options_.topics.color || !has_depth);
-  if (is_shown || (!has_depth && !options_.cloud && *frame.index % color_step == 0)) {
+  const bool is_checked =
+      !has_depth && !options_.cloud && *frame.index % SetupCheck::color_step == 0;
+  if (is_shown || is_checked) {
     Image<Rgb8> color;
     frame.color_message = current.color_image ? decode_color(*current.color_image,
                                                              options_.camera->cameras.judged, color)
                                               : ColorImages::none_near;
     if (frame.color_message.empty())
       frame.color = SharedColor(std::make_shared<const Image<Rgb8>>(std::move(color)));
+    if (!is_shown) frame.color_message.clear();  // nobody asked for a picture
   }
   assembler_.done(0, true);
   return true;

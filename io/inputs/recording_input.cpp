@@ -62,6 +62,7 @@ class RecordingSource final : public FrameSource {
                   const std::vector<std::size_t>& selected, const InputOptions& options)
       : reader_(std::move(reader)),
         selected_(selected),
+        with_color_(options.with_color),
         color_step_(options.with_color     ? 1
                     : reader_->has_depth() ? 0
                                            : std::max<std::size_t>(1, selected.size() / enough)),
@@ -72,6 +73,7 @@ class RecordingSource final : public FrameSource {
   bool read(std::size_t number, Frame& frame) override {
     if (number >= selected_.size()) return false;
     frame = reader_->read(selected_[number], color_step_ > 0 && number % color_step_ == 0);
+    if (!with_color_) frame.color_message.clear();  // nobody asked for a picture
     if (fps_ && frame.stamp)
       throw InputError("frame " + std::to_string(*frame.index) +
                        " has a stamp of its own: leave --fps out");
@@ -96,6 +98,7 @@ class RecordingSource final : public FrameSource {
 
   std::shared_ptr<const FrameReader> reader_;
   std::vector<std::size_t> selected_;
+  bool with_color_;
   std::size_t color_step_;  // frames from one colour image that is read to the next; 0: none is
   std::optional<double> fps_;
   int threads_;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/diagnosis/diagnosis.hpp>
 
 #include <io/live/live_worker.hpp>
 
@@ -67,8 +68,7 @@ LiveOutcome LiveWorker::judge(AssembledFrame& job, ResultSink& sink, FrameWatche
     };
   if (tools_->depth) static_cast<void>(tools_->depth->read(job));
   Session& session = tools_->session;
-  constexpr std::size_t color_step = 8;  // frames; enough to diagnose a setup without depth
-  if (!job.scan && !job.setup->cameras()->has_depth && *job.index % color_step == 0)
+  if (!job.scan && !job.setup->cameras()->has_depth && *job.index % SetupCheck::color_step == 0)
     show_color(job, true);
   const FrameReport& report = session.process(job);
   if (const Pipeline& pipeline = session.pipeline(); !job.scan) {

@@ -103,7 +103,6 @@ Rating Agreement::rate_colors(const Hypothesis& hypothesis) {
   const double most = std::max(std::abs(rating.score), std::abs(by_others));
   if (most > 0.0) rating.fit = (rating.score - by_others) / most;
   if (given_.empty()) {
-    given_score_ = rating.score;
     given_.resize(setup_.frames.size(), {.score = 1.0});
     for (const SmallFrames::Small& one : small) {
       const auto at = static_cast<std::size_t>(one.frame - setup_.frames.data());
@@ -112,7 +111,6 @@ Rating Agreement::rate_colors(const Hypothesis& hypothesis) {
       given_[at].score = overlap.share();
     }
   }
-  rating.more = rating.score - given_score_;
   return rating;
 }
 

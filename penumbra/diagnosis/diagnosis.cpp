@@ -12,9 +12,9 @@ namespace penumbra {
 namespace diagnosis {
 namespace {
 
-constexpr double wide = 0.06;        // metres between measured and virtual depth that agree
-constexpr double may_explain = 0.6;  // of the best gain: cannot be ruled out; of overlaps:
-constexpr double may_overlap = 0.9;
+constexpr double wide = 0.06;  // metres between measured and virtual depth that agree
+// Of the best gain, of what cannot be ruled out; of overlaps where they are the score.
+constexpr double may_explain = 0.6, may_overlap = 0.9;
 constexpr double great_gain = 0.3;  // of the score
 constexpr double good_fit = 0.8;    // Rating::fit of a right setup, about
 
@@ -265,7 +265,7 @@ class Comparison {
                    : kind == Kind::clock ? Cause::joint_time
                                          : Cause::intrinsics;
     result.message =
-        calibration::text_of(explained.causes.front(), explained, setup_.robot, setup_.camera) +
+        calibration::text_of(explained.causes.front(), explained, setup_.robot, setup_.raw_camera) +
         "; or " + result.message;
   }
 

@@ -52,18 +52,21 @@ struct Diagnosis {
 class SetupCheck {
  public:
   static constexpr std::size_t most = 12;           ///< frames that are kept
-  static constexpr std::size_t most_by_color = 20;  ///< the same of Sensor::color
+  static constexpr std::size_t most_by_color = 20;  ///< the same of Images::color
 
-  enum class Sensor : std::uint8_t {
-    depth,   ///< a depth camera
-    color,   ///< a camera without depth, which stands still
-    scanner  ///< of points, whose scans are drawn as images
+  /// Frames from one colour image of a stream to the next: enough.
+  static constexpr std::size_t color_step = 8;
+  /// What frames are compared by.
+  enum class Images : std::uint8_t {
+    depth,
+    color,  ///< of a camera without depth, which stands still
+    scans   ///< of a sensor of points, drawn as depth images
   };
 
-  /// `camera`: of the reports' images, of Sensor::color that of the colour images; `camera_parent`:
+  /// `camera`: of the reports' images, of Images::color that of the colour images; `camera_parent`:
   /// index of the link that carries it.
   SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent,
-             Sensor sensor = Sensor::depth);
+             Images images = Images::depth);
 
   /// Adds a frame in which the robot's pose and depth, or `color`, are known; ignores others.
   /// `joints`: its positions in the order of Robot::variables(); empty if the poses are from TF.
@@ -84,7 +87,7 @@ class SetupCheck {
  private:
   Robot robot_;
   std::size_t parent_;
-  Sensor sensor_;
+  Images images_;
   KeptFrames kept_;
   std::size_t pixels_ = 0, measured_ = 0, elsewhere_ = 0;  // all, and the robot's
 };
@@ -92,7 +95,7 @@ class SetupCheck {
 /// Diagnoses a setup from frames of a pinhole camera, all of which have depth, or masks, or colour
 /// images of a camera that stands still. If nothing about them is suspicious, only small errors of
 /// the camera's pose are looked for. `raw_camera`: as it is given, if `camera`, of the frames, is
-/// without its lens or smaller. `is_scanner`: of Sensor::scanner.
+/// without its lens or smaller. `is_scanner`: of Images::scans.
 [[nodiscard]] Diagnosis diagnose(std::span<const KeptFrame> frames, const Intrinsics& camera,
                                  const Intrinsics& raw_camera, const Robot& robot,
                                  std::size_t camera_parent,

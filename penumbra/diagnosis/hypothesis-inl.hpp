@@ -28,8 +28,8 @@ struct Rating {
   /// less; 0 if there are nearly none. Of masks the intersection over union; of colours what is
   /// explained with the frames' joints and not with those of other frames.
   double fit = 0.0;
-  /// How many pixels agree that do not in the given setup, by frame; of colours, how much more of
-  /// the images is explained. A setup that only moves the robot out of view explains nothing.
+  /// How many pixels agree that do not in the given setup, by frame; 0 of colours. A setup that
+  /// only moves the robot out of view explains nothing.
   double more = 0.0;
 };
 
@@ -98,7 +98,6 @@ class Agreement {
   const Setup& setup_;
   SmallFrames small_;
   std::optional<calibration::ColorScore> colors_;  // null: depth or masks
-  double given_score_ = 0.0;                       // of colours
   std::vector<Counts> given_;                      // of each frame, as the setup is given
 };
 

@@ -10,13 +10,13 @@ namespace penumbra {
 constexpr int enough_columns = 640;  // finer images find no more mistakes
 
 SetupCheck::SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent,
-                       Sensor sensor)
+                       Images images)
     : robot_(robot),
       parent_(camera_parent),
-      sensor_(sensor),
+      images_(images),
       kept_(robot, camera,
-            {.most = sensor == Sensor::color ? most_by_color : most,
-             .needs_depth = sensor != Sensor::color,
+            {.most = images == Images::color ? most_by_color : most,
+             .needs_depth = images != Images::color,
              .parent = camera_parent,
              .camera_stays = false,
              .columns = enough_columns}) {}
@@ -31,14 +31,14 @@ void SetupCheck::add(const FrameReport& report, std::span<const double> joints,
   std::optional<KeptFrame> frame = kept_.pass(report, joints);
   if (!frame) return;
   if (draw) draw();
-  if (sensor_ == Sensor::color) {
+  if (images_ == Images::color) {
     if (!kept_.is_size(color.width, color.height)) return;
     frame->color = kept_.image_of(color);
     kept_.add(*std::move(frame));
     return;
   }
   frame->depth = kept_.depth_of(report.depth);
-  if (sensor_ == Sensor::depth) {  // whose labels are those of a scan
+  if (images_ == Images::depth) {  // whose labels are those of a scan
     frame->labels = kept_.image_of(report.labels);
     frame->links = kept_.image_of(report.virtual_depth.links);
   }
@@ -49,18 +49,18 @@ Diagnosis SetupCheck::diagnose() const {
   // Of the robot's measured pixels those that are measured elsewhere; its measured pixels of all.
   constexpr double most_elsewhere = 0.05, least_measured = 0.002;
   const std::span<const KeptFrame> frames = kept_.frames();
-  const bool by_color = sensor_ == Sensor::color;
+  const bool by_color = images_ == Images::color;
   if (frames.empty() || (by_color && !calibration::stands_still(frames, parent_))) return {};
   const auto measured = static_cast<double>(measured_);
   const bool is_suspicious = by_color ||
                              static_cast<double>(elsewhere_) > most_elsewhere * measured ||
                              measured < least_measured * static_cast<double>(pixels_);
   return penumbra::diagnose(frames, kept_.camera(), kept_.raw_camera(), robot_, parent_,
-                            *kept_.T_parent_camera(), is_suspicious, sensor_ == Sensor::scanner);
+                            *kept_.T_parent_camera(), is_suspicious, images_ == Images::scans);
 }
 
 std::vector<std::string> SetupCheck::missing_parts(int fringe_reach) const {
-  if (sensor_ != Sensor::depth) return {};         // the fringe of scans has other causes
+  if (images_ != Images::depth) return {};         // the fringe of scans has other causes
   const int reach = fringe_reach / kept_.block();  // of the kept images
   return penumbra::missing_parts(kept_.frames(), robot_, reach);
 }

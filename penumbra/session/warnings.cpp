@@ -13,8 +13,6 @@
 namespace penumbra {
 namespace {
 
-using Input = SetupCheck::Sensor;
-
 bool is_beyond(const Joint& joint, std::span<const double> positions) {
   // A <limit> without lower and upper has 0 for both by the format, and means no range.
   if (!joint.variable || !joint.lower || !joint.upper || *joint.lower == *joint.upper) return false;
@@ -49,10 +47,11 @@ Warnings::Warnings(const Pipeline& pipeline, const Camera& camera, const Pipelin
   has_depth_ = config.has_depth;
   const std::size_t parent =
       config.camera_parent.empty() ? 0 : *robot_.find_link(config.camera_parent);
-  sensor_.emplace(Sensor{.setup = has_depth_ ? SetupCheck(robot_, pipeline.report_camera(), parent)
-                                             : SetupCheck(robot_, camera, parent, Input::color),
-                         .image = config.image,
-                         .fringe_reach = pipeline.rule().fringe_reach});
+  sensor_.emplace(
+      Sensor{.setup = has_depth_ ? SetupCheck(robot_, pipeline.report_camera(), parent)
+                                 : SetupCheck(robot_, camera, parent, SetupCheck::Images::color),
+             .image = config.image,
+             .fringe_reach = pipeline.rule().fringe_reach});
 }
 
 void Warnings::add(const FrameReport& report, const Frame& frame) {
@@ -89,10 +88,10 @@ void Warnings::add(const FrameReport& report, const Frame& frame) {
 
 void Warnings::add(ScanImage& image) {
   if (!sensor_)
-    sensor_.emplace(
-        Sensor{.setup = SetupCheck(robot_, image.camera(), image.parent(), Input::scanner),
-               .image = ImageSpace::raw,
-               .fringe_reach = 0});
+    sensor_.emplace(Sensor{
+        .setup = SetupCheck(robot_, image.camera(), image.parent(), SetupCheck::Images::scans),
+        .image = ImageSpace::raw,
+        .fringe_reach = 0});
   sensor_->setup.add(image.report(), image.positions(), [&] { image.draw(); });
   diagnosis_.reset();
 }
