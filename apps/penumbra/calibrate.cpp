@@ -129,8 +129,18 @@ std::string other_cause(const io::CalibrationInput& input, const CalibrationOpti
   const Robot& robot = input.input.robot;
   const std::size_t parent =
       options.camera_parent.empty() ? 0 : *robot.find_link(options.camera_parent);
-  const Diagnosis found = diagnose(input.frames, input.camera, input.input.camera->intrinsics,
-                                   robot, parent, *options.initial);
+  std::vector<KeptFrame> frames = input.frames;
+  const KeptFrames kept(robot, {input.camera, {}, {}, {}}, {.columns = SetupCheck::columns});
+  const auto make_small = [&kept](auto& image) {
+    if (!image.empty()) image = kept.image_of(std::as_const(image).view());
+  };
+  for (KeptFrame& frame : frames) {
+    make_small(frame.depth);
+    make_small(frame.mask);
+    make_small(frame.color);
+  }
+  const Diagnosis found = diagnose(frames, kept.camera(), input.input.camera->intrinsics, robot,
+                                   parent, *options.initial);
   using Cause = Diagnosis::Cause;
   const bool is_other = found.cause != Cause::camera_pose && found.cause != Cause::unexplained;
   return is_other ? found.message : std::string();

@@ -56,6 +56,7 @@ class SetupCheck {
 
   /// Frames from one colour image of a stream to the next: enough.
   static constexpr std::size_t color_step = 8;
+  static constexpr int columns = 640;  ///< of images; finer ones find no more mistakes
   /// What frames are compared by.
   enum class Images : std::uint8_t {
     depth,

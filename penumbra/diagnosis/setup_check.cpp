@@ -7,8 +7,6 @@
 
 namespace penumbra {
 
-constexpr int enough_columns = 640;  // finer images find no more mistakes
-
 SetupCheck::SetupCheck(const Robot& robot, const Camera& camera, std::size_t camera_parent,
                        Images images)
     : robot_(robot),
@@ -19,7 +17,7 @@ SetupCheck::SetupCheck(const Robot& robot, const Camera& camera, std::size_t cam
              .needs_depth = images != Images::color,
              .parent = camera_parent,
              .camera_stays = false,
-             .columns = enough_columns}) {}
+             .columns = columns}) {}
 
 void SetupCheck::add(const FrameReport& report, std::span<const double> joints,
                      const std::function<void()>& draw, const ImageView<const Rgb8>& color) {
