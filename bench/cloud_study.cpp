@@ -6,9 +6,12 @@
 #include "../tests/support/pasted_objects.hpp"
 #include "study_page.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iostream>
+
+#include <penumbra/labels/scene_memory.hpp>
 
 namespace penumbra::study {
 namespace {
@@ -77,6 +80,89 @@ std::string beside(Recorded& recorded, const NamedObject& object, int placements
          " of " + std::to_string(at_step.placements) + " placements\n";
 }
 
+/// What is kept of an object beside the outline, by its distance and depth from it: without memory,
+/// with one of the other frames, in which it stood already, and of a new one.
+std::string remembered(Recorded& recorded, int placements) {
+  constexpr std::array<int, 4> gaps = {0, 5, 10, 20};  // pixels
+  const Image<float>& size = recorded.frames.front().robot;
+  Classifier classifier(size.width(), size.height(), LabelRule{});
+  test::Paster paster(seed);
+  const auto remember = [&](const test::RealFrame& frame, SceneMemory& memory) {
+    memory.begin(Eigen::Isometry3d::Identity(), std::nullopt);
+    const DepthView measured = frame.measured.view();
+    memory.update(frame.view(), measured,
+                  classifier.classify(frame.view(), measured, memory.depth()));
+  };
+  std::vector<std::vector<std::string>> rows = {{"cm behind the outline"}};
+  for (const int gap : gaps)
+    rows[0].push_back(gap == 0 ? "touches it" : std::to_string(gap) + " px away");
+  for (const double offset : {-0.10, -0.05, -0.03, 0.0, 0.03, 0.05, 0.10}) {
+    rows.push_back({number(100 * offset, 0)});
+    for (const int gap : gaps) {
+      test::Kept alone, known, fresh;
+      for (std::size_t i = 0; i < recorded.frames.size(); ++i)
+        for (int n = 0; n < placements; ++n) {
+          test::RealFrame& frame = recorded.frames[i];
+          paster.paste_beside(frame, recorded.nearest[i],
+                              objects.at(static_cast<std::size_t>(n) % objects.size()).object,
+                              gap / frame.intrinsics.fx(), offset);  // of what is a metre away
+          const std::vector<int> here = paster.beside();
+          paster.undo(frame);
+          SceneMemory with(size.width(), size.height(), LabelRule{}), without = with;
+          bool is_seen = false;
+          for (test::RealFrame& other : recorded.frames) {
+            const bool is_free = std::none_of(here.begin(), here.end(), [&](int pixel) {
+              return other.robot.data()[pixel] > 0.0F;
+            });  // it stands where no robot goes
+            if (&other == &frame || !is_free) continue;
+            remember(other, without);
+            paster.paste_again(other);
+            remember(other, with);
+            paster.undo(other);
+            is_seen = true;
+          }
+          if (!is_seen) continue;
+          paster.paste_again(frame);
+          const auto add = [&](test::Kept& kept, ImageView<const std::uint16_t> depth) {
+            kept.add(paster.beside(),
+                     classifier.classify(frame.view(), frame.measured.view(), depth));
+          };
+          add(alone, {});
+          add(known, with.depth());
+          add(fresh, without.depth());
+          paster.undo(frame);
+        }
+      rows.back().push_back(number(alone.percent(), 1) + " / " + number(known.percent(), 1));
+      std::cout << rows.back()[0] << " cm, " << gap << " px, " << alone.placements
+                << " placements: " << rows.back().back() << ", new ones "
+                << number(fresh.percent(), 1) << std::endl;
+    }
+  }
+  return '\n' + table(rows) + '\n';
+}
+
+/// Points of the arm that are left with a memory of the other frames, %.
+double left_with_memory(const Recorded& recorded) {
+  const Image<float>& size = recorded.frames.front().robot;
+  Classifier classifier(size.width(), size.height(), LabelRule{});
+  test::Leftover sum;
+  for (std::size_t i = 0; i < recorded.frames.size(); ++i) {
+    SceneMemory memory(size.width(), size.height(), LabelRule{});
+    for (std::size_t j = 1; j <= recorded.frames.size(); ++j) {
+      const test::RealFrame& frame = recorded.frames[(i + j) % recorded.frames.size()];
+      memory.begin(Eigen::Isometry3d::Identity(), std::nullopt);
+      const DepthView measured = frame.measured.view();
+      const LabelView labels = classifier.classify(frame.view(), measured, memory.depth());
+      if (j < recorded.frames.size())
+        memory.update(frame.view(), measured, labels);
+      else
+        sum.add(frame.robot.view(), frame.measured.view(), labels.labels, recorded.nearest[i],
+                test::Paster::air_rows);
+    }
+  }
+  return sum.percent();
+}
+
 void run(const std::filesystem::path& recording, const std::filesystem::path& root,
          int placements) {
   Recorded recorded{test::load_real_frames(recording), {}};
@@ -86,7 +172,11 @@ void run(const std::filesystem::path& recording, const std::filesystem::path& ro
   std::cout << page << "Points of objects that are kept, %, seed " << seed << ":\n";
   for (const NamedObject& object : objects)
     std::cout << '\n' << beside(recorded, object, placements);
+  std::cout << "with a memory of the other frames " << number(left_with_memory(recorded), 2)
+            << " % of the arm's points are left\n";
+  const std::string kept = remembered(recorded, placements);
   update_page(root / "docs/cloud.md", "cloud_study", page);
+  update_page(root / "docs/cloud.md", "memory_study", kept);
 }
 
 }  // namespace

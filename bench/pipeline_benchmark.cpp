@@ -36,10 +36,14 @@ struct Case {
   double history;
   bool carries_ball = false;  ///< of 5 cm, attached to the last link
   bool is_cold = false;       ///< all caches are swept before each frame
+  bool has_memory = true;     ///< LabelRule::scene_memory
 };
 
 std::vector<Case> all_cases() {
   return {{"no targets", Kind::none, 0},
+          {"no targets, no memory", Kind::none, 0, false, false, false},
+          {"no targets, cold", Kind::none, 0, false, true},
+          {"no targets, no memory, cold", Kind::none, 0, false, true, false},
           {"no targets, a ball attached", Kind::none, 0, true},
           {"ten targets", Kind::regions, 0},
           {"ten targets, cold", Kind::regions, 0, false, true},
@@ -113,6 +117,7 @@ void process(benchmark::State& state, const BenchScene& scene,
   config.renderer.threads = 1;
   config.T_parent_camera = scene.T_root_camera;
   config.target_history = c.history;
+  if (!c.has_memory) config.rule.scene_memory = 0.0;
   Pipeline pipeline(scene.load_robot(), {scene.intrinsics, {}, {}, {}}, config);
   const TenTargets targets(scene.intrinsics, c.targets);
   std::vector<AttachedBody> attached;

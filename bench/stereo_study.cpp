@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures against the simulator's truth what a stereo camera carries past the robot's outline, how
-// much of it the fringe finds and what it takes of real things. Writes a table into docs/cloud.md.
+// much of it the fringe finds and what it takes of real things, from single images and with a
+// memory of the scene. Writes tables into docs/cloud.md.
 #include "../tests/support/cloud_measure.hpp"
 #include "stereo_camera.hpp"
 #include "study_page.hpp"
@@ -16,6 +17,7 @@
 #include <mutex>
 #include <thread>
 
+#include <penumbra/labels/scene_memory.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
 #include <sim/arm.hpp>
@@ -25,6 +27,7 @@
 namespace penumbra::study {
 namespace {
 
+using sim::ScenePart;
 using test::label_at;
 
 constexpr std::uint64_t first_seed = 20230206;
@@ -37,6 +40,10 @@ constexpr double robots_depth = 3.0;  // of e(z): how near to the robot's depth 
 
 constexpr double frame_rate = 30.0;  // turns a frame's number into the scene's time
 constexpr double nearby = 64.0;      // pixels from the robot: no farther point was carried
+
+constexpr std::size_t frames_of_sequence = 60;
+constexpr double away = 10.0;    // metres: out of view
+constexpr double beside = 20.0;  // pixels from the outline
 
 /// The simulated arm among eight things before, behind and beside it, seen by a stereo camera. The
 /// seed chooses the camera's place and the things; every frame is a new arm pose with the things in
@@ -58,8 +65,32 @@ class StereoCell {
   /// Captures frame `index` into `images`. Returns the robot alone, as rendered.
   VirtualDepthView capture(std::size_t index, StereoImages& images) {
     const double time = static_cast<double>(index) / frame_rate;
-    const std::vector<double> joints = scene_->joints(time);
-    stage_.place(joints, scene_->pose(time).parts);
+    return capture(scene_->joints(time), scene_->pose(time).parts, images);
+  }
+
+  /// Captures what one of the frames of a sequence shows: the arm comes to the first frame's pose
+  /// among the first frame's things, and leaves. Half-way the things of `is_gone` go, if `changes`.
+  VirtualDepthView capture_moving(std::size_t frame, bool changes, StereoImages& images) {
+    const double s = 2.0 * static_cast<double>(frame) / frames_of_sequence;  // 1: half-way
+    const double to = s < 1.0 ? s * s * (3.0 - 2.0 * s) : (s - 1.0) * (s - 1.0) * (5.0 - 2.0 * s);
+    const std::vector<double> from = scene_->joints((s < 1.0 ? 1.0 : 0.0) / frame_rate);
+    std::vector<double> joints = scene_->joints((s < 1.0 ? 0.0 : 2.0) / frame_rate);
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      joints[i] = from[i] + to * (joints[i] - from[i]);
+    std::vector<Eigen::Isometry3d> parts = scene_->pose(0.0).parts;
+    const std::vector<ScenePart>& all = scene_->description().parts;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const int object = all[i].object;
+      const bool goes = object >= 0 && object % 2 == 0, comes = object >= 0 && object % 2 == 1;
+      if (changes && ((goes && s >= 1.0) || (comes && s < 1.0))) parts[i].translation().z() -= away;
+    }
+    return capture(joints, parts, images);
+  }
+
+  /// Captures an arm among parts.
+  VirtualDepthView capture(const std::vector<double>& joints,
+                           const std::vector<Eigen::Isometry3d>& parts, StereoImages& images) {
+    stage_.place(joints, parts);
     const Eigen::Isometry3d& T_base_camera = scene_->description().T_base_camera;
     camera_.capture(stage_, T_base_camera, images);
     arm_.robot().forward_kinematics(joints, poses_);
@@ -197,6 +228,84 @@ Tally study(std::size_t frames) {
   return all;
 }
 
+/// Points of moving sequences, by what they are, and of those the ones that a cloud without the
+/// robot holds, without and with a memory. `near`: of things beside the outline.
+struct Moving {
+  std::size_t on_robot = 0;
+  std::array<std::size_t, 6> points{};  // by Point; the last: of things beside the outline
+  std::array<std::array<std::size_t, 6>, 2> kept{};
+
+  void add(const Moving& other) {
+    on_robot += other.on_robot;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i] += other.points[i];
+      for (std::size_t k = 0; k < kept.size(); ++k) kept[k][i] += other.kept[k][i];
+    }
+  }
+};
+
+Moving tally_sequence(std::size_t cell, bool changes) {
+  StereoCell place(first_seed + cell);
+  const Intrinsics camera = StereoCell::intrinsics();
+  const LabelRule rule;
+  Classifier alone(camera.width(), camera.height(), rule),
+      with(camera.width(), camera.height(), rule);
+  SceneMemory memory(camera.width(), camera.height(), rule);
+  StereoImages images;
+  Moving sum;
+  for (std::size_t frame = 0; frame < frames_of_sequence; ++frame) {
+    const VirtualDepthView robot = place.capture_moving(frame, changes, images);
+    const DepthView measured = std::as_const(images.measured).view();
+    memory.begin(Eigen::Isometry3d::Identity(),
+                 static_cast<std::int64_t>(1e9 * static_cast<double>(frame) / frame_rate));
+    const std::array<LabelView, 2> labels = {alone.classify(robot, measured),
+                                             with.classify(robot, measured, memory.depth())};
+    memory.update(robot, measured, labels[1]);
+    const tuning::NearestPixels nearest = test::nearest_robot(robot.depth);
+    for (int v = 0; v < images.measured.height(); ++v)
+      for (int u = 0; u < images.measured.width(); ++u) {
+        if (images.measured(u, v) == 0 || nearest.distance(u, v) > nearby) continue;
+        const Point point = point_of(images, robot, nearest, u, v);
+        sum.on_robot += point == Point::robot;
+        const int pixel = v * images.measured.width() + u;
+        const auto count = [&](std::size_t kind) {
+          ++sum.points[kind];
+          for (std::size_t k = 0; k < 2; ++k)
+            sum.kept[k][kind] += is_trusted(label_at(labels[k], pixel));
+        };
+        count(static_cast<std::size_t>(point));
+        if (point == Point::thing && nearest.distance(u, v) <= beside) count(5);
+      }
+  }
+  return sum;
+}
+
+int study_moving(std::size_t sequences) {
+  for (const bool changes : {false, true}) {
+    Moving all;
+    std::mutex mutex;
+    std::atomic<std::size_t> next = 0;
+    std::vector<std::thread> workers;
+    for (int i = 0; i < threads; ++i)
+      workers.emplace_back([&] {
+        for (std::size_t cell = next++; cell < sequences; cell = next++) {
+          const Moving sum = tally_sequence(cell, changes);
+          const std::lock_guard lock(mutex);
+          all.add(sum);
+        }
+      });
+    for (std::thread& worker : workers) worker.join();
+    std::cout << (changes ? "changing" : "static") << ", on robot " << all.on_robot << '\n';
+    const char* const names[] = {"robot", "carried", "thing", "room", "other", "thing beside"};
+    for (std::size_t i = 0; i < 6; ++i)
+      std::cout << "  " << names[i] << ": " << all.points[i] << ", kept alone " << all.kept[0][i]
+                << " (" << test::percent(all.kept[0][i], all.points[i]) << " %), with memory "
+                << all.kept[1][i] << " (" << test::percent(all.kept[1][i], all.points[i])
+                << " %)\n";
+  }
+  return 0;
+}
+
 std::string report(const Tally& sum) {
   std::vector<std::vector<std::string>> rows = {{"fringe_reach, px", "points of the robot left, %",
                                                  "points of things removed, %",
@@ -230,6 +339,7 @@ int main(int argc, char** argv) {
       std::cerr << "usage: stereo_study REPOSITORY [--frames N]\n";
       return 2;
     }
+    if (has_count && arguments[0] == "moving") return study_moving(std::stoul(arguments[2]));
     const Tally sum = study(has_count ? std::stoul(arguments[2]) : 1000);
     const std::string text = report(sum);
     std::cout << text;

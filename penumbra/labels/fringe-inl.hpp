@@ -57,11 +57,13 @@ struct Fringe {
   std::vector<Source> sources;
   std::unique_ptr<Block[]> queue;  ///< the sources' blocks, then those that the flood reached
   TileMask filled;
+  std::vector<std::uint16_t> nothing_known;  ///< a row of SceneMemory::none
 };
 
-/// Labels the fringe in a labelled image and marks its tiles as touched. Returns the number of its
-/// pixels.
-using LabelFringe = std::size_t (*)(Fringe&, Work&, const DepthView& measured);
+/// Labels the fringe in a labelled image and marks its tiles as touched. `known`: of
+/// Classifier::classify(). Returns the number of its pixels.
+using LabelFringe = std::size_t (*)(Fringe&, Work&, const DepthView& measured,
+                                    ImageView<const std::uint16_t> known);
 
 /// Returns the kernel for a SIMD target (a bit of simd_target).
 [[nodiscard]] LabelFringe fringe_kernel(std::int64_t target);

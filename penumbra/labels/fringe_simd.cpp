@@ -187,17 +187,18 @@ HWY_INLINE hn::VFromD<Four> four_millimetres(const float* above, const float* be
   return hn::LoadU(Four(), all.data());
 }
 
-/// Labels the clear pixels of a block that differ from its depth by at most `off`, millimetres.
-/// Returns how many.
+/// Labels the clear pixels of a block that differ from its depth by at most 2 `step`, millimetres,
+/// and from what is known by more than one. Returns how many.
 template <typename T>
 HWY_INLINE std::size_t paint(TileMask& touched, ImageView<std::uint8_t> labels,
-                             ImageView<const T> measured, Fringe::Block block, int at, int off) {
+                             ImageView<const T> measured, ImageView<const std::uint16_t> known,
+                             Fringe::Block block, int at, std::uint16_t step) {
   const hn::FixedTag<std::uint8_t, 4> bytes;
   const hn::FixedTag<std::uint32_t, 1> word;
   const int u = std::min(2 * block.x(), labels.width - 2);
   const int v = std::min(2 * block.y(), labels.height - 2);
-  const auto least = static_cast<std::uint16_t>(std::max(at - off, 0));
-  const auto most = static_cast<std::uint16_t>(std::min<int>(at + off, farthest));
+  const auto least = static_cast<std::uint16_t>(std::max(at - 2 * step, 0));
+  const auto most = static_cast<std::uint16_t>(std::min<int>(at + 2 * step, farthest));
   std::uint8_t* const above = labels.row(v) + u;
   std::uint8_t* const below = labels.row(v + 1) + u;
   const std::uint32_t old =
@@ -206,7 +207,12 @@ HWY_INLINE std::size_t paint(TileMask& touched, ImageView<std::uint8_t> labels,
   const auto depth = four_millimetres(measured.row(v) + u, measured.row(v + 1) + u);
   const auto is_near =
       hn::Eq(hn::Min(hn::Max(depth, hn::Set(Four(), least)), hn::Set(Four(), most)), depth);
-  const auto is_fringe = hn::And(is_near, hn::Eq(label, hn::Set(Four(), clear)));
+  const auto before = four_millimetres(known.row(v) + u, known.row(v + 1) + u);
+  const auto off = hn::Set(Four(), step);
+  const auto is_same = hn::Eq(
+      hn::Min(hn::Max(depth, hn::SaturatedSub(before, off)), hn::SaturatedAdd(before, off)), depth);
+  const auto is_fringe =
+      hn::AndNot(is_same, hn::And(is_near, hn::Eq(label, hn::Set(Four(), clear))));
   const auto painted = hn::Or(label, hn::IfThenElseZero(is_fringe, hn::Set(Four(), fringe)));
   const std::uint32_t now = hn::GetLane(hn::BitCast(word, hn::TruncateTo(bytes, painted)));
   const std::uint32_t now_below = now >> 16;
@@ -223,7 +229,8 @@ HWY_INLINE std::size_t paint(TileMask& touched, ImageView<std::uint8_t> labels,
 /// Visits blocks breadth first, so that each comes from a near part of the outline, and labels the
 /// clear pixels of each that are near the block's depth. Returns the number of these pixels.
 template <typename T>
-std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured) {
+std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured,
+                 ImageView<const std::uint16_t> known) {
   struct Step {
     std::uint64_t block;
     std::ptrdiff_t offset;
@@ -239,6 +246,7 @@ std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured) {
   Fringe::Block* const queue = flood.queue.get();
   const Fringe::Source* const sources = flood.sources.data();
   std::uint16_t* const origin = flood.block(0, 0);
+  constexpr std::size_t ahead = 16;  // blocks whose memory is fetched
   std::size_t end = flood.sources.size();
   std::size_t count = 0;
   for (std::size_t i = 0; i < end; ++i) {
@@ -246,7 +254,10 @@ std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured) {
     const Fringe::Source source = sources[from.source()];
     std::uint16_t* const here = origin + from.y() * pitch + from.x();
     const int depth = *here;
-    count += paint(work.touched, labels, measured, from, depth, 2 * source.step);
+    const Fringe::Block later = queue[std::min(i + ahead, end - 1)];
+    for (int v = 2 * later.y(); v < std::min(2 * later.y() + 2, labels.height); ++v)
+      hwy::Prefetch(known.row(v) + 2 * later.x());
+    count += paint(work.touched, labels, measured, known, from, depth, source.step);
     const int dx = from.x() - source.x, dy = from.y() - source.y;
     if (dx * dx + dy * dy > continues) continue;
     const int least = std::max<int>(depth - source.step, source.nearest);
@@ -268,13 +279,15 @@ std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured) {
   return count;
 }
 
-std::size_t label_fringe(Fringe& flood, Work& work, const DepthView& measured) {
+std::size_t label_fringe(Fringe& flood, Work& work, const DepthView& measured,
+                         ImageView<const std::uint16_t> known) {
   if (flood.reach == 0) return 0;
+  if (known.empty()) known = {flood.nothing_known.data(), work.width, work.height, 0};
   return std::visit(
       [&](const auto& depth) {
         fill_near_robot(flood, work, depth);
         find_sources(flood, work);
-        return fill(flood, work, depth);
+        return fill(flood, work, depth, known);
       },
       measured);
 }
@@ -304,6 +317,7 @@ Fringe::Fringe(int width, int height, int reach_pixels)
   filled.mark(0, 0, width - 1, height - 1);  // so that begin() empties all
   sources.reserve(blocks.size());
   queue = std::make_unique_for_overwrite<Block[]>(blocks.size() + 1);
+  nothing_known.assign(static_cast<std::size_t>(width), saturated_depth);
 }
 
 void Fringe::begin(const TileMask& touched, int pixels) {

@@ -40,6 +40,7 @@ LabelRule LabelRule::paper() {
   rule.front_min_width = 0;
   rule.edge_margin = 0;
   rule.fringe_reach = 0;
+  rule.scene_memory = 0.0;
   rule.fold_beyond = true;
   return rule;
 }
@@ -111,7 +112,8 @@ Classifier& Classifier::operator=(Classifier&&) noexcept = default;
 const LabelRule& Classifier::rule() const { return state_->rule; }
 const std::string& Classifier::isa() const { return state_->isa; }
 
-LabelView Classifier::classify(const VirtualDepthView& virtual_depth, const DepthView& measured) {
+LabelView Classifier::classify(const VirtualDepthView& virtual_depth, const DepthView& measured,
+                               ImageView<const std::uint16_t> known) {
   labelling::Work& work = state_->work;
   const TileMask& touched =
       virtual_depth.touched != nullptr ? *virtual_depth.touched : state_->everything;
@@ -124,7 +126,7 @@ LabelView Classifier::classify(const VirtualDepthView& virtual_depth, const Dept
   LabelView view;
   view.pixels = state_->label(work, virtual_depth.depth, measured);
   view.pixels[static_cast<std::size_t>(Label::fringe)] =
-      state_->label_fringe(state_->fringe, work, measured);
+      state_->label_fringe(state_->fringe, work, measured, known);
   std::size_t labelled = 0;
   for (const std::size_t pixels : view.pixels) labelled += pixels;
   view.pixels[static_cast<std::size_t>(Label::clear)] = work.labels.size() - labelled;

@@ -97,9 +97,13 @@ struct Tolerance {
 ///      at most 2 fringe_step e(d(s)).
 ///    A real object at the robot's depth that touches its outline is fringe up to fringe_reach; one
 ///    image cannot tell them apart.
+/// 4. Memory, of a Pipeline whose camera stands still. A pixel stays clear if its depth differs by
+///    at most fringe_step e(d(s)) from what was measured there when no robot was within
+///    fringe_reach. That is forgotten after `scene_memory` seconds, where a clear pixel measures
+///    another depth, and where the robot itself comes within fringe_drift e(z) of it.
 ///
 /// In the code: pixel_labels-inl.hpp compares, foreground_pixels-inl.hpp and front_cleanup-inl.hpp
-/// clean up, fringe-inl.hpp floods; label_simd.cpp calls them in order.
+/// clean up, fringe-inl.hpp floods; label_simd.cpp calls them in order. scene_memory.hpp remembers.
 struct LabelRule {
   static constexpr int cell = 4;               ///< pixels
   static constexpr int max_width = 63;         ///< pixels, of front_min_width
@@ -111,8 +115,9 @@ struct LabelRule {
   int front_min_width = 7;
   int edge_margin = 8;
   int fringe_reach = 40;
-  bool fold_beyond = false;  ///< label beyond as occluded
-  DepthRange range;          ///< measured depths outside of it are no measurements
+  double scene_memory = 60.0;  ///< seconds
+  bool fold_beyond = false;    ///< label beyond as occluded
+  DepthRange range;            ///< measured depths outside of it are no measurements
 
   bool operator==(const LabelRule&) const = default;
 
@@ -130,6 +135,9 @@ struct LabelRule {
                 "how far an edge of the robot may be out of place; 0: the clean-up ignores edges"),
         Setting("fringe_reach", &LabelRule::fringe_reach, {0, 255}, "px",
                 "how far past its outline the sensor shows the robot's depth; 0: no fringe"),
+        Setting("scene_memory", &LabelRule::scene_memory, {0, 3600}, "s",
+                "how long what was measured before the robot came keeps real things beside it from "
+                "being fringe; 0: not at all"),
         Setting("beyond_factor", &LabelRule::beyond_factor, {1, 1000}, "",
                 "how many tolerances behind the model beyond starts"));
   }
@@ -164,10 +172,11 @@ class Classifier {
   Classifier(Classifier&&) noexcept;
   Classifier& operator=(Classifier&&) noexcept;
 
-  /// Labels every pixel. Both images must have the classifier's size. Without a tile mask, the
-  /// whole virtual depth is read. The view is valid until the next call.
-  [[nodiscard]] LabelView classify(const VirtualDepthView& virtual_depth,
-                                   const DepthView& measured);
+  /// Labels every pixel. All images must have the classifier's size. Without a tile mask, the
+  /// whole virtual depth is read. `known`: SceneMemory::depth(); empty: none. The view is valid
+  /// until the next call.
+  [[nodiscard]] LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured,
+                                   ImageView<const std::uint16_t> known = {});
 
   [[nodiscard]] const LabelRule& rule() const;
   [[nodiscard]] const std::string& isa() const;  ///< the target in use

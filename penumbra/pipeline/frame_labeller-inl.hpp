@@ -16,6 +16,7 @@
 #include <penumbra/labels/image_space.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/labels/rule.hpp>
+#include <penumbra/labels/scene_memory.hpp>
 #include <penumbra/pipeline/attached_bodies-inl.hpp>
 #include <penumbra/pipeline/frame.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
@@ -38,6 +39,11 @@ class FrameLabeller {
   /// valid until the next call.
   LabelledFrame label(const DepthView& depth, const PoseResult& poses);
 
+  /// Forgets what earlier frames measured.
+  void forget() {
+    if (memory_) memory_->forget();
+  }
+
   [[nodiscard]] const DepthRenderer& renderer() const { return *renderer_; }
   [[nodiscard]] const LabelRule& rule() const { return classifier_.rule(); }
   [[nodiscard]] const std::optional<UncoveredPixels>& uncovered() const { return uncovered_; }
@@ -56,7 +62,8 @@ class FrameLabeller {
   LabelView without_trusted(const LabelView& labels);
   VirtualDepthView add(const VirtualDepthView& robot, std::span<const PlacedBody> bodies,
                        std::span<const Reach> reaches);
-  LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured);
+  LabelView classify(const VirtualDepthView& virtual_depth, const DepthView& measured,
+                     ImageView<const std::uint16_t> known = {});
 
   Intrinsics render_intrinsics_;
   Intrinsics intrinsics_;
@@ -66,6 +73,7 @@ class FrameLabeller {
   std::optional<RectifiedDepth> rectified_depth_;  // with distortion, ImageSpace::rectified
   std::optional<UncoveredPixels> uncovered_;       // with distortion
   Classifier classifier_;
+  std::optional<SceneMemory> memory_;  // if the rule has fringe and memory
   bool has_depth_;
   Eigen::Vector2i depth_size_;  // of the camera's images, pixels
   labelling::Rule measured_;    // defines a measurement

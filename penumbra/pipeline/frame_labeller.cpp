@@ -58,6 +58,8 @@ FrameLabeller::FrameLabeller(const Robot& robot, const Camera& camera,
       measured_(classifier_.rule()),
       no_depth_row_(static_cast<std::size_t>(intrinsics_.width())),
       unknown_row_(no_depth_row_.size(), static_cast<std::uint8_t>(Label::unknown)) {
+  if (rule().fringe_reach > 0 && rule().scene_memory > 0.0)
+    memory_.emplace(intrinsics_.width(), intrinsics_.height(), rule(), config.renderer.isa);
   if (rectification == nullptr) return;
   if (config.image == ImageSpace::raw) {
     raw_images_.emplace(*rectification);
@@ -94,7 +96,15 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
     const StageTimer timer(frame.classify_ms);
     if (images.evidence == Evidence::measured)
       images.measured = rectified_depth_ ? rectified_depth_->rectify(depth) : depth;
-    images.labels = classify(images.virtual_depth, images.measured);
+    const bool is_whole = images.evidence == Evidence::measured && poses.missing_links.empty() &&
+                          poses.reaches.empty();
+    if (memory_ && is_whole) {
+      memory_->begin(poses.T_root_camera, poses.stamp);
+      images.labels = classify(images.virtual_depth, images.measured, memory_->depth());
+      memory_->update(images.virtual_depth, images.measured, images.labels);
+    } else {
+      images.labels = classify(images.virtual_depth, images.measured);
+    }
     if (!poses.reaches.empty()) add_reaches(images, robot, poses);
   }
   frame.labels = images.labels;
@@ -183,12 +193,12 @@ VirtualDepthView FrameLabeller::add(const VirtualDepthView& robot,
   return raw_images_ ? raw_images_->virtual_depth(drawn) : drawn;
 }
 
-LabelView FrameLabeller::classify(const VirtualDepthView& virtual_depth,
-                                  const DepthView& measured) {
+LabelView FrameLabeller::classify(const VirtualDepthView& virtual_depth, const DepthView& measured,
+                                  ImageView<const std::uint16_t> known) {
   const ImageView<const std::uint16_t> no_depth{no_depth_row_.data(), intrinsics_.width(),
                                                 intrinsics_.height(), 0};
-  const LabelView labels =
-      classifier_.classify(virtual_depth, is_empty(measured) ? DepthView(no_depth) : measured);
+  const LabelView labels = classifier_.classify(
+      virtual_depth, is_empty(measured) ? DepthView(no_depth) : measured, known);
   return uncovered_ ? uncovered_->mark(labels) : labels;
 }
 

@@ -39,7 +39,10 @@ class ImageJudge final : public FrameJudge {
   }
   void begin(const LabelledFrame& frame) override;
   const LabelledFrame& earlier(std::int64_t stamp, const PoseResult* poses) override;
-  void forget() override { recent_.clear(); }
+  void forget() override {
+    recent_.clear();
+    labeller_.forget();
+  }
 
  private:
   [[nodiscard]] const Rectification* lens() const {

@@ -59,7 +59,10 @@ ImageJudge::ImageJudge(const Robot& robot, const Camera& camera, const PipelineC
       views_(robot_, camera_, renderers_, labeller_.rule(),
              labeller_.rectifies() ? nullptr : lens()),
       recent_(history_span(config.target_history)) {
-  if (config.target_history > 0.0) late_labeller_.emplace(robot_, camera, lens(), config);
+  if (config.target_history == 0.0) return;
+  PipelineConfig alone = config;
+  alone.rule.scene_memory = 0.0;
+  late_labeller_.emplace(robot_, camera, lens(), alone);
 }
 
 LabelledFrame ImageJudge::label(const Frame& frame, PoseStage& poses) {

@@ -36,7 +36,7 @@ Depth = Union["NDArray[np.uint16]", "NDArray[np.float32]"]
 Color = NDArray[np.uint8]
 Joints = Union[None, RobotPose, JointAnswer, Dict[str, float], ArrayLike]
 
-rule_keys = ("front_min_width", "edge_margin", "fringe_reach", "beyond_factor")
+rule_keys = ("front_min_width", "edge_margin", "fringe_reach", "scene_memory", "beyond_factor")
 far_enough = 1e9  # metres: a range in a recording has two finite ends
 
 

@@ -109,7 +109,7 @@ class Outputs : public TinyTest, public testing::WithParamInterface<Command> {
     EXPECT_TRUE(files_of(output()) == wanted) << after;
   }
 
-  const int clouds_ = 32;
+  const int clouds_ = 8;
 };
 
 class OutputFolders : public Outputs {

@@ -233,6 +233,7 @@ TEST_F(RunTest, TheReportSaysByWhichRuleItWasMade) {
                   {"front_min_width", rule.front_min_width},
                   {"edge_margin", rule.edge_margin},
                   {"fringe_reach", rule.fringe_reach},
+                  {"scene_memory", rule.scene_memory},
                   {"beyond_factor", rule.beyond_factor},
                   {"labels", "full"},
                   {"beyond", "occluded"},

@@ -75,7 +75,7 @@ std::vector<Library> libraries() {
       {"penumbra/base", "tinyxml2 1 hwy/ 2"},
       {"penumbra/mesh", "nlohmann/ 1 meshoptimizer.h 2"},
       {"penumbra/render", "meshoptimizer.h 1 hwy/ 2"},
-      {"penumbra/labels", "hwy/ 5"},
+      {"penumbra/labels", "hwy/ 6"},
       {"penumbra/render/gl", "epoxy/egl.h 1 dlfcn.h 1 epoxy/gl.h 7"},
       {"penumbra/robot", "fnmatch.h 1"},
       {"io/files",

@@ -40,6 +40,9 @@ class Paster {
   void paste_beside(RealFrame& frame, const tuning::NearestPixels& nearest,
                     const PastedObject& object, double gap, double offset);
 
+  /// Puts the last object into a frame, at the same place.
+  void paste_again(RealFrame& frame) { paste(frame); }
+
   /// Restores the frame.
   void undo(RealFrame& frame);
 
