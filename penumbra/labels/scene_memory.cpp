@@ -85,8 +85,7 @@ void check_tile(const Rule& rule, const SceneTile& tile, ImageView<const T> meas
     const auto is_clear = hn::Eq(label, hn::Set(I(), static_cast<int>(Label::clear)));
     const auto is_other = hn::And(hn::RebindMask(F(), hn::And(is_clear, criteria.measured(d))),
                                   differ(d, m, hn::Mul(step, e)));
-    const auto is_reached =
-        hn::AndNot(differ(z, m, hn::Mul(reach, e)), hn::Gt(z, hn::Zero(F())));
+    const auto is_reached = hn::AndNot(differ(z, m, hn::Mul(reach, e)), hn::Gt(z, hn::Zero(F())));
     const VI before = hn::PromoteTo(I(), hn::LoadU(narrow, known));
     const VI now = hn::IfThenElse(hn::RebindMask(I(), hn::Or(is_other, is_reached)),
                                   hn::Set(I(), SceneMemory::none), before);
@@ -125,7 +124,7 @@ HWY_EXPORT(scene_kernel);
 namespace {
 
 constexpr std::int64_t period = 2'000'000'000;  // ns from one visit of a row of tiles to the next
-constexpr std::size_t parts = 64;              // that are visited one after the other
+constexpr std::size_t parts = 64;               // that are visited one after the other
 constexpr double same_place = 1e-3;             // metres, radians: the camera stands still
 
 /// Returns the tiles of a row in which the robot is, of those that the renderer has touched.
@@ -171,8 +170,7 @@ void SceneMemory::forget() {
   is_empty_ = true;
 }
 
-void SceneMemory::begin(const Eigen::Isometry3d& T_root_camera,
-                        std::optional<std::int64_t> stamp) {
+void SceneMemory::begin(const Eigen::Isometry3d& T_root_camera, std::optional<std::int64_t> stamp) {
   const Eigen::Isometry3d before = T_root_camera_.value_or(T_root_camera);
   is_moving_ = (T_root_camera.translation() - before.translation()).norm() > same_place ||
                (T_root_camera.linear() - before.linear()).norm() > same_place;

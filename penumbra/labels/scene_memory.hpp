@@ -19,8 +19,8 @@ namespace labelling {
 /// Pixels u0 <= u < u1, v0 <= v < v1 of a frame and of what is known of its scene.
 struct SceneTile {
   int u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-  bool is_near = false;                   ///< the robot
-  ImageView<const float> robot = {};      ///< virtual depth
+  bool is_near = false;               ///< the robot
+  ImageView<const float> robot = {};  ///< virtual depth
   ImageView<const std::uint8_t> labels = {};
   ImageView<std::uint16_t> known = {};
 };
@@ -31,8 +31,8 @@ using UpdateSceneTile = bool (*)(const Rule&, const SceneTile&, const DepthView&
 
 }  // namespace labelling
 
-/// What a camera that stands still measured away from the robot (LabelRule::scene_memory). With stamps
-/// each part of the image is visited every two seconds, without in each frame.
+/// What a camera that stands still measured away from the robot (LabelRule::scene_memory). With
+/// stamps each part of the image is visited every two seconds, without in each frame.
 class SceneMemory {
  public:
   static constexpr std::uint16_t none = saturated_depth;

@@ -140,7 +140,8 @@ TEST_P(Memory, EndsWithAMovedCameraOrClock) {
 
 TEST_P(Memory, OfAViewThatHasChangedIsLost) {
   EXPECT_EQ(fringe_of_thing(), 0u);
-  for (float& z : std::span(scene_.metres.data(), scene_.metres.size())) z -= z == wall ? 0.5f : 0.0f;
+  for (float& z : std::span(scene_.metres.data(), scene_.metres.size()))
+    z -= z == wall ? 0.5f : 0.0f;
   EXPECT_EQ(fringe(), 0u) << "of frames before";
   EXPECT_EQ(fringe(), thing) << "the base has driven";
 }
@@ -163,7 +164,9 @@ TEST(MemoryTwins, RememberTheSame) {
     std::vector<SceneMemory> memories;
     for (const std::string& isa : simd_target_names()) memories.emplace_back(w, h, rule, isa);
     Classifier classifier(w, h, rule);
-    const auto e = [&](float z) { return float(rule.tolerance.a) + float(rule.tolerance.c) * z * z; };
+    const auto e = [&](float z) {
+      return float(rule.tolerance.a) + float(rule.tolerance.c) * z * z;
+    };
     for (int frame = 0; frame < 6; ++frame) {
       const Scene scene = random_scene(w, h, random);
       const Image<std::uint16_t> measured = scene.millimetres();
@@ -182,7 +185,8 @@ TEST(MemoryTwins, RememberTheSame) {
       int away = 0, changed = 0;
       for (int v0 = 0; v0 < h; v0 += TileMask::tile_height)
         for (int u0 = 0; u0 < w; u0 += scene.tiles.tile_width) {
-          const int u1 = std::min(w, u0 + scene.tiles.tile_width), v1 = std::min(h, v0 + TileMask::tile_height);
+          const int u1 = std::min(w, u0 + scene.tiles.tile_width),
+                    v1 = std::min(h, v0 + TileMask::tile_height);
           const bool is_robots = is_near(u0, v0);
           int both = 0, others = 0;
           for (const auto [u, v] : each_pixel(u0, v0, u1, v1)) {
@@ -193,7 +197,8 @@ TEST(MemoryTwins, RememberTheSame) {
             if (is_robots && is_known) {
               const bool is_other = labels.labels(u, v) == std::uint8_t(Label::clear) && d > 0.0f &&
                                     std::abs(d - m) > 0.6f * e(m);
-              if (is_other || (z > 0.0f && std::abs(z - m) <= 3.0f * e(m))) known = SceneMemory::none;
+              if (is_other || (z > 0.0f && std::abs(z - m) <= 3.0f * e(m)))
+                known = SceneMemory::none;
             }
             if (is_robots) continue;
             if (v == v0 && d > 0.0f && is_known) ++both, others += std::abs(d - m) > e(d);
@@ -202,12 +207,14 @@ TEST(MemoryTwins, RememberTheSame) {
           away += !is_robots;
           changed += 2 * others > both;
         }
-      if (frame > 0 && 2 * changed > away) std::fill_n(expected.data(), expected.size(), SceneMemory::none);
+      if (frame > 0 && 2 * changed > away)
+        std::fill_n(expected.data(), expected.size(), SceneMemory::none);
       for (SceneMemory& memory : memories) {
         memory.begin(Eigen::Isometry3d::Identity(), std::nullopt);
         memory.update(scene.view(), measured.view(), labels);
         for (const auto [u, v] : each_pixel(expected))
-          ASSERT_EQ(memory.depth()(u, v), expected(u, v)) << u << ", " << v << " of frame " << frame;
+          ASSERT_EQ(memory.depth()(u, v), expected(u, v))
+              << u << ", " << v << " of frame " << frame;
       }
     }
   }
