@@ -80,6 +80,23 @@ std::string beside(Recorded& recorded, const NamedObject& object, int placements
          " of " + std::to_string(at_step.placements) + " placements\n";
 }
 
+/// A memory of frames that are three seconds apart.
+class Memory {
+ public:
+  explicit Memory(const Image<float>& size) : scene_(size.width(), size.height(), LabelRule{}) {}
+
+  void update(const test::RealFrame& frame) {
+    constexpr std::int64_t step = 3'000'000'000;
+    scene_.update(Eigen::Isometry3d::Identity(), stamp_ += step, frame.view(),
+                  frame.measured.view());
+  }
+  [[nodiscard]] ImageView<const std::uint16_t> depth() const { return scene_.depth(); }
+
+ private:
+  SceneMemory scene_;
+  std::int64_t stamp_ = 0;
+};
+
 /// What is kept of an object beside the outline, by its distance and depth from it: without memory,
 /// with one of the other frames, in which it stood already, and of a new one.
 std::string remembered(Recorded& recorded, int placements) {
@@ -87,12 +104,6 @@ std::string remembered(Recorded& recorded, int placements) {
   const Image<float>& size = recorded.frames.front().robot;
   Classifier classifier(size.width(), size.height(), LabelRule{});
   test::Paster paster(seed);
-  const auto remember = [&](const test::RealFrame& frame, SceneMemory& memory) {
-    memory.begin(Eigen::Isometry3d::Identity(), std::nullopt);
-    const DepthView measured = frame.measured.view();
-    memory.update(frame.view(), measured,
-                  classifier.classify(frame.view(), measured, memory.depth()));
-  };
   std::vector<std::vector<std::string>> rows = {{"cm behind the outline"}};
   for (const int gap : gaps)
     rows[0].push_back(gap == 0 ? "touches it" : std::to_string(gap) + " px away");
@@ -108,21 +119,23 @@ std::string remembered(Recorded& recorded, int placements) {
                               gap / frame.intrinsics.fx(), offset);  // of what is a metre away
           const std::vector<int> here = paster.beside();
           paster.undo(frame);
-          SceneMemory with(size.width(), size.height(), LabelRule{}), without = with;
+          Memory with(size), without(size);
           bool is_seen = false;
           for (test::RealFrame& other : recorded.frames) {
             const bool is_free = std::none_of(here.begin(), here.end(), [&](int pixel) {
               return other.robot.data()[pixel] > 0.0F;
             });  // it stands where no robot goes
             if (&other == &frame || !is_free) continue;
-            remember(other, without);
+            without.update(other);
             paster.paste_again(other);
-            remember(other, with);
+            with.update(other);
             paster.undo(other);
             is_seen = true;
           }
           if (!is_seen) continue;
           paster.paste_again(frame);
+          with.update(frame);
+          without.update(frame);
           const auto add = [&](test::Kept& kept, ImageView<const std::uint16_t> depth) {
             kept.add(paster.beside(),
                      classifier.classify(frame.view(), frame.measured.view(), depth));
@@ -147,18 +160,13 @@ double left_with_memory(const Recorded& recorded) {
   Classifier classifier(size.width(), size.height(), LabelRule{});
   test::Leftover sum;
   for (std::size_t i = 0; i < recorded.frames.size(); ++i) {
-    SceneMemory memory(size.width(), size.height(), LabelRule{});
-    for (std::size_t j = 1; j <= recorded.frames.size(); ++j) {
-      const test::RealFrame& frame = recorded.frames[(i + j) % recorded.frames.size()];
-      memory.begin(Eigen::Isometry3d::Identity(), std::nullopt);
-      const DepthView measured = frame.measured.view();
-      const LabelView labels = classifier.classify(frame.view(), measured, memory.depth());
-      if (j < recorded.frames.size())
-        memory.update(frame.view(), measured, labels);
-      else
-        sum.add(frame.robot.view(), frame.measured.view(), labels.labels, recorded.nearest[i],
-                test::Paster::air_rows);
-    }
+    Memory memory(size);
+    for (std::size_t j = 1; j <= recorded.frames.size(); ++j)
+      memory.update(recorded.frames[(i + j) % recorded.frames.size()]);
+    const test::RealFrame& frame = recorded.frames[i];
+    sum.add(frame.robot.view(), frame.measured.view(),
+            classifier.classify(frame.view(), frame.measured.view(), memory.depth()).labels,
+            recorded.nearest[i], test::Paster::air_rows);
   }
   return sum.percent();
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures against the simulator's truth what a stereo camera carries past the robot's outline, how
-// much of it the fringe finds and what it takes of real things, from single images and with a
-// memory of the scene. Writes tables into docs/cloud.md.
+// much of it the fringe finds and what it takes of real things. Writes a table into docs/cloud.md.
+// With --sequences, prints the same of a moving arm, from single images and with a memory of the
+// scene, in which things stay, and in which half of them go and others come.
 #include "../tests/support/cloud_measure.hpp"
 #include "stereo_camera.hpp"
 #include "study_page.hpp"
@@ -234,9 +235,14 @@ struct Moving {
   std::size_t on_robot = 0;
   std::array<std::size_t, 6> points{};  // by Point; the last: of things beside the outline
   std::array<std::array<std::size_t, 6>, 2> kept{};
+  std::size_t confirmed = 0, off = 0;  // by the memory; of these, of nothing there
+  std::size_t sequences_off = 0;       // with such points
 
   void add(const Moving& other) {
     on_robot += other.on_robot;
+    confirmed += other.confirmed;
+    off += other.off;
+    sequences_off += other.off > 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i] += other.points[i];
       for (std::size_t k = 0; k < kept.size(); ++k) kept[k][i] += other.kept[k][i];
@@ -256,11 +262,11 @@ Moving tally_sequence(std::size_t cell, bool changes) {
   for (std::size_t frame = 0; frame < frames_of_sequence; ++frame) {
     const VirtualDepthView robot = place.capture_moving(frame, changes, images);
     const DepthView measured = std::as_const(images.measured).view();
-    memory.begin(Eigen::Isometry3d::Identity(),
-                 static_cast<std::int64_t>(1e9 * static_cast<double>(frame) / frame_rate));
+    memory.update(Eigen::Isometry3d::Identity(),
+                  static_cast<std::int64_t>(1e9 * static_cast<double>(frame) / frame_rate), robot,
+                  measured);
     const std::array<LabelView, 2> labels = {alone.classify(robot, measured),
                                              with.classify(robot, measured, memory.depth())};
-    memory.update(robot, measured, labels[1]);
     const tuning::NearestPixels nearest = test::nearest_robot(robot.depth);
     for (int v = 0; v < images.measured.height(); ++v)
       for (int u = 0; u < images.measured.width(); ++u) {
@@ -274,6 +280,12 @@ Moving tally_sequence(std::size_t cell, bool changes) {
             sum.kept[k][kind] += is_trusted(label_at(labels[k], pixel));
         };
         count(static_cast<std::size_t>(point));
+        const bool is_confirmed = label_at(labels[0], pixel) == Label::fringe &&
+                                  label_at(labels[1], pixel) == Label::clear;
+        const double depth = 0.001 * static_cast<double>(images.measured(u, v));
+        const double off = std::abs(depth - static_cast<double>(images.depth(u, v)));
+        sum.confirmed += is_confirmed;
+        sum.off += is_confirmed && off > wrong && !is_others(images, u, v, beside);
         if (point == Point::thing && nearest.distance(u, v) <= beside) count(5);
       }
   }
@@ -296,6 +308,9 @@ int study_moving(std::size_t sequences) {
       });
     for (std::thread& worker : workers) worker.join();
     std::cout << (changes ? "changing" : "static") << ", on robot " << all.on_robot << '\n';
+    std::cout << "  confirmed by the memory: " << all.confirmed
+              << ", of these of nothing there: " << all.off << ", in " << all.sequences_off
+              << " of " << sequences << " sequences\n";
     const char* const names[] = {"robot", "carried", "thing", "room", "other", "thing beside"};
     for (std::size_t i = 0; i < 6; ++i)
       std::cout << "  " << names[i] << ": " << all.points[i] << ", kept alone " << all.kept[0][i]
@@ -334,12 +349,14 @@ int main(int argc, char** argv) {
   using namespace penumbra::study;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   try {
+    if (arguments.size() == 2 && arguments[0] == "--sequences")
+      return study_moving(std::stoul(arguments[1]));
     const bool has_count = arguments.size() == 3 && arguments[1] == "--frames";
     if (arguments.size() != 1 && !has_count) {
-      std::cerr << "usage: stereo_study REPOSITORY [--frames N]\n";
+      std::cerr
+          << "usage: stereo_study REPOSITORY [--frames N]\n       stereo_study --sequences N\n";
       return 2;
     }
-    if (has_count && arguments[0] == "moving") return study_moving(std::stoul(arguments[2]));
     const Tally sum = study(has_count ? std::stoul(arguments[2]) : 1000);
     const std::string text = report(sum);
     std::cout << text;

@@ -97,10 +97,11 @@ struct Tolerance {
 ///      at most 2 fringe_step e(d(s)).
 ///    A real object at the robot's depth that touches its outline is fringe up to fringe_reach; one
 ///    image cannot tell them apart.
-/// 4. Memory, of a Pipeline whose camera stands still. A pixel stays clear if its depth differs by
-///    at most fringe_step e(d(s)) from what was measured there when no robot was within
-///    fringe_reach. That is forgotten after `scene_memory` seconds, where a clear pixel measures
-///    another depth, and where the robot itself comes within fringe_drift e(z) of it.
+/// 4. Memory, of a Pipeline whose camera stands still and whose frames have stamps. A pixel stays
+///    clear if its depth differs by at most fringe_step e(d(s)) from what was measured there when
+///    no robot was within fringe_reach, or 40 pixels. That is forgotten after `scene_memory`
+///    seconds, where the camera sees past it, and where the robot comes within fringe_drift e(z) of
+///    it.
 ///
 /// In the code: pixel_labels-inl.hpp compares, foreground_pixels-inl.hpp and front_cleanup-inl.hpp
 /// clean up, fringe-inl.hpp floods; label_simd.cpp calls them in order. scene_memory.hpp remembers.

@@ -98,13 +98,11 @@ LabelledFrame FrameLabeller::label(const DepthView& depth, const PoseResult& pos
       images.measured = rectified_depth_ ? rectified_depth_->rectify(depth) : depth;
     const bool is_whole = images.evidence == Evidence::measured && poses.missing_links.empty() &&
                           poses.reaches.empty();
-    if (memory_ && is_whole) {
-      memory_->begin(poses.T_root_camera, poses.stamp);
-      images.labels = classify(images.virtual_depth, images.measured, memory_->depth());
-      memory_->update(images.virtual_depth, images.measured, images.labels);
-    } else {
-      images.labels = classify(images.virtual_depth, images.measured);
-    }
+    const bool remembers = memory_ && poses.stamp && is_whole;
+    if (remembers)
+      memory_->update(poses.T_root_camera, *poses.stamp, images.virtual_depth, images.measured);
+    images.labels = classify(images.virtual_depth, images.measured,
+                             remembers ? memory_->depth() : ImageView<const std::uint16_t>{});
     if (!poses.reaches.empty()) add_reaches(images, robot, poses);
   }
   frame.labels = images.labels;
