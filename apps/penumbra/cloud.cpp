@@ -61,7 +61,7 @@ void add_options(CLI::App& app, CloudArguments& arguments) {
                const CloudRule rule = CloudRule::for_sensor(text);
                changes.insert(changes.begin(), [rule](CloudRule& to) { to = rule; });
              });
-  add_settings<CloudRule>(app, "N", [&changes](const auto& setting, const auto& numbers) {
+  add_settings<CloudRule>(app, [&changes](const auto& setting, const auto& numbers) {
     CloudRule given;
     if (!io::set_numbers(setting.range, numbers, given.*setting.member)) return false;
     changes.push_back(

@@ -23,7 +23,7 @@ DriftLimits to_drift_limits(const std::string& text) {
 
 /// Adds an option for each setting of the label rule: front_min_width as --front-min-width.
 void add_rule(CLI::App& app, io::RuleOptions& rule) {
-  add_settings<LabelRule>(app, "PX", [&rule](const auto& setting, const auto& numbers) {
+  add_settings<LabelRule>(app, [&rule](const auto& setting, const auto& numbers) {
     return rule.give(setting, numbers);
   });
 }

@@ -86,7 +86,7 @@ void add_options(CLI::App& app, LiveArguments& live) {
         check_results(text);
         live.publish = text;
       });
-  add_settings<PointsRule>(app, "M", [&live](const auto& setting, const auto& numbers) {
+  add_settings<PointsRule>(app, [&live](const auto& setting, const auto& numbers) {
     return io::set_numbers(setting.range, numbers, live.points.*setting.member);
   });
   add_number(app, "--points-rate",

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <concepts>
 #include <filesystem>
 #include <limits>
@@ -147,14 +148,14 @@ struct BagHelp {
 void add_session(CLI::App& app, io::SessionOptions& session,
                  const std::string& geometry_default = "the recording's, else collision");
 /// Adds an option for each setting of a struct: front_min_width as --front-min-width. `take` gets
-/// the setting and its numbers, and returns whether they are a value of it. `unit`: what stands for
-/// numbers that have one.
+/// the setting and its numbers, and returns whether they are a value of it.
 template <typename Struct, typename Take>
-void add_settings(CLI::App& app, const char* unit, Take take) {
+void add_settings(CLI::App& app, Take take) {
   for_each_setting<Struct>([&]<typename Value>(const Setting<Struct, Value>& setting) {
     std::string option = std::string("--") + setting.name;
     std::replace(option.begin(), option.end(), '_', '-');
-    const char* const value = !NumberSetting<Value> ? "A,B,C" : *setting.unit != 0 ? unit : "N";
+    std::string value = !NumberSetting<Value> ? "A,B,C" : *setting.unit != 0 ? setting.unit : "N";
+    std::ranges::transform(value, value.begin(), [](unsigned char c) { return std::toupper(c); });
     add_option(app, option, setting.meaning, value,
                [take, setting, option](const std::string& text) {
                  if (!take(setting, io::parse_numbers(text)))
