@@ -97,8 +97,8 @@ class Memory {
   std::int64_t stamp_ = 0;
 };
 
-/// What is kept of an object beside the outline, by its distance and depth from it: without memory,
-/// with one of the other frames, in which it stood already, and of a new one.
+/// What is kept of an object next to the outline, by its distance and depth from it: without
+/// memory, with one of the other frames, in which it stood already, and of a new one.
 std::string remembered(Recorded& recorded, int placements) {
   constexpr std::array<int, 4> gaps = {0, 5, 10, 20};  // pixels
   const Image<float>& size = recorded.frames.front().robot;

@@ -40,15 +40,20 @@ struct Case {
 };
 
 std::vector<Case> all_cases() {
-  return {{"no targets", Kind::none, 0},
-          {"no targets, no memory", Kind::none, 0, false, false, false},
-          {"no targets, cold", Kind::none, 0, false, true},
-          {"no targets, no memory, cold", Kind::none, 0, false, true, false},
-          {"no targets, a ball attached", Kind::none, 0, true},
-          {"ten targets", Kind::regions, 0},
-          {"ten targets, cold", Kind::regions, 0, false, true},
-          {"ten targets, two rendered", Kind::objects, 0},
-          {"ten targets, two rendered, 0.5 s of frames kept", Kind::objects, history}};
+  return {
+      {"no targets", Kind::none, 0},
+      {.name = "no targets, no memory", .targets = Kind::none, .history = 0, .has_memory = false},
+      {"no targets, cold", Kind::none, 0, false, true},
+      {.name = "no targets, no memory, cold",
+       .targets = Kind::none,
+       .history = 0,
+       .is_cold = true,
+       .has_memory = false},
+      {"no targets, a ball attached", Kind::none, 0, true},
+      {"ten targets", Kind::regions, 0},
+      {"ten targets, cold", Kind::regions, 0, false, true},
+      {"ten targets, two rendered", Kind::objects, 0},
+      {"ten targets, two rendered, 0.5 s of frames kept", Kind::objects, history}};
 }
 
 /// Six key points, of which one is followed, and four boxes of 32 x 32 pixels, spread over the

@@ -43,8 +43,8 @@ constexpr double frame_rate = 30.0;  // turns a frame's number into the scene's 
 constexpr double nearby = 64.0;      // pixels from the robot: no farther point was carried
 
 constexpr std::size_t frames_of_sequence = 60;
-constexpr double away = 10.0;    // metres: out of view
-constexpr double beside = 20.0;  // pixels from the outline
+constexpr double away = 10.0;   // metres: out of view
+constexpr double close = 20.0;  // pixels from the outline
 
 /// The simulated arm among eight things before, behind and beside it, seen by a stereo camera. The
 /// seed chooses the camera's place and the things; every frame is a new arm pose with the things in
@@ -70,7 +70,8 @@ class StereoCell {
   }
 
   /// Captures what one of the frames of a sequence shows: the arm comes to the first frame's pose
-  /// among the first frame's things, and leaves. Half-way the things of `is_gone` go, if `changes`.
+  /// among the first frame's things, and leaves. If `changes`, half of the things go half-way, and
+  /// the others come.
   VirtualDepthView capture_moving(std::size_t frame, bool changes, StereoImages& images) {
     const double s = 2.0 * static_cast<double>(frame) / frames_of_sequence;  // 1: half-way
     const double to = s < 1.0 ? s * s * (3.0 - 2.0 * s) : (s - 1.0) * (s - 1.0) * (5.0 - 2.0 * s);
@@ -230,10 +231,10 @@ Tally study(std::size_t frames) {
 }
 
 /// Points of moving sequences, by what they are, and of those the ones that a cloud without the
-/// robot holds, without and with a memory. `near`: of things beside the outline.
+/// robot holds, without and with a memory.
 struct Moving {
   std::size_t on_robot = 0;
-  std::array<std::size_t, 6> points{};  // by Point; the last: of things beside the outline
+  std::array<std::size_t, 6> points{};  // by Point; the last: of things next to the outline
   std::array<std::array<std::size_t, 6>, 2> kept{};
   std::size_t confirmed = 0, off = 0;  // by the memory; of these, of nothing there
   std::size_t sequences_off = 0;       // with such points
@@ -285,8 +286,8 @@ Moving tally_sequence(std::size_t cell, bool changes) {
         const double depth = 0.001 * static_cast<double>(images.measured(u, v));
         const double off = std::abs(depth - static_cast<double>(images.depth(u, v)));
         sum.confirmed += is_confirmed;
-        sum.off += is_confirmed && off > wrong && !is_others(images, u, v, beside);
-        if (point == Point::thing && nearest.distance(u, v) <= beside) count(5);
+        sum.off += is_confirmed && off > wrong && !is_others(images, u, v, close);
+        if (point == Point::thing && nearest.distance(u, v) <= close) count(5);
       }
   }
   return sum;
@@ -311,7 +312,7 @@ int study_moving(std::size_t sequences) {
     std::cout << "  confirmed by the memory: " << all.confirmed
               << ", of these of nothing there: " << all.off << ", in " << all.sequences_off
               << " of " << sequences << " sequences\n";
-    const char* const names[] = {"robot", "carried", "thing", "room", "other", "thing beside"};
+    const char* const names[] = {"robot", "carried", "thing", "room", "other", "thing next to it"};
     for (std::size_t i = 0; i < 6; ++i)
       std::cout << "  " << names[i] << ": " << all.points[i] << ", kept alone " << all.kept[0][i]
                 << " (" << test::percent(all.kept[0][i], all.points[i]) << " %), with memory "

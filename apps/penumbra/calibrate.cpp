@@ -129,7 +129,7 @@ std::string other_cause(const io::CalibrationInput& input, const CalibrationOpti
   const Robot& robot = input.input.robot;
   const std::size_t parent =
       options.camera_parent.empty() ? 0 : *robot.find_link(options.camera_parent);
-  std::vector<KeptFrame> frames = input.frames;
+  std::vector<KeptFrame> frames = input.frames;  // thinned to what a diagnosis compares
   const KeptFrames kept(robot, {input.camera, {}, {}, {}}, {.columns = SetupCheck::columns});
   const auto make_small = [&kept](auto& image) {
     if (!image.empty()) image = kept.image_of(std::as_const(image).view());

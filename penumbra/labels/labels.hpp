@@ -136,9 +136,10 @@ struct LabelRule {
                 "how far an edge of the robot may be out of place; 0: the clean-up ignores edges"),
         Setting("fringe_reach", &LabelRule::fringe_reach, {0, 255}, "px",
                 "how far past its outline the sensor shows the robot's depth; 0: no fringe"),
-        Setting("scene_memory", &LabelRule::scene_memory, {0, 3600}, "s",
-                "how long what was measured before the robot came keeps real things beside it from "
-                "being fringe; 0: not at all"),
+        Setting(
+            "scene_memory", &LabelRule::scene_memory, {0, 3600}, "s",
+            "how long what was measured before the robot came keeps real things next to it from "
+            "being fringe; 0: not at all"),
         Setting("beyond_factor", &LabelRule::beyond_factor, {1, 1000}, "",
                 "how many tolerances behind the model beyond starts"));
   }

@@ -79,8 +79,8 @@ class Pipeline {
   [[nodiscard]] AttachedBody attach_target(const Target& target, std::string_view link) const;
 
   /// Forgets a target's verdict, extent and track, for a name that now means another object; or all
-  /// of them together with the stored frames, for a new sequence. A stamp more than 1 s before the
-  /// newest one also forgets all.
+  /// of them together with the stored frames and what is known of the scene, for a new sequence. A
+  /// stamp more than 1 s before the newest one also forgets all.
   void forget_target(std::string_view name);
   void forget_targets();
 

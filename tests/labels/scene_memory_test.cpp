@@ -7,7 +7,7 @@
 namespace penumbra::test {
 namespace {
 
-/// A thing in columns [200, 230) before a wall, and a robot that comes beside it.
+/// A thing in columns [200, 230) before a wall, and a robot that comes next to it.
 class Memory : public IsaTest {
  protected:
   static constexpr int width = 320, height = 96;
@@ -77,14 +77,6 @@ TEST_P(Memory, TellsWhatTheSensorCarriesFromThings) {
   move_robot(140, 200);
   measure(200, 212, near);  // carried past the outline
   EXPECT_EQ(fringe(), 12u * 56u);
-}
-
-TEST_P(Memory, AThingThatComesWithTheRobotIsFringe) {
-  move_robot(0, 0);
-  EXPECT_EQ(fringe(), 0u);
-  measure(200, 230, near);
-  move_robot(140, 200);
-  EXPECT_EQ(fringe(), thing);
 }
 
 TEST_P(Memory, AThingNearerOrFartherThanBeforeIsAnother) {
