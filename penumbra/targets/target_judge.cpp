@@ -288,7 +288,8 @@ ExtentTally& TargetJudge::State::observe(const TargetView& target, const Expecte
   return is_modal ? observe_modal(target, expected, memory) : tally;
 }
 
-/// What is missing of the last whole extent is unknown where the robot may hide it.
+/// What is missing of the last whole extent is hidden where another object is measured before it,
+/// and near the robot unknown elsewhere.
 ExtentTally& TargetJudge::State::observe_modal(const TargetView& target,
                                                const ExpectedDepth& expected,
                                                TargetMemory& memory) {
@@ -303,9 +304,9 @@ ExtentTally& TargetJudge::State::observe_modal(const TargetView& target,
       holds_robot(expected, grown(box, static_cast<int>(around.x()), static_cast<int>(around.y())));
   const bool is_other = outgrows(size_of(box), whole_size, target.thresholds);
   if (is_near_robot ? is_other : !is_there) memory.whole.clear();
-  if (!is_near_robot) return seen_tally;
-  if (is_other || !is_there || reaches_border()) {
-    seen_tally.has_whole = false;
+  const bool is_known = !is_other && is_there && !reaches_border();
+  if (!is_known) {
+    seen_tally.has_whole = !is_near_robot;
     return seen_tally;
   }
   const auto all = static_cast<double>(whole.covered());
@@ -313,11 +314,20 @@ ExtentTally& TargetJudge::State::observe_modal(const TargetView& target,
   const double excess = (size_of(box) / whole_size).max(1).prod();
   const double missing = all - static_cast<double>(seen.inside()) / excess;
   if (missing <= target.thresholds.partial_enter * all) return seen_tally;
+  if (!is_near_robot && !expected.known()) return seen_tally;
   whole_tally.count(images, rule, whole.spans(), expected, target.thresholds.beyond_hides, nullptr);
+  const auto lacks = static_cast<std::size_t>(missing);
+  if (!is_near_robot) {  // a target that turns lacks pixels, too: only what hides it counts
+    std::size_t& other = seen_tally.pixels[PixelState::other];
+    const std::size_t more = std::min(lacks, whole_tally.pixels[PixelState::other]);
+    seen_tally.inside += more - std::min(more, other);
+    seen_tally.covered += more - std::min(more, other);
+    other = std::max(other, more);
+    return seen_tally;
+  }
   whole_tally.covered = whole.covered();
   whole_tally.is_missing = true;
   const std::size_t known = whole_tally.inside - whole_tally.seen();
-  const auto lacks = static_cast<std::size_t>(missing);
   std::size_t uncertain = lacks - std::min(lacks, known);
   whole_tally.mark_unknown(PixelState::clear, uncertain);
   whole_tally.mark_unknown(PixelState::front, uncertain);

@@ -18,6 +18,7 @@ using Mask = Image<std::uint8_t>;
 constexpr int least_pixels = 100;  // of a target: fewer make shares coarse
 constexpr int farthest = 60;       // pixels that a target moves, along u and v
 constexpr int seeds = 4;
+constexpr float apart = 0.05F;  // metres: another object nearer than that can be told by its depth
 
 /// Most that the arm hides of a target that is called visible: partial_enter, and what silhouettes
 /// that differ by part of a pixel add.
@@ -25,12 +26,13 @@ constexpr double most_hidden = 0.06;
 
 /// How often targets must be called visible, or the test says nothing. What was seen at the border
 /// alone is so away from the arm, and most targets are near it.
-constexpr std::array<std::size_t, 4> least_visible{50, 50, 50, 2};
+constexpr std::array<std::size_t, 5> least_visible{50, 50, 50, 2, 50};
 
 /// Where the target was when it was seen whole, and what is known of that.
-enum Way { there, moved, moved_unsaid, at_the_border, ways };
+enum Way { there, moved, moved_unsaid, at_the_border, with_depth, ways };
 constexpr std::array<const char*, ways> way_names{
-    "seen whole there", "moved since, and said how far", "moved since", "seen at the border alone"};
+    "seen whole there", "moved since, and said how far", "moved since", "seen at the border alone",
+    "seen whole there, its depth expected"};
 
 Mask shifted(const Mask& mask, int du, int dv) {
   Mask all(mask.width(), mask.height());
@@ -43,6 +45,16 @@ Mask shifted(const Mask& mask, int du, int dv) {
 
 bool is_empty(const Mask& mask) {
   return std::all_of(mask.data(), mask.data() + mask.size(), [](auto one) { return one == 0; });
+}
+
+/// As the judge, which remembers nothing of what the border may cut.
+bool reaches_border(const Mask& mask) {
+  constexpr int near = 3;
+  for (const auto [u, v] : each_pixel(mask))
+    if (mask(u, v) != 0 &&
+        (std::min(u, v) < near || u >= mask.width() - near || v >= mask.height() - near))
+      return true;
+  return false;
 }
 
 /// Pixels from the left border up to which a third of the mask's columns reach when it is moved
@@ -60,7 +72,9 @@ struct Case {
   Way way = there;
   int du = 0, dv = 0;  // by which it was elsewhere
   Mask before, seen;
-  double hidden = 0;  // by the arm
+  double hidden = 0;                 // by the arm, and with_depth by other objects
+  std::optional<double> depth = {};  // expected
+  double depth_margin = 0;
 };
 
 struct Tally {
@@ -100,18 +114,31 @@ class ModalBench {
     if (object.pixels_alone < least_pixels) return;
     Mask seen(frame.ids.width(), frame.ids.height());
     std::size_t hidden = 0;
+    std::vector<float> depths, others;  // of the object, and before it
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const std::int32_t id = frame.ids.data()[i];
       seen.data()[i] = id == object.id ? 1 : 0;
-      if (object.alone.data()[i] != 0 && is_robot(id)) ++hidden;
+      if (object.alone.data()[i] == 0) continue;
+      depths.push_back(object.alone_depth.data()[i]);
+      hidden += is_robot(id) ? 1 : 0;
+      if (id != object.id && !is_robot(id)) others.push_back(frame.true_depth.data()[i]);
     }
     if (is_empty(seen)) return;  // no detector finds it
-    for (const Way way : {there, moved, moved_unsaid, at_the_border}) {
+    for (const Way way : {there, moved, moved_unsaid, at_the_border, with_depth}) {
       Case one{object.name + ", " + way_names[way], way, 0, 0, {}, seen, 0.0};
-      if (way != there) one.du = number(-farthest, farthest), one.dv = number(-farthest, farthest);
+      if (way != there && way != with_depth)
+        one.du = number(-farthest, farthest), one.dv = number(-farthest, farthest);
       if (way == at_the_border) one.du = leftwards(object.alone), one.dv = 0;
       one.before = shifted(object.alone, one.du, one.dv);
+      if (way == with_depth) {
+        const auto [near, far] = std::ranges::minmax(depths);
+        one.depth = 0.5 * static_cast<double>(near + far);
+        one.depth_margin = 0.5 * static_cast<double>(far - near);
+        hidden += static_cast<std::size_t>(
+            std::ranges::count_if(others, [&](float z) { return z < near - apart; }));
+      }
       one.hidden = static_cast<double>(hidden) / static_cast<double>(object.pixels_alone);
+      if (way == with_depth && reaches_border(one.before)) continue;
       if (!is_empty(one.before)) cases.push_back(std::move(one));
     }
   }
@@ -124,13 +151,14 @@ class ModalBench {
         {{labels.view(), {}, nullptr}, {nothing.view(), {}, nullptr}, {}, Evidence::assumed_free});
     for (const Case& one : cases) {
       memories_[one.name] = {};
-      EXPECT_EQ(judge_.judge(target_of(one.before), memories_[one.name]).verdict, Verdict::visible)
+      EXPECT_EQ(judge_.judge(target_of(one, one.before), memories_[one.name]).verdict,
+                Verdict::visible)
           << one.name;
     }
   }
 
   void judge(const Case& one, Tally& tally) {
-    TargetView target = target_of(one.seen);
+    TargetView target = target_of(one, one.seen);
     if (one.way == moved) target.motion = Eigen::Vector2d(-one.du, -one.dv);
     tally.hidden += one.hidden > TargetThresholds().partial_enter ? 1 : 0;
     if (judge_.judge(target, memories_[one.name]).verdict != Verdict::visible) return;
@@ -138,8 +166,10 @@ class ModalBench {
     tally.missed = std::max(tally.missed, one.hidden);
   }
 
-  static TargetView target_of(const Mask& mask) {
+  static TargetView target_of(const Case& one, const Mask& mask) {
     TargetView target;
+    target.expected_depth = one.depth;
+    target.depth_margin = one.depth_margin;
     target.region = PixelMask{mask.view()};
     target.extent = Extent::modal;
     target.wants_point = false;

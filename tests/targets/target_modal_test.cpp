@@ -63,6 +63,30 @@ TEST_F(ModalTargets, AreNotSmallerBecauseSomethingCoveredThem) {
     }
 }
 
+/// Something stands 0.5 m before six tenths of the target. No robot is near.
+TEST_F(ModalTargets, AreHiddenByOtherObjectsWhereTheirDepthIsExpected) {
+  constexpr int seen_columns = 16;
+  for (const bool others_hide : {true, false}) {
+    memory = {};
+    depth = behind;
+    EXPECT_EQ(see(20, 120).verdict, Verdict::visible);
+    TargetFrame frame;
+    frame.add_robot(140, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
+    for (const auto [u, v] : each_pixel(20 + seen_columns, 30, 80, 70))
+      frame.measured(u, v) = TargetFrame::wall - 0.5f;
+    TargetView target = box_target({20, 40, seen_columns, 20}, Extent::modal);
+    target.expected_depth = depth;
+    target.thresholds.others_hide = others_hide;
+    judge.begin(frame.images());
+    const Judgement covered = judge.judge(target, memory);
+    EXPECT_EQ(covered.verdict, others_hide ? Verdict::partial : Verdict::visible);
+    EXPECT_NEAR(covered.hidden_by_other.value(), 0.6, share_rounding);
+    EXPECT_EQ(covered.inside, 800u);
+    target.expected_depth.reset();
+    EXPECT_EQ(judge.judge(target, memory).hidden_by_other, std::nullopt);
+  }
+}
+
 TEST_F(ModalTargets, OfKnownHeightKeepTheirDepthWhileTheyAreCut) {
   constexpr int rows = 20;
   const double height = rows * behind / TargetFrame::camera().intrinsics.fy();
