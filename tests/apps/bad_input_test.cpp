@@ -103,7 +103,7 @@ TEST(BadInput, Frames) {
 TEST_F(BadInputTest, Targets) {
   write_targets("- name: a\n  box: [1, 2, 0, 4]\n");
   expect_refused(run({"--targets", path("targets.yaml")}), {"targets.yaml:3: targets[0].box"});
-  edit_file(path("recording.yaml"), "frames:", "targets: no.yaml\nframes:");
+  edit("recording.yaml", "frames:", "targets: no.yaml\nframes:");
   expect_refused(run(), {"recording.yaml", "no.yaml"});
 }
 
@@ -172,9 +172,9 @@ class BadBagTest : public BagTest {
 };
 
 TEST_F(BadBagTest, NamesWhatTheCameraLacks) {
-  const std::string depth = "/camera/depth/image_rect_raw", info = "/camera/depth/camera_info";
+  const std::string depth = depth_topic, info = info_topic;
   const auto edit_info = [&](const auto& change) {
-    return [=](TinyBag& bag) { bag.edit<io::CameraInfoMessage>(info, change); };
+    return [=](TinyBag& bag) { bag.edit<io::CameraInfoMessage>(change); };
   };
   expect_spoilt(without(depth), {"/camera/color/image_raw/compressed", "--depth-topic"});
   expect_spoilt([&](TinyBag& bag) { bag.copy(depth, "/second/depth/image_raw"); },
@@ -190,10 +190,7 @@ TEST_F(BadBagTest, NamesWhatTheCameraLacks) {
 TEST_F(BadBagTest, NamesWhatTheRobotLacks) {
   expect_spoilt(without("/robot_description"), {"robot_description", "--robot"});
   expect_spoilt(
-      [](TinyBag& bag) {
-        bag.edit<io::StringMessage>("/robot_description",
-                                    [](auto& text) { text.data = "no robot"; });
-      },
+      [](TinyBag& bag) { bag.edit<io::StringMessage>([](auto& text) { text.data = "no robot"; }); },
       {"robot_description"});
   expect_spoilt([](TinyBag& bag) { bag.remove("/joint_states"), bag.remove("/tf_static"); },
                 {"joint states", "tf"});

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bags of two cameras: depth of the one brought to the other, and each judged by itself, against a
-// scene of planes that a formula tells.
+// scene of planes that a formula tells. Bags whose camera_info changes on the way, comes late or
+// not at all.
+#include "../support/test.hpp"
 #include "fixtures.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <set>
-
-#include <Eigen/Geometry>
 
 #include <penumbra/labels/labels.hpp>
 
@@ -17,8 +11,6 @@
 
 namespace penumbra::test {
 namespace {
-
-using Eigen::Vector3d;
 
 constexpr double wall = 3.0;   // m, in the frame "base"
 constexpr double plate = 0.5;  // a plate of 7 cm x 6 cm before the board
@@ -41,20 +33,13 @@ Pinhole infrared() {
 }
 
 struct Hit {
-  double depth = std::numeric_limits<double>::infinity();  // along the camera's z
-  double robot = std::numeric_limits<double>::infinity();  // the robot's alone
-  Vector3d point = Vector3d::Zero();                       // in "base"
+  double depth = inf, robot = inf;    // along the camera's z, and the robot's alone
+  Vector3d point = Vector3d::Zero();  // in "base"
 };
 
 /// How far along the ray a box is entered; infinite: never.
 double enter(const Vector3d& from, const Vector3d& way, const Vector3d& low, const Vector3d& high) {
-  double first = 0.0, last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const double a = (low[i] - from[i]) / way[i], b = (high[i] - from[i]) / way[i];
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
-  }
-  return first < last ? first : std::numeric_limits<double>::infinity();
+  return enter_box(from - (low + high) / 2, way, (high - low) / 2).value_or(inf);
 }
 
 /// What a pixel sees with the board's near face at `board`. The ray's z is 1, so that the way along
@@ -86,10 +71,9 @@ class BagCamerasTest : public BagTest {
       const io::MessageHeader header{tiny_stamp(frame), name};
       const std::int64_t arrival = header.stamp + 30'000'000;
       Image<std::uint16_t> depth(camera.lens.width(), camera.lens.height());
-      for (int v = 0; v < depth.height(); ++v)
-        for (int u = 0; u < depth.width(); ++u)
-          depth(u, v) = static_cast<std::uint16_t>(
-              std::lround(1000.0 * look(camera, u, v, board_of(frame)).depth));
+      for (const auto [u, v] : each_pixel(depth))
+        depth(u, v) = static_cast<std::uint16_t>(
+            std::lround(1000.0 * look(camera, u, v, board_of(frame)).depth));
       bag_.add("/" + name + "/camera_info", arrival, camera_info_of(camera.lens, header));
       bag_.add("/" + name + "/depth", arrival,
                io::image_message(header, "16UC1", std::as_const(depth).view()));
@@ -107,23 +91,21 @@ class BagCamerasTest : public BagTest {
       ASSERT_EQ(told.width(), camera.lens.width());
       ASSERT_EQ(told.height(), camera.lens.height());
       const double board = board_of(frame);
-      for (int v = 2; v < told.height() - 2; ++v)
-        for (int u = 2; u < told.width() - 2; ++u) {
-          if (!is_even(camera, u, v, board) || skip(u, v, board)) continue;
-          ++compared;
-          if (told(u, v) != static_cast<std::uint8_t>(label_of(look(camera, u, v, board)))) ++wrong;
-        }
+      for (const auto [u, v] : each_pixel(2, 2, told.width() - 2, told.height() - 2)) {
+        if (!is_even(camera, u, v, board) || skip(u, v, board)) continue;
+        ++compared;
+        if (told(u, v) != static_cast<std::uint8_t>(label_of(look(camera, u, v, board)))) ++wrong;
+      }
     }
   }
 
   static bool is_even(const Pinhole& camera, int u, int v, double board) {
     const Hit here = look(camera, u, v, board);
-    for (int y = v - 2; y <= v + 2; ++y)
-      for (int x = u - 2; x <= u + 2; ++x) {
-        const Hit other = look(camera, x, y, board);
-        if (label_of(other) != label_of(here) || std::abs(other.depth - here.depth) > 0.05)
-          return false;
-      }
+    for (const auto [x, y] : each_pixel(u - 2, v - 2, u + 3, v + 3)) {
+      const Hit other = look(camera, x, y, board);
+      if (label_of(other) != label_of(here) || std::abs(other.depth - here.depth) > 0.05)
+        return false;
+    }
     return true;
   }
 
@@ -140,11 +122,11 @@ class BagCamerasTest : public BagTest {
 };
 
 TEST_F(BagCamerasTest, DepthOfACameraBesideIsBroughtToColor) {
-  bag_.remove("/camera/depth/image_rect_raw");
-  bag_.rename("/camera/depth/camera_info", "/camera/color/camera_info");
+  bag_.remove(depth_topic);
+  bag_.rename(info_topic, "/camera/color/camera_info");
   const Pinhole camera = infrared();
   add_depth_camera(camera, "infrared");
-  const Words options = {"--color-topic", "/camera/color/image_raw/compressed"};
+  const Words options = {"--color-topic", color_topic};
   expect_has(succeed(run(options)).out,
              {"depth: /infrared/depth (", "camera_info: /infrared/camera_info (",
               "color camera_info: /camera/color/camera_info ("});
@@ -164,23 +146,10 @@ TEST_F(BagCamerasTest, DepthOfACameraBesideIsBroughtToColor) {
   EXPECT_GT(wrong, 30);
 }
 
-TEST_F(BagCamerasTest, TheSecondCameraIsJudgedInItsOwnImage) {
+TEST_F(BagCamerasTest, TheSecondCameraIsJudgedInItsOwnImageAndTheReportSaysWhatWasTaken) {
   const Pinhole camera = infrared();
   add_depth_camera(camera, "second");
   expect_has(succeed(run({"--depth-topic", "/second/depth"})).out, {"'second'", "'base'"});
-  int compared = 0, wrong = 0;
-  expect_labels(
-      camera, [](int, int, double) { return false; }, compared, wrong);
-  EXPECT_GT(compared, 3 * 7000) << "of 3 images of 10800 pixels";
-  EXPECT_EQ(wrong, 0);
-
-  succeed(run({"--depth-topic", "/camera/depth/image_rect_raw"}));
-  expect_recorded_labels();
-}
-
-TEST_F(BagCamerasTest, TheReportSaysWhatWasTaken) {
-  add_depth_camera(infrared(), "second");
-  succeed(run({"--depth-topic", "/second/depth", "--time-offset", "0.001"}));
   const Json bag = report()["settings"]["bag"];
   expect_values(bag, {{"/topics/0/role", "depth"},
                       {"/topics/0/name", "/second/depth"},
@@ -188,12 +157,111 @@ TEST_F(BagCamerasTest, TheReportSaysWhatWasTaken) {
                       {"/topics/0/why", "as --depth-topic says"},
                       {"/poses", "joints"},
                       {"/camera", {{"frame", "second"}, {"link", "base"}, {"by", "tf"}}},
-                      {"/time_offset_s", 0.001},
+                      {"/time_offset_s", 0.0},
                       {"/first_publisher", false}});
   std::set<std::string> roles;
   for (const Json& topic : bag["topics"]) roles.insert(topic["role"]);
   EXPECT_EQ(roles,
             (std::set<std::string>{"depth", "camera_info", "robot", "joints", "transforms"}));
+  int compared = 0, wrong = 0;
+  expect_labels(
+      camera, [](int, int, double) { return false; }, compared, wrong);
+  EXPECT_GT(compared, 3 * 7000) << "of 3 images of 10800 pixels";
+  EXPECT_EQ(wrong, 0);
+
+  expect_recorded({"--depth-topic", depth_topic});
+}
+
+/// A bag whose images come quickly, with what their driver says of the camera.
+class BagDrivers : public BagTest {
+ protected:
+  static constexpr std::int64_t period = 50'000'000;
+
+  BagDrivers() {
+    for (const TinyBag::Message& message : bag_.messages) {
+      if (message.topic == depth_topic && depth_.empty()) depth_ = message.data;
+      if (message.topic == info_topic && info_.empty()) info_ = message.data;
+    }
+    for (const char* const topic : {depth_topic, info_topic, color_topic}) bag_.remove(topic);
+  }
+
+  /// Each letter is an image: `f` comes with the first camera's info, `o` with another's, `-` with
+  /// none. `F`, `O`: the info comes 120 ms later, when the image's pose has long been known. `<`
+  /// sets the clock back.
+  void play(const std::string& script) {
+    stamp_ = tiny_stamp(0) - period;
+    lap_ = 0;
+    for (const char letter : script) letter == '<' ? jump_back(1'100'000'000) : add(letter);
+  }
+
+  /// One image, `period` after the one before.
+  void add(char driver) {
+    stamp_ += period;
+    auto camera = decoded<io::CameraInfoMessage>(info_);
+    camera.header.stamp = stamp_;
+    const std::int64_t late = driver == 'F' || driver == 'O' ? 120'000'000 : 0;
+    if (driver == 'o' || driver == 'O') camera.k[0] = 61;
+    if (driver != '-') bag_.add(info_topic, stamp_ + lap_ + late, camera);
+    auto image = decoded<io::ImageMessage>(depth_);
+    image.header.stamp = stamp_;
+    bag_.add(depth_topic, stamp_ + lap_, image);
+  }
+
+  /// The clock of all is set back, once; the recorder's goes on.
+  void jump_back(std::int64_t by) {
+    const std::int64_t end = stamp_ + 40'000'000;  // of the joint states around the last image
+    std::vector<TinyBag::Message> later = bag_.messages;
+    std::erase_if(bag_.messages, [&](const TinyBag::Message& message) {
+      return message.topic == "/joint_states" && message.log_time > end;
+    });
+    for (TinyBag::Message& message : later) {
+      message.log_time += by;
+      if (message.topic == "/joint_states" && message.log_time > end)
+        bag_.messages.push_back(std::move(message));
+    }
+    stamp_ -= by;
+    lap_ = by;
+  }
+
+ private:
+  std::vector<std::byte> depth_, info_;
+  std::int64_t stamp_ = 0;
+  std::int64_t lap_ = 0;  // by how much the recorder's clock is ahead
+};
+
+TEST_F(BagDrivers, EachImageIsJudgedByItsOwnCameraOrNot) {
+  struct Case {
+    const char* why;
+    std::string script, statuses;  ///< `o`: ok, `b`: bad_depth; `x`: anything but ok
+  };
+  const std::vector<Case> cases = {
+      {"another camera's info is not taken", "fof", "obo"},
+      {"nor one that comes late", "FOF", "obo"},
+      {"another camera's topic is heard some images late", "ffff--ooo", "oooobbbbb"},
+      {"the first camera comes again", "ffffooo--fff", "oooobbbbbooo"},
+      {"infos come seldom: the last holds until the next", "f---------o----",
+       "oooooobbbbbbbbb"},  // 0.2 s is what an image waits for its own
+      {"another camera behind a jump", std::string(18, 'f') + "oooo<ooooffff",
+       std::string(18, '?') + "bbbbxxxxoooo"},
+      {"an info that was told once holds behind a jump", "f" + std::string(20, '-') + "o<--------",
+       std::string(22, '?') + "xxxxxxxx"},
+      {"between two cameras, over a jump", std::string(20, 'f') + "oooo<---ffff",
+       std::string(24, '?') + "xxxoooo"}};
+  const TinyBag bare = bag_;
+  for (const Case& of : cases) {
+    bag_ = bare;
+    play(of.script);
+    bag_.sort();
+    succeed(run());
+    std::string all;
+    for (const std::string& status : statuses()) all += status.at(0);
+    ASSERT_EQ(all.size(), of.statuses.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const char wanted = of.statuses[i];
+      const bool is_right = wanted == '?' || (wanted == 'x' ? all[i] != 'o' : all[i] == wanted);
+      EXPECT_TRUE(is_right) << of.why << ": image " << i << " of " << all;
+    }
+  }
 }
 
 }  // namespace

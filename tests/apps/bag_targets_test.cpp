@@ -1,71 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
-// `penumbra run` of bags: frames with other names than the robot's links, and targets.
+// `penumbra run` of bags: frames with other names than the robot's links, targets, and what MoveIt
+// attaches to the robot, against the same bodies in a recording.
+#include "../support/test.hpp"
 #include "fixtures.hpp"
 
-#include <map>
-
-#include <Eigen/Geometry>
-
 #include <io/ros/cdr_writer.hpp>
+#include <io/ros/moveit_messages.hpp>
 
 namespace penumbra::test {
 namespace {
 
-class BagNamesTest : public BagTest {
- protected:
-  template <typename Rename>
-  void rename_frames(const Rename& rename) {
-    for (const char* const topic : {"/tf", "/tf_static"})
-      bag_.edit<io::TfMessage>(topic, [&](auto& tf) {
-        for (io::TransformMessage& t : tf.transforms) {
-          t.header.frame_id = rename(t.header.frame_id);
-          t.child_frame_id = rename(t.child_frame_id);
-        }
-      });
-  }
-};
+using BagNamesTest = BagTest;
 
 // A bag recorded next to a node has its results, too.
 TEST_F(BagNamesTest, ResultsOfPenumbraAreNoInput) {
   for (const char* const result : {"filtered_depth", "virtual_depth"})
-    bag_.copy("/camera/depth/image_rect_raw", std::string("/cell/penumbra/") + result);
-  bag_.copy("/camera/depth/camera_info", "/cell/penumbra/camera_info");
-  succeed(run());
-  expect_recorded_labels();
+    bag_.copy(depth_topic, std::string("/cell/penumbra/") + result);
+  bag_.copy(info_topic, "/cell/penumbra/camera_info");
+  expect_recorded();
 }
 
 TEST_F(BagNamesTest, ALeadingSlashIsNothing) {
   bag_.add_board_frames();
-  rename_frames([](const std::string& frame) { return "/" + frame; });
-  for (const char* const poses : {"joints", "tf", "both"}) {
-    succeed(run({"--poses", poses}));
-    expect_recorded_labels();
-  }
-  bag_.edit<io::ImageMessage>("/camera/depth/image_rect_raw",
-                              [](auto& image) { image.header.frame_id = "/optical"; });
-  for (const Words& options : {Words{}, {"--camera-frame", "/optical"}}) {
-    succeed(run(options));
-    expect_recorded_labels();
-  }
+  bag_.rename_frames([](const std::string& frame) { return "/" + frame; });
+  for (const char* const poses : {"joints", "tf", "both"}) expect_recorded({"--poses", poses});
+  bag_.edit<io::ImageMessage>([](auto& image) { image.header.frame_id = "/optical"; });
+  for (const Words& options : {Words{}, {"--camera-frame", "/optical"}}) expect_recorded(options);
 }
 
 TEST_F(BagNamesTest, FramesOfARobotMayHaveAPrefix) {
   bag_.add_board_frames();
-  rename_frames([](const std::string& frame) {
+  bag_.rename_frames([](const std::string& frame) {
     return frame == "base" || frame == "board" ? "left/" + frame : frame;
   });
   expect_refused(run({"--poses", "tf"}), {"--frame-prefix left/"});
   for (const char* const prefix : {"left/", "/left/"})
-    for (const char* const poses : {"joints", "tf", "both"}) {
-      expect_has(succeed(run({"--poses", poses, "--frame-prefix", prefix})).out,
+    for (const char* const poses : {"joints", "tf", "both"})
+      expect_has(expect_recorded({"--poses", poses, "--frame-prefix", prefix}).out,
                  {"'optical'", "'base'"});
-      expect_recorded_labels();
-    }
   EXPECT_EQ(run({"--poses", "tf", "--frame-prefix", "right/"}).status, 2);
 }
 
 /// Targets of messages that come 0.3 s after frame 1, when the next frame is there.
-class BagTargets : public BagNamesTest {
+class BagTargets : public BagTest {
  protected:
   static constexpr std::int64_t stamp = tiny_stamp(1), arrival = stamp + 300'000'000;
 
@@ -135,7 +112,8 @@ TEST_F(BagTargets, OfADetectorIn3DAreJudgedInFramesOfLinksAndTheCamera) {
     add(topic, "vision_msgs/msg/Detection3DArray", frame,
         {cube("box 0", 0.15, 0.05, 2.0),   // behind the board
          cube("box 1", 0.6, 0.4, 3.03)});  // before the wall
-  rename_frames([](const std::string& frame) { return frame == "base" ? "left/" + frame : frame; });
+  bag_.rename_frames(
+      [](const std::string& frame) { return frame == "base" ? "left/" + frame : frame; });
   auto all = verdicts({"/of_camera", "/of_link", "/of_slash", "/of_other"}, "/of_other/box 0",
                       {"'base'"}, {"--frame-prefix", "left/"});
   for (const std::string topic : {"/of_camera", "/of_link", "/of_slash"}) {
@@ -166,11 +144,9 @@ TEST_F(BagTargets, AreJudgedOnTheFrameOfTheirStamp) {
 
 /// A turntable of which nothing is drawn, and which two programs see turned differently.
 TEST_F(BagTargets, InALinkThatTwoProgramsPutElsewhereAreUnknown) {
-  bag_.edit<io::StringMessage>("/robot_description", [](auto& urdf) {
-    urdf.data.insert(urdf.data.rfind("</robot>"), R"(<link name="turntable"/>
+  add_to_bag_robot(R"(<link name="turntable"/>
       <joint name="turn" type="continuous"><parent link="base"/><child link="turntable"/></joint>)");
-  });
-  bag_.edit<io::JointStateMessage>("/joint_states", [](auto& state) {
+  bag_.edit<io::JointStateMessage>([](auto& state) {
     state.names[0] = "turn";
     state.positions[0] = 0.0;
   });
@@ -183,6 +159,162 @@ TEST_F(BagTargets, InALinkThatTwoProgramsPutElsewhereAreUnknown) {
   EXPECT_EQ(verdicts({"/goal"}, "/goal", {"'turntable'", "joint 'turn' is at "})["/goal"],
             "unknown");
   expect_recorded_labels();
+}
+
+const std::string attached_topic = "/attached_collision_object";
+const std::string scene_topic = "/monitored_planning_scene";
+
+class BagAttachedTest : public BagTest {
+ protected:
+  /// A box in the upper right corner of the image, where the wall is.
+  static io::AttachedObjectMessage part(std::int64_t stamp) {
+    io::AttachedObjectMessage message{.link_name = "board"};
+    message.object.header = {stamp, "board"};
+    message.object.id = "part";
+    message.object.pose = pose({0.3, -0.2, 0.0});
+    message.object.primitives = {
+        {.type = io::SolidPrimitiveMessage::box, .dimensions = {0.1, 0.1, 0.1}}};
+    message.object.primitive_poses = {pose({0, 0, 0})};
+    return message;
+  }
+  static io::AttachedObjectMessage removal(std::int64_t stamp, const std::string& id) {
+    io::AttachedObjectMessage message;
+    message.object.header.stamp = stamp;
+    message.object.id = id;
+    message.object.operation = io::CollisionObjectMessage::remove;
+    return message;
+  }
+  /// As MoveIt's attachObject("part") publishes it: without shape and stamp.
+  static io::AttachedObjectMessage named_part() {
+    io::AttachedObjectMessage message{.link_name = "board"};
+    message.object.id = "part";
+    return message;
+  }
+  /// What MoveIt publishes then: everything, with the stamp of the robot's last motion.
+  static io::PlanningSceneMessage scene_of(std::int64_t last_motion) {
+    io::PlanningSceneMessage scene;
+    scene.robot_state.joints = {.header = {last_motion, ""}, .names = {"slide"}};
+    scene.robot_state.attached = {part(0)};
+    return scene;
+  }
+  /// Expects labels as of part() from frame 1 on, or before frame `end`.
+  void expect_part_from_1_on(int end = 3) {
+    EXPECT_EQ(frames_with_part(), end == 3 ? "011" : "010");
+    EXPECT_EQ(statuses()[1], "ok") << message(1);
+    edit("recording.yaml", "robot:",
+         "attached: [{name: part, link: board, box: [0.1, 0.1, 0.1], "
+         "pose: [0.3, -0.2, 0, 0, 0, 0, 1], frames: [1, " +
+             std::to_string(end) + "]}]\nrobot:");
+    expect_recorded_labels();
+  }
+  static io::LoosePose pose(const Eigen::Vector3d& at) { return {at, {0, 0, 0, 1}}; }
+
+  /// Which frames have the part: "010" for the second one.
+  std::string frames_with_part() {
+    bag_.sort();
+    succeed(run());
+    std::string frames;
+    const Json said = report();
+    for (const Json& frame : said["frames"]) frames += frame["attached"].empty() ? '0' : '1';
+    return frames;
+  }
+};
+
+TEST_F(BagAttachedTest, AnObjectIsDrawnFromItsStampOn) {
+  // The message comes 20 ms after its stamp, as images do 30 ms after theirs.
+  bag_.add(attached_topic, tiny_stamp(1) + 20 * ms, part(tiny_stamp(1) - 10 * ms));
+  bag_.add(attached_topic, tiny_stamp(2) + 20 * ms, removal(tiny_stamp(2) - 10 * ms, "part"));
+  expect_part_from_1_on(2);
+}
+
+TEST_F(BagAttachedTest, StampsCountNotTheOrderOfMessages) {
+  bag_.add(attached_topic, tiny_stamp(0), removal(tiny_stamp(2) - 10 * ms, ""));
+  bag_.add(attached_topic, tiny_stamp(0) + 1, part(tiny_stamp(1) - 10 * ms));
+  EXPECT_EQ(frames_with_part(), "011") << "a removal of all removes what was known";
+  bag_.add(attached_topic, tiny_stamp(0) + 2, removal(tiny_stamp(2) - 10 * ms, "part"));
+  EXPECT_EQ(frames_with_part(), "010");
+}
+
+TEST_F(BagAttachedTest, PlanningScenesAddAndReplace) {
+  io::PlanningSceneMessage scene;
+  scene.robot_state.is_diff = true;
+  scene.robot_state.attached = {part(tiny_stamp(1) - 10 * ms)};
+  bag_.add(scene_topic, tiny_stamp(1), scene);
+  EXPECT_EQ(frames_with_part(), "011");
+  // A change of the world alone.
+  bag_.add(scene_topic, tiny_stamp(2) - 20 * ms, io::PlanningSceneMessage{});
+  EXPECT_EQ(frames_with_part(), "011");
+  io::PlanningSceneMessage whole = scene_of(tiny_stamp(2) - 10 * ms);
+  whole.robot_state.attached.clear();
+  bag_.add(scene_topic, tiny_stamp(2) - 5 * ms, whole);
+  EXPECT_EQ(frames_with_part(), "010");
+}
+
+/// Without a stamp an object is attached from the newest joint state on.
+TEST_F(BagAttachedTest, WithoutAStampItHoldsFromNowOn) {
+  bag_.add(attached_topic, tiny_stamp(1) - 100 * ms, part(0));
+  EXPECT_EQ(frames_with_part(), "011");
+}
+
+TEST_F(BagAttachedTest, AShapeReplacesItsAbsenceWhateverTheStamps) {
+  bag_.add(attached_topic, tiny_stamp(1) - 100 * ms, named_part());
+  bag_.add(scene_topic, tiny_stamp(1) - 50 * ms, scene_of(tiny_stamp(0) + 50 * ms));
+  expect_part_from_1_on();
+}
+
+TEST_F(BagAttachedTest, AShapeStaysIfItIsNotRepeated) {
+  bag_.add(scene_topic, tiny_stamp(1) - 100 * ms, scene_of(tiny_stamp(0) + 50 * ms));
+  bag_.add(attached_topic, tiny_stamp(1) - 50 * ms, named_part());
+  expect_part_from_1_on();
+}
+
+/// The world's objects have their poses in the planning frame. The last joint state before the
+/// object is attached is 20 ms before the image.
+const double board_then = 1.0 + tiny_speed * 0.38;  // z, metres
+
+TEST_F(BagAttachedTest, AnObjectOfTheWorldHasItsShapeThere) {
+  io::PlanningSceneMessage scene;
+  scene.world.objects = {part(0).object};
+  scene.world.objects[0].header.frame_id = "base";
+  scene.world.objects[0].pose = pose({0.3, -0.2, board_then});
+  // Fields between robot_state and world.
+  scene.collisions = {.entry_names = {"a"}, .entry_values = {{.enabled = {1}}}};
+  scene.paddings = {{.link_name = "board", .padding = 0.01}};
+  scene.colors = {{.id = "part"}};
+  bag_.add(scene_topic, tiny_stamp(0), scene);
+  bag_.add(attached_topic, tiny_stamp(1) - 15 * ms, named_part());
+  expect_part_from_1_on();
+}
+
+TEST_F(BagAttachedTest, WhatCannotBeDrawnMakesFramesMissingLinks) {
+  const TinyBag without = bag_;
+  using Object = io::CollisionObjectMessage;
+  const std::vector<std::pair<std::string, std::function<void(Object&)>>> wrong = {
+      {"shape is not in the message",
+       [](Object& it) { it.primitives.clear(), it.primitive_poses.clear(); }},
+      {"only boxes", [](Object& it) { it.primitives[0].type = io::SolidPrimitiveMessage::cone; }},
+      {"larger than 10 m", [](Object& it) { it.primitives[0].dimensions[1] = 11; }},
+      {"'map'", [](Object& it) { it.header.frame_id = "map"; }},
+      {"not a rigid transform", [](Object& it) { it.pose.orientation.setZero(); }},
+      {"adding and removing", [](Object& it) { it.operation = Object::move; }},
+      {"a vertex that the mesh lacks",
+       [](Object& it) {
+         it.meshes = {{.triangles = {{{0, 1, 7}}}, .vertices = {{}, {1, 0, 0}, {0, 1, 0}}}};
+         it.mesh_poses = {pose({0, 0, 0})};
+       }},
+      {"no link 'gripper'", [](Object& it) { it.header.frame_id = "gripper"; }}};
+  for (const auto& [why, change] : wrong) {
+    io::AttachedObjectMessage attached = part(tiny_stamp(1) - 10 * ms);
+    change(attached.object);
+    if (attached.object.header.frame_id != "map")
+      attached.link_name = attached.object.header.frame_id;
+    bag_ = without;
+    bag_.add(attached_topic, tiny_stamp(1), attached);
+    bag_.sort();
+    expect_has(succeed(run()).err, {"'part'", why});
+    EXPECT_EQ(statuses(), (Words{"ok", "missing_link", "missing_link"})) << message(1);
+    expect_has(message(1), {"'part'", why});
+  }
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `penumbra run` of bags, against the recording folders that they are of.
 #include "../io/bag_files.hpp"
-#include "../support/data.hpp"
-#include "fixtures.hpp"
+#include "real_recording.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -17,8 +16,7 @@ namespace penumbra::test {
 namespace {
 
 TEST_F(BagTest, GivesTheLabelsOfTheRecording) {
-  EXPECT_EQ(succeed(run()).err, "");
-  expect_recorded_labels();
+  EXPECT_EQ(expect_recorded().err, "");
   const Json json = report();
   ASSERT_EQ(json["frames"].size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -33,11 +31,10 @@ TEST_F(BagTest, ReadsSqliteBagsAndFolders) {
   succeed(run({}, "tiny.db3"));
   expect_recorded_labels();
 
-  const std::string plain = read_file(path("tiny.db3"));
   std::vector<std::byte> packed;
-  io::mcap::Compressor(io::mcap::Compression::zstd).compress(as_bytes(plain), packed);
-  write_file(path("packed.db3.zst"),
-             std::string(reinterpret_cast<const char*>(packed.data()), packed.size()));
+  io::mcap::Compressor(io::mcap::Compression::zstd)
+      .compress(as_bytes(read_file(path("tiny.db3"))), packed);
+  write("packed.db3.zst", {reinterpret_cast<const char*>(packed.data()), packed.size()});
   EXPECT_EQ(succeed(run({}, "packed.db3.zst")).err, "");
   expect_recorded_labels();
 
@@ -46,13 +43,13 @@ TEST_F(BagTest, ReadsSqliteBagsAndFolders) {
   expect_has(succeed(run({}, "recorded")).err, {"metadata.yaml: is missing"});
   expect_recorded_labels();
 
-  write_file(path("recorded/metadata.yaml"), metadata_yaml("mcap", {"a_0.mcap"}));
+  write("recorded/metadata.yaml", metadata_yaml("mcap", {"a_0.mcap"}));
   EXPECT_EQ(succeed(run({}, "recorded")).err, "");
   expect_recorded_labels();
 }
 
 TEST_F(BagTest, OtherBagsAreCalledByTheirNames) {
-  write_file(path("old.bag"), "#ROSBAG V2.0\n");
+  write("old.bag", "#ROSBAG V2.0\n");
   for (const char* command : {"run", "cloud", "calibrate"})
     expect_refused(penumbra({command, path("old.bag"), "-o", out("a.mcap")}), {"old.bag", "ROS 1"});
 }
@@ -61,33 +58,25 @@ TEST_F(BagTest, ShowsColorInOverlays) {
   saves_ = "overlay";
   EXPECT_EQ(succeed(run()).err, "");
   const std::string with_color = read_file(out("overlay/000002.png"));
-  bag_.edit<io::CompressedImageMessage>("/camera/color/image_raw/compressed",
-                                        [](auto& image) { image.header.frame_id = "left"; });
+  bag_.edit<io::CompressedImageMessage>([](auto& image) { image.header.frame_id = "left"; });
   expect_has(succeed(run()).err, {"colour", "3 of 3"});
   EXPECT_NE(read_file(out("overlay/000002.png")), with_color);
 }
 
 TEST_F(BagTest, AddsTheTimeOffsetToStamps) {
   // What a camera says that stamps 0.4 s too early.
-  bag_.edit<io::ImageMessage>("/camera/depth/image_rect_raw",
-                              [](auto& image) { image.header.stamp -= 400'000'000; });
-  succeed(run({"--time-offset", "0.4"}));
-  expect_recorded_labels();
+  bag_.edit<io::ImageMessage>([](auto& image) { image.header.stamp -= 400'000'000; });
+  expect_recorded({"--time-offset", "0.4"});
   EXPECT_EQ(report()["frames"][0]["stamp_ns"], tiny_stamp(0) - 400'000'000);
+  EXPECT_EQ(report()["settings"]["bag"]["time_offset_s"], 0.4);
 }
 
 TEST_F(BagTest, NamesOfJointsThatDifferAreNamed) {
   for (const auto& [name, pattern] : std::vector<std::pair<std::string, std::string>>{
            {"left/slide", "left/*=*"}, {"slide_position", "*_position=*"}, {"lid", "*=s*e"}}) {
-    bag_.edit<io::JointStateMessage>("/joint_states",
-                                     [&](auto& state) { state.names.back() = name; });
-    const Outcome outcome = run();
-    if (name == "lid")
-      expect_failed(outcome, {"'slide'", "'lid'", "set joint_names '*=s*e'"});
-    else
-      expect_failed(outcome, {"'slide'", name, "set joint_names '" + pattern + "'"});
-    EXPECT_EQ(succeed(run({"--joint-names", pattern})).err, "");
-    expect_recorded_labels();
+    bag_.edit<io::JointStateMessage>([&](auto& state) { state.names.back() = name; });
+    expect_failed(run(), {"'slide'", name, "set joint_names '" + pattern + "'"});
+    EXPECT_EQ(expect_recorded({"--joint-names", pattern}).err, "");
   }
   expect_refused(run({"--joint-names", "left"}), {"joint_names 'left'"});
 }
@@ -100,13 +89,12 @@ TEST_F(BagTest, TopicsThatHaveAJointAreNamed) {
   });
   bag_.sort();
   expect_failed(run(), {"'slide'", "'lift'", "/arm/joint_states has it", "--joint-topic"});
-  EXPECT_EQ(succeed(run({"--joint-topic", "/arm/joint_states"})).err, "");
-  expect_recorded_labels();
+  EXPECT_EQ(expect_recorded({"--joint-topic", "/arm/joint_states"}).err, "");
 }
 
 TEST_F(BagTest, TheRemedyOfAMissingJointWorks) {
   TinyBag bag = recording_bag(example, Eigen::Isometry3d::Identity());
-  bag.edit<io::JointStateMessage>("/joint_states", [](auto& state) {
+  bag.edit<io::JointStateMessage>([](auto& state) {
     state.names.pop_back();
     state.positions.pop_back();
   });
@@ -124,8 +112,7 @@ TEST_F(BagTest, TheRemedyOfAMissingJointWorks) {
 
 TEST_F(BagTest, ClocksThatDifferAreNamed) {
   const auto shift = [&](std::int64_t by) {
-    bag_.edit<io::JointStateMessage>("/joint_states",
-                                     [&](auto& state) { state.header.stamp += by; });
+    bag_.edit<io::JointStateMessage>([&](auto& state) { state.header.stamp += by; });
   };
   shift(2'000'000'000);
   expect_failed(run(), {"ms newer", "sensor's", "change time_offset by about 2.0"});
@@ -136,38 +123,36 @@ TEST_F(BagTest, ClocksThatDifferAreNamed) {
   expect_failed(run(), {"use_sim_time"});
 }
 
+std::vector<std::uint16_t> millimetres_of(const io::ImageMessage& image) {
+  std::vector<std::uint16_t> millimetres(image.data.size() / 2);
+  std::memcpy(millimetres.data(), image.data.data(), image.data.size());
+  return millimetres;
+}
+
 TEST_F(BagTest, TheScaleOfDepthIsAnOption) {
-  std::vector<std::vector<std::byte>> scaled;
-  bag_.edit<io::ImageMessage>("/camera/depth/image_rect_raw", [&](auto& image) {
-    scaled.emplace_back(image.data.begin(), image.data.end());
-    for (std::size_t i = 0; i + 1 < scaled.back().size(); i += 2) {
-      const unsigned value = 10U * (std::to_integer<unsigned>(scaled.back()[i]) +
-                                    256U * std::to_integer<unsigned>(scaled.back()[i + 1]));
-      scaled.back()[i] = std::byte(value % 256U);
-      scaled.back()[i + 1] = std::byte(value / 256U);
-    }
-    image.data = scaled.back();
+  std::vector<std::uint16_t> scaled;
+  bag_.edit<io::ImageMessage>([&](auto& image) {
+    scaled = millimetres_of(image);
+    for (std::uint16_t& depth : scaled) depth = static_cast<std::uint16_t>(10 * depth);
+    image.data = std::as_bytes(std::span(scaled));
   });
-  EXPECT_EQ(succeed(run({"--depth-scale", "0.0001"})).err, "");
-  expect_recorded_labels();
+  EXPECT_EQ(expect_recorded({"--depth-scale", "0.0001"}).err, "");
 }
 
 TEST_F(BagTest, DepthAlongTheRayIsAnOption) {
   const Camera camera = io::read_camera_info(path("camera_info.yaml"), false);
-  std::vector<std::vector<float>> along;
-  bag_.edit<io::ImageMessage>("/camera/depth/image_rect_raw", [&](auto& image) {
-    std::vector<std::uint16_t> millimetres(image.data.size() / 2);
-    std::memcpy(millimetres.data(), image.data.data(), image.data.size());
-    std::vector<float>& metres = along.emplace_back();
-    for (unsigned i = 0; i < millimetres.size(); ++i)
+  std::vector<float> metres;
+  bag_.edit<io::ImageMessage>([&](auto& image) {
+    const std::vector<std::uint16_t> depth = millimetres_of(image);
+    metres.clear();
+    for (unsigned i = 0; i < depth.size(); ++i)
       metres.push_back(static_cast<float>(
-          1e-3 * millimetres[i] * camera.intrinsics.ray(i % image.width, i / image.width).norm()));
+          1e-3 * depth[i] * camera.intrinsics.ray(i % image.width, i / image.width).norm()));
     image.encoding = "32FC1";
     image.step = 4 * image.width;
     image.data = std::as_bytes(std::span(metres));
   });
-  EXPECT_EQ(succeed(run({"--depth-along", "ray"})).err, "");
-  expect_recorded_labels();
+  EXPECT_EQ(expect_recorded({"--depth-along", "ray"}).err, "");
 }
 
 TEST_F(BagTest, FramesWithoutPoseAreFrames) {
@@ -181,7 +166,7 @@ TEST_F(BagTest, FramesWithoutPoseAreFrames) {
 
 TEST_F(BagTest, FaultyImagesAreFramesOfAStatus) {
   int image = 0;
-  bag_.edit<io::ImageMessage>("/camera/depth/image_rect_raw", [&](auto& depth) {
+  bag_.edit<io::ImageMessage>([&](auto& depth) {
     if (image == 0) depth.encoding = "13UC7";
     if (image == 1) depth.header.stamp = 0;
     if (image == 2) depth.header.frame_id = "elsewhere";
@@ -200,7 +185,7 @@ TEST_F(BagTest, FaultyImagesAreFramesOfAStatus) {
 
 TEST_F(BagTest, JointPositionsThatAreNoNumbersAreTold) {
   int state = 0;
-  bag_.edit<io::JointStateMessage>("/joint_states", [&](auto& joints) {
+  bag_.edit<io::JointStateMessage>([&](auto& joints) {
     if (++state == 3) joints.positions.at(1) = std::numeric_limits<double>::quiet_NaN();
     if (state == 4) joints.positions.resize(1);
   });
@@ -210,7 +195,7 @@ TEST_F(BagTest, JointPositionsThatAreNoNumbersAreTold) {
 
 TEST_F(BagTest, DamageIsToldAndTheRestIsJudged) {
   const std::string whole = read_file(tiny_mcap());
-  write_file(path("cut.mcap"), whole.substr(0, whole.size() * 7 / 10));
+  write("cut.mcap", whole.substr(0, whole.size() * 7 / 10));
   const Outcome outcome = succeed(run({}, "cut.mcap"));
   const std::size_t frames = report()["frames"].size();
   EXPECT_GE(frames, 1U);
@@ -222,27 +207,23 @@ TEST_F(BagTest, DamageIsToldAndTheRestIsJudged) {
 TEST_F(BagTest, TheCommandLineFillsInWhatIsMissing) {
   bag_.remove("/robot_description");
   bag_.remove("/tf_static");
-  succeed(
-      run({"--robot", path("tiny.urdf"), "--pose", path("camera_pose.csv"), "--parent", "base"}));
-  expect_recorded_labels();
+  expect_recorded(
+      {"--robot", path("tiny.urdf"), "--pose", path("camera_pose.csv"), "--parent", "base"});
 }
 
 TEST_F(BagTest, OptionsChooseAmongTopics) {
-  bag_.copy("/camera/depth/image_rect_raw", "/other/depth/image");
-  bag_.copy("/camera/depth/camera_info", "/other/camera_info");
+  bag_.copy(depth_topic, "/other/depth/image");
+  bag_.copy(info_topic, "/other/camera_info");
   bag_.copy("/joint_states", "/second/joint_states");
   bag_.rename("/joint_states", "/first/joint_states");
-  succeed(run({"--depth-topic", "/other/depth/image", "--camera-info-topic", "/other/camera_info",
-               "--joint-topic", "/first/joint_states", "--joint-topic", "/second/joint_states"}));
-  expect_recorded_labels();
+  expect_recorded({"--depth-topic", "/other/depth/image", "--camera-info-topic",
+                   "/other/camera_info", "--joint-topic", "/first/joint_states", "--joint-topic",
+                   "/second/joint_states"});
 }
 
 TEST_F(BagTest, TakesPosesFromTransforms) {
   bag_.add_board_frames();
-  for (const char* const poses : {"tf", "both", "joints"}) {
-    succeed(run({"--poses", poses}));
-    expect_recorded_labels();
-  }
+  for (const char* const poses : {"tf", "both", "joints"}) expect_recorded({"--poses", poses});
   bag_.edit<io::TfMessage>(
       "/tf", [](auto& tf) { tf.transforms[0].T_parent_child.translation().z() += 0.01; });
   const Outcome outcome = run({"--poses", "both"});
@@ -270,9 +251,8 @@ TEST_F(BagTest, ACameraBesideTheRobotIsFoundWithoutReadingTheWholeBag) {
   bag_.add("/tf_static", tiny_stamp(0) - 190'000'000,
            io::TfMessage{{{{0, "cell"}, "base", Eigen::Isometry3d::Identity()}}});
   bag_.sort();
-  const auto image =
-      std::ranges::find(bag_.messages, "/camera/depth/image_rect_raw", &TinyBag::Message::topic);
-  const TinyBag::Message first = *image;
+  const TinyBag::Message first =
+      *std::ranges::find(bag_.messages, depth_topic, &TinyBag::Message::topic);
   for (int i = 0; i < 1000; ++i) {
     bag_.messages.push_back(first);
     bag_.messages.back().log_time = tiny_stamp(3 + i);
@@ -317,8 +297,7 @@ TEST_F(BagTest, TheFirstPublisherMayBeBelieved) {
   });
   const Words both = {"--joint-topic", "/joint_states", "--joint-topic", "/second/joint_states"};
   EXPECT_EQ(run(both).status, 2);
-  succeed(run(both + Words{"--first-publisher"}));
-  expect_recorded_labels();
+  expect_recorded(both + Words{"--first-publisher"});
 }
 
 /// Share of the robot's pixels whose labels may differ: the contract of `run`. Positions are
@@ -330,12 +309,11 @@ constexpr double differing_share = 1e-3;
 TEST_F(BagTest, OfARealRobotGivesTheLabelsOfItsRecording) {
   PENUMBRA_REQUIRE_DATA();
   const fs::path recording = data_folder() / "xarm7_realsense";
-  const fs::path package = data_folder() / "robots/xarm7/xarm_description";
   const auto run_into = [](const fs::path& to, const Words& options) {
     EXPECT_EQ(succeed(penumbra(Words{"run", "-o", to, "--save", "labels"} + options)).err, "");
   };
   run_into(path("wanted"), {recording});
-  run_into(out(), {recording / "xarm7.mcap", "--package", "xarm_description=" + package.string()});
+  run_into(out(), Words{recording / "xarm7.mcap"} + xarm_package());
   for (std::size_t i = 0; i < 10; ++i) {
     const auto of_bag = labels(i);
     const auto wanted = read_image<std::uint8_t>(path("wanted/labels") / numbered(i));

@@ -7,6 +7,7 @@
 #include "tiny_recording.hpp"
 
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -42,6 +43,14 @@ Image<T> read_image(const fs::path& file) {
   return image;
 }
 
+/// Returns what of a file the clock has no part in.
+inline std::string without_times(const fs::path& file) {
+  static const std::regex times(R"("timing_ms": ?\{([^{}]|\{[^{}]*\})*\})");
+  if (file.extension() == ".html") return "a page";
+  const std::string text = read_file(file);
+  return file.extension() == ".json" ? std::regex_replace(text, times, "") : text;
+}
+
 /// A test with an empty folder, whose "out" takes what `penumbra` writes.
 class FolderTest : public testing::Test {
  protected:
@@ -49,6 +58,13 @@ class FolderTest : public testing::Test {
   [[nodiscard]] fs::path path(const std::string& name) const { return path() / name; }
   [[nodiscard]] fs::path out() const { return path("out"); }
   [[nodiscard]] fs::path out(const std::string& name) const { return out() / name; }
+
+  void write(const std::string& name, const std::string& content) const {
+    write_file(path(name), content);
+  }
+  void edit(const std::string& name, const std::string& from, const std::string& to) const {
+    edit_file(path(name), from, to);
+  }
 
   [[nodiscard]] Json report() const { return read_json(out("report.json")); }
   [[nodiscard]] Image<std::uint8_t> labels(std::size_t frame) const {
@@ -69,6 +85,14 @@ class FolderTest : public testing::Test {
  private:
   TemporaryFolder folder_;
 };
+
+/// Returns the URDF of a link that is fixed to `parent`.
+inline std::string fixed_link(const std::string& name, const std::string& parent,
+                              const std::string& content) {
+  return "<link name=\"" + name + "\">" + content + "</link><joint name=\"to_" + name +
+         "\" type=\"fixed\"><parent link=\"" + parent + "\"/><child link=\"" + name +
+         "\"/></joint>";
+}
 
 /// Returns the recording.yaml of two cameras at the tiny recording's place. `of_right`: lines of
 /// the second camera alone. `more`: lines at the end.
@@ -131,6 +155,20 @@ class BagTest : public TinyTest {
                   read_file(path("wanted/labels") / numbered(i)))
           << i;
   }
+
+  void add_to_bag_robot(const std::string& urdf) {
+    bag_.edit<io::StringMessage>(
+        [&](auto& text) { text.data.insert(text.data.rfind("</robot>"), urdf); });
+  }
+  Outcome expect_recorded(const Words& options = {}) const {
+    Outcome outcome = succeed(run(options));
+    expect_recorded_labels();
+    return outcome;
+  }
+
+  static constexpr const char* depth_topic = "/camera/depth/image_rect_raw";
+  static constexpr const char* info_topic = "/camera/depth/camera_info";
+  static constexpr const char* color_topic = "/camera/color/image_raw/compressed";
 
   TinyBag bag_;
   std::string saves_ = "labels";

@@ -23,7 +23,7 @@ class NotesTest : public TinyTest {
     expect_note_of_render({}, words);
   }
   void put_camera_at(const std::string& z) const {
-    write_file(path("camera_pose.csv"), "1,0,0,0\n0,1,0,0\n0,0,1," + z + "\n0,0,0,1\n");
+    write("camera_pose.csv", "1,0,0,0\n0,1,0,0\n0,0,1," + z + "\n0,0,0,1\n");
   }
 
  private:
@@ -41,7 +41,7 @@ class NotesTest : public TinyTest {
   }
 };
 
-TEST_F(NotesTest, ARobotThatIsNeverInView) {
+TEST_F(NotesTest, ARobotThatIsNeverInViewAndACameraPoseThatDoesNotFitTheDepth) {
   put_camera_at("0");
   expect_note_of_both("");
   put_camera_at("2");  // the inverse: the robot is behind the camera
@@ -49,41 +49,33 @@ TEST_F(NotesTest, ARobotThatIsNeverInView) {
   expect_note_of_render({}, "the robot is not in the image");
   put_camera_at("-2000");  // millimetres
   expect_note_of_run("the robot is in no frame", 2);
-}
-
-TEST_F(NotesTest, ACameraPoseThatDoesNotFitTheDepth) {
   put_camera_at("-2");
   expect_note_of_run("camera's pose");
   expect_note_of_render({}, "");
 }
 
 TEST_F(NotesTest, RawPixelsThatTheLensModelDoesNotReach) {
-  edit_file(path("camera_info.yaml"), "d: [0.0,", "d: [-0.6,");
+  edit("camera_info.yaml", "d: [0.0,", "d: [-0.6,");
   expect_note_of_both("the lens model does not reach ");
   expect_has(run().out, {" uncovered pixels"});
-  const std::string rendered = render({"--json"}).out;
-  EXPECT_GT(Json::parse(rendered)["uncovered"], 0) << rendered;
+  EXPECT_GT(Json::parse(render({"--json"}).out)["uncovered"], 0);
 }
 
 TEST_F(NotesTest, LinksThatAreTiny) {
-  add_to_robot(
-      R"(<link name="speck"><collision><geometry>
-           <mesh filename="board.stl" scale="0.001 0.001 0.001"/></geometry></collision></link>
-         <joint name="hold" type="fixed"><parent link="board"/><child link="speck"/></joint>)");
+  add_to_robot(fixed_link("speck", "board", R"(<collision><geometry><mesh filename="board.stl"
+      scale="0.001 0.001 0.001"/></geometry></collision>)"));
   const std::string words = "link 'speck': its geometry is only 0.4 mm large; check the unit";
   expect_note_of_both(words);
   expect_has(inspect().out, {"note: " + words});
 }
 
 TEST_F(NotesTest, PartsBeforeTheNearPlane) {
-  add_to_robot(
-      R"(<link name="plate"><collision><geometry><box size="1 1 0.002"/></geometry></collision>
-         </link><joint name="hold" type="fixed"><parent link="base"/><child link="plate"/>
-         <origin xyz="0 0 0.005"/></joint>)");
+  add_to_robot(fixed_link("plate", "base", R"(<collision><origin xyz="0 0 0.005"/><geometry>
+      <box size="1 1 0.002"/></geometry></collision>)"));
   const std::string words = "part of link 'plate' lies within 1 cm of the camera and is not drawn ";
   expect_note_of_run(words + "in 3 frames");
   expect_note_of_render({}, words + "in 1 frame");
-  edit_file(path("tiny.urdf"), "0 0 0.005", "0 0 -0.005");
+  edit("tiny.urdf", "0 0 0.005", "0 0 -0.005");
   expect_note_of_run("");
 }
 
@@ -114,13 +106,13 @@ TEST_F(NotesTest, JointsThatRenderWasNotGiven) {
 }
 
 TEST_F(NotesTest, AttachedBodiesAndTargetsInMillimetres) {
-  const std::string yaml = read_file(path("recording.yaml")) + "targets: targets.yaml\n";
+  const std::string whole = read_file(path("recording.yaml")) + "targets: targets.yaml\n";
   const auto expect_note_of = [&](const std::string& body, const std::string& target,
                                   const std::string& words) {
     SCOPED_TRACE(body + target);
     write_file(
         path("recording.yaml"),
-        yaml + (body.empty() ? "" : "attached: [{name: part, link: board, " + body + "}]\n"));
+        whole + (body.empty() ? "" : "attached: [{name: part, link: board, " + body + "}]\n"));
     write_targets("- {name: cup, " + target + "}\n");
     succeed(run());
     const Json notes = report()["summary"]["notes"];
@@ -146,21 +138,15 @@ TEST_F(NotesTest, AttachedBodiesAndTargetsInMillimetres) {
   expect_note_of("", cup + ", depth_margin: 20", "'cup': its depth_margin is 20 m");
 }
 
-/// The tiny recording with one more link on its base.
-class LeniencyTest : public TinyTest {
- protected:
-  void add_link(const std::string& geometry) {
-    add_to_robot("<link name=\"more\">" + geometry +
-                 "</link><joint name=\"fix\" type=\"fixed\"><parent link=\"base\"/>"
-                 "<child link=\"more\"/></joint>");
-  }
-};
+using LeniencyTest = TinyTest;
 
 constexpr const char* ball =
     "<visual><origin xyz=\"0 0 2\"/><geometry><sphere radius=\"1\"/></geometry></visual>";
 
 TEST_F(LeniencyTest, EveryResultNamesLinksWithoutTheirMesh) {
-  add_link("<collision><geometry><mesh filename=\"nowhere.stl\"/></geometry></collision>");
+  add_to_robot(
+      fixed_link("more", "base",
+                 R"(<collision><geometry><mesh filename="nowhere.stl"/></geometry></collision>)"));
   for (const Outcome& outcome : {run(), render(), inspect()}) {
     EXPECT_EQ(outcome.status, 2);
     expect_has(outcome.err, {"nowhere.stl"});
@@ -179,7 +165,7 @@ TEST_F(LeniencyTest, EveryResultNamesLinksWithoutTheirMesh) {
 }
 
 TEST_F(LeniencyTest, LinksWithoutCollisionGeometryAreDrawnWithANote) {
-  add_link(ball);
+  add_to_robot(fixed_link("more", "base", ball));
   const std::string fallback = "--geometry-fallback";
   const auto robot_pixels = [&](const Words& options) {
     return Json::parse(succeed(render(options + Words{"--json"})).out)["robot_pixels"].get<int>();
@@ -197,9 +183,9 @@ TEST_F(LeniencyTest, LinksWithoutCollisionGeometryAreDrawnWithANote) {
 }
 
 TEST_F(LeniencyTest, LinksOfTheOtherGeometryAreNeverLeftOutInSilence) {
-  add_link(ball);
+  add_to_robot(fixed_link("more", "base", ball));
   const Words strict = {"--geometry", "collision"};
-  edit_file(path("recording.yaml"), "tiny.urdf\n", "tiny.urdf\n  geometry: collision\n");
+  edit("recording.yaml", "tiny.urdf\n", "tiny.urdf\n  geometry: collision\n");
   for (const Outcome& outcome : {run(), run(strict), render(strict), inspect(strict)}) {
     EXPECT_EQ(outcome.status, 2);
     expect_has(outcome.err, {"1 link has no collision geometry, only visual: \"more\"",

@@ -91,18 +91,18 @@ TEST_F(OutputBagTest, TheReferenceLibraryReadsTheSame) {
                          {"/message/header/stamp/nanosec", stamp % 1'000'000'000},
                          {"/message/header/frame_id", "optical"},
                          {"/logTime", std::to_string(stamp)}});
+    const auto expect_image_of = [&](const char* encoding, const auto& image) {
+      expect_values(message, {{"/encoding", encoding},
+                              {"/width", image.width()},
+                              {"/height", image.height()},
+                              {"/data", array_of(image)}});
+    };
     if (topic == "/penumbra/labels") {
-      const auto labels = written<std::uint8_t>("labels", number);
-      expect_values(message, {{"/encoding", "8UC1"},
-                              {"/width", labels.width()},
-                              {"/height", labels.height()},
-                              {"/data", array_of(labels)}});
+      expect_image_of("8UC1", written<std::uint8_t>("labels", number));
     } else if (topic == "/penumbra/robot_mask") {
-      expect_values(message, {{"/encoding", "mono8"},
-                              {"/data", array_of(written<std::uint8_t>("robot_mask", number))}});
+      expect_image_of("mono8", written<std::uint8_t>("robot_mask", number));
     } else if (topic == "/penumbra/vdi") {
-      expect_values(message,
-                    {{"/encoding", "32FC1"}, {"/data", array_of(written<float>("vdi", number))}});
+      expect_image_of("32FC1", written<float>("vdi", number));
     } else if (topic == "/penumbra/overlay/compressed") {
       EXPECT_EQ(message["data"], array_of(read_file(out("overlay") / numbered(number))));
     } else if (topic == "/penumbra/points") {
@@ -110,8 +110,7 @@ TEST_F(OutputBagTest, TheReferenceLibraryReadsTheSame) {
       EXPECT_EQ(message["fields"][2]["name"], "z");
       EXPECT_EQ(message["row_step"], message["width"].get<int>() * 12);
     } else if (topic == "/penumbra/targets") {
-      EXPECT_EQ(message["status"], "ok");
-      EXPECT_EQ(message["root_frame"], "base");
+      expect_values(message, {{"/status", "ok"}, {"/root_frame", "base"}});
     }
   }
   EXPECT_EQ(numbers.size(), 8U);
@@ -164,14 +163,8 @@ TEST_F(OutputBagTest, FramesWithoutPoseHaveNoVirtualDepth) {
 }
 
 TEST_F(OutputBagTest, WithoutALinkNothingIsTrusted) {
-  bag_.edit<io::StringMessage>("/robot_description", [](auto& text) {
-    const std::string end = "</robot>";
-    text.data.replace(
-        text.data.rfind(end), end.size(),
-        "<link name=\"hand\"><collision><geometry><mesh filename=\"file:///nowhere.stl\"/>"
-        "</geometry></collision></link><joint name=\"h\" type=\"fixed\"><parent link=\"base\"/>"
-        "<child link=\"hand\"/></joint></robot>");
-  });
+  add_to_bag_robot(fixed_link("hand", "base", R"(<collision><geometry>
+      <mesh filename="file:///nowhere.stl"/></geometry></collision>)"));
   expect_has(succeed(run("results.mcap", {"--allow-missing-meshes"})).err, {"trusts nothing"});
   expect_nothing_trusted();
   for_each<io::PointCloud2Message>(
@@ -234,13 +227,13 @@ TEST_F(OutputBagTest, OnlyABagOfResultsIsReplaced) {
 /// Frames of a folder without stamps have no place in time, unless it is said how fast they came.
 TEST_F(OutputBagTest, FramesWithoutStampsNeedARate) {
   const fs::path results = path("results.mcap");
-  const auto write = [&](const Words& options) {
+  const auto to_bag = [&](const Words& options) {
     return penumbra(Words{"run", path(), "-o", results} + options);
   };
-  expect_failed(write({}), {"--fps"});
+  expect_failed(to_bag({}), {"--fps"});
   EXPECT_FALSE(fs::exists(results));
-  EXPECT_EQ(write({"--fps", "0"}).status, 2);
-  succeed(write({"--fps", "4"}));
+  EXPECT_EQ(to_bag({"--fps", "0"}).status, 2);
+  succeed(to_bag({"--fps", "4"}));
   std::vector<std::int64_t> stamps;
   for_each_message<io::ImageMessage>(
       results, "/penumbra/labels",

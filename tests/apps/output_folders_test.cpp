@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The output folder of every command: a link in each of its places, a kill and a full disk at each
-// of its files.
+// of its files. Folders that run may not write to, and what of earlier contents goes or stays.
 #include "fixtures.hpp"
 #include "tiny_clouds.hpp"
 
 #include <csignal>
 #include <map>
 #include <ostream>
-#include <regex>
 #include <set>
 
 #include <io/cloud/cloud_file.hpp>
@@ -27,14 +26,6 @@ void PrintTo(const Command& command, std::ostream* out) { *out << command.name; 
 /// Files by their names in a folder; a file alone has no name.
 using Files = std::map<std::string, std::string>;
 
-/// Returns what the clock has no part in.
-std::string without_times(const fs::path& file) {
-  static const std::regex times(R"("timing_ms": ?\{([^{}]|\{[^{}]*\})*\})");
-  if (file.extension() == ".html") return "a page";
-  const std::string text = read_file(file);
-  return file.extension() == ".json" ? std::regex_replace(text, times, "") : text;
-}
-
 Files files_of(const fs::path& place) {
   if (fs::is_regular_file(place)) return {{"", without_times(place)}};
   Files files;
@@ -53,10 +44,10 @@ class Outputs : public TinyTest, public testing::WithParamInterface<Command> {
  protected:
   Outputs() {
     write_joints("frame,stamp,slide\n0,0,0.0\n1,100000000,0.05\n2,200000000,0.1\n");
-    write_file(path("cameras.yaml"), two_cameras_yaml());
+    write("cameras.yaml", two_cameras_yaml());
     write_targets("- {name: hole, point: [0, 0, 2], radius: 0.05, link: base}\n");
-    write_file(path("poses.csv"), "name,x,y,z,qx,qy,qz,qw\nahead,0,0,0,0,0,0,1\n");
-    write_file(path("plan.csv"), "time,slide\n0,0\n1,1\n");
+    write("poses.csv", "name,x,y,z,qx,qy,qz,qw\nahead,0,0,0,0,0,0,1\n");
+    write("plan.csv", "time,slide\n0,0\n1,1\n");
     write_clouds();
     TinyBag bag = tiny_bag(path());
     add_clouds(bag);
@@ -67,7 +58,7 @@ class Outputs : public TinyTest, public testing::WithParamInterface<Command> {
   void write_clouds() const {
     fs::create_directories(path("scans"));
     std::string rows = "frame,slide\n";
-    for (int i = 0; i < clouds_; ++i) {
+    for (int i = 0; i < 8; ++i) {
       FourPoints few(0);
       const std::vector<std::byte> four = few.data;
       for (int more = 0; more < 20 * i; ++more)
@@ -78,10 +69,8 @@ class Outputs : public TinyTest, public testing::WithParamInterface<Command> {
       io::write_cloud(path("scans/" + std::to_string(i) + ".pcd"), few.message);
       rows += std::to_string(i) + ",0\n";
     }
-    write_file(path("rows.csv"), rows);
-    write_file(path("clouds.yaml"),
-               "robot: {urdf: tiny.urdf}\nsensor: {parent: base, pose: camera_pose.csv, model: "
-               "lidar_2cm}\nframes: {joints: rows.csv, cloud: scans/%d.pcd}\n");
+    write("rows.csv", rows);
+    write("clouds.yaml", clouds_yaml("rows.csv"));
   }
 
   [[nodiscard]] fs::path output() const { return path(GetParam().output); }
@@ -108,8 +97,6 @@ class Outputs : public TinyTest, public testing::WithParamInterface<Command> {
     succeed(penumbra(line(output())));
     EXPECT_TRUE(files_of(output()) == wanted) << after;
   }
-
-  const int clouds_ = 8;
 };
 
 class OutputFolders : public Outputs {
@@ -173,7 +160,7 @@ TEST_P(OutputFolders, TheFolderItselfMayBeALink) {
   expect_results(wanted, "again");
   fs::remove_all(path("elsewhere"));
   fs::create_directory(path("elsewhere"));
-  write_file(path("elsewhere/notes.txt"), "the user's own");
+  write("elsewhere/notes.txt", "the user's own");
   expect_refused(penumbra(line(output())), {GetParam().output});
 }
 
@@ -225,7 +212,7 @@ TEST_F(Init, LeavesNoHalfRecordingAndFollowsNoLink) {
   }
   succeed(penumbra(line));
   const std::string wanted = read_file(file);
-  write_file(path("precious"), "the user's own");
+  write("precious", "the user's own");
   fs::remove(file);
   fs::create_symlink("precious", file);
   expect_refused(penumbra(line), {"recording.yaml", "--force"});
@@ -253,6 +240,82 @@ const std::vector<Command> files = {
 INSTANTIATE_TEST_SUITE_P(Folders, Outputs, testing::ValuesIn(folders), name_of);
 INSTANTIATE_TEST_SUITE_P(SingleFiles, Outputs, testing::ValuesIn(files), name_of);
 INSTANTIATE_TEST_SUITE_P(All, OutputFolders, testing::ValuesIn(folders), name_of);
+
+const Words all_saves = {"--save", "vdi,labels,links,overlay"};
+
+using BadOutputTest = TinyTest;
+
+TEST_F(BadOutputTest, IsNoFolderOfItsOwn) {
+  const auto expect_no_output = [&](const fs::path& output, const std::string& named) {
+    expect_refused(penumbra(Words{"run", path(), "-o", output, "--force"} + all_saves), {named});
+    EXPECT_FALSE(fs::exists(output / "report.json"));
+  };
+  expect_no_output(path("tiny.urdf"), "tiny.urdf");
+  expect_no_output(path("."), "the recording's own folder");
+  expect_no_output(path("tiny.urdf/out"), "tiny.urdf");
+  expect_no_output("/proc/penumbra", "/proc");
+
+  const fs::path other = path("other");  // a recording
+  fs::create_directories(other / "labels");
+  write_file(other / "recording.yaml", "robot:\n");
+  write_file(other / "labels/000000.png", "recorded");
+  expect_no_output(other, "other");
+  EXPECT_TRUE(fs::exists(other / "labels/000000.png"));
+}
+
+TEST_F(BadOutputTest, AFormerRunStaysUntilAllOfTheNextsInputIsRead) {
+  succeed(run(all_saves));
+  const std::string former = read_file(out("report.json"));
+  const auto expect_left = [&](const Words& line) {
+    EXPECT_EQ(penumbra(line + Words{"-o", out()}).status, 2);
+    EXPECT_TRUE(read_file(out("report.json")) == former);
+    for (const char* kind : {"vdi", "labels", "links", "overlay"})
+      EXPECT_FALSE(fs::is_empty(out(kind))) << kind;
+  };
+  expect_left({"run", path("nowhere")});
+  expect_left({"run", "x.mcap"});
+  expect_left({"run", path(), "--targets", path("nowhere.yaml")});
+  expect_left({"run", path(), "--frames", "1:4"});
+  fs::rename(path("board.stl"), path("board.away"));
+  expect_left({"run", path()});
+  fs::rename(path("board.away"), path("board.stl"));
+
+  write_file(out("labels/notes.txt"), "the user's own");
+  const fs::path part = out("report.json.penumbra.part");
+  fs::rename(out("report.json"), part);  // as of a run that was killed
+  succeed(run());
+  EXPECT_FALSE(fs::exists(part));
+  EXPECT_TRUE(fs::is_empty(out("vdi"))) << "the former run's";
+  EXPECT_EQ(read_file(out("labels/notes.txt")), "the user's own");
+}
+
+TEST_F(BadOutputTest, AFolderOfAnotherIsRefusedAndLeftAsItIs) {
+  fs::create_directories(out("labels"));
+  for (const char* file : {"notes.txt", "report.json", "labels/000000.png", "labels/mine.png"}) {
+    write_file(out(file), "{\"lighthouse\": 11}");
+    expect_refused(run(all_saves), {"--force"});
+    EXPECT_EQ(read_file(out(file)), "{\"lighthouse\": 11}");
+    EXPECT_FALSE(fs::exists(out("vdi")));
+  }
+  succeed(run({"--force", "--save", "vdi"}));
+  for (const char* file : {"notes.txt", "labels/000000.png", "labels/mine.png"})
+    EXPECT_EQ(read_file(out(file)), "{\"lighthouse\": 11}") << file;
+}
+
+TEST_F(BadOutputTest, AFailedRunRemovesWhatItWroteAndNothingElse) {
+  fs::create_directories(out("labels"));
+  write_file(out("labels/000100.png"), "the user's own");
+  constexpr std::size_t less_than_a_vdi = tiny_width * tiny_height * sizeof(float);
+  EXPECT_EQ(penumbra_within(less_than_a_vdi, TooLarge::fails,
+                            {"run", path(), "-o", out(), "--force", "--save", "vdi,labels"}),
+            2);
+  for (const char* file : {"report.json", "vdi/000000.npy", "report.json.penumbra.part",
+                           "labels/000000.png"})  // no report says whose it is
+    EXPECT_FALSE(fs::exists(out(file))) << file;
+  EXPECT_EQ(read_file(out("labels/000100.png")), "the user's own");
+  fs::remove(out("labels/000100.png"));
+  succeed(run({"--save", "labels"}));
+}
 
 }  // namespace
 }  // namespace penumbra::test

@@ -1,59 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "program.hpp"
 
+#include "../support/child_process.hpp"
+
 #include <algorithm>
-#include <chrono>
-#include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <regex>
 #include <set>
 #include <sstream>
-#include <thread>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 namespace penumbra::test {
-namespace {
-
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-int status_of(int wait_status) {
-  return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
-}
-
-/// Calls `prepare` in the new process.
-template <typename Prepare>
-pid_t start_program(const Words& arguments, const fs::path& out, const fs::path& err,
-                    const Prepare& prepare) {
-  std::vector<char*> words = {const_cast<char*>(PENUMBRA_PROGRAM)};
-  for (const std::string& argument : arguments)
-    words.push_back(const_cast<char*>(argument.c_str()));
-  words.push_back(nullptr);
-  const pid_t child = fork();
-  if (child != 0) return child;
-  dup2(open(out.c_str(), O_WRONLY), STDOUT_FILENO);
-  dup2(open(err.c_str(), O_WRONLY), STDERR_FILENO);
-  prepare();
-  execv(PENUMBRA_PROGRAM, words.data());
-  _exit(127);
-}
-
-}  // namespace
-
 Words split(const std::string& text) {
   std::istringstream words(text);
   return {std::istream_iterator<std::string>(words), {}};
+}
+
+std::string joined(const Words& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ",") + word;
+  return text;
 }
 
 Words operator+(Words first, const Words& second) {
@@ -67,19 +38,13 @@ namespace {
 /// no options of bags, but has keys.
 std::set<std::string> options_of(const std::string& command, bool is_folder) {
   static std::map<std::string, std::string> helps;
-  auto help = helps.find(command);
-  if (help == helps.end()) {
-    helps[command];  // the call below asks for no help
-    helps[command] = penumbra({command, "--help"}).out;
-    help = helps.find(command);
-  }
-  const std::size_t bags = help->second.find("\nOf bags:");
+  std::string& all = helps[command];
+  if (all.empty()) all = penumbra({command, "--help"}).out;
+  const std::string help = is_folder ? all.substr(0, all.find("\nOf bags:")) : all;
   std::set<std::string> options;
   const std::regex option("\n  (?:-[a-zA-Z],)?(--[a-z0-9-]+)");
-  for (std::sregex_iterator found(help->second.begin(), help->second.end(), option), end;
-       found != end; ++found)
-    if (!is_folder || static_cast<std::size_t>(found->position()) < bags)
-      options.insert((*found)[1]);
+  for (std::sregex_iterator found(help.begin(), help.end(), option), end; found != end; ++found)
+    options.insert((*found)[1]);
   return options;
 }
 
@@ -115,53 +80,27 @@ void expect_remedies_exist(const Words& arguments, const std::string& err) {
 
 Outcome penumbra(const Words& arguments, const Words& environment, const fs::path& program) {
   const TemporaryFolder folder;
-  std::string command = "env";
-  for (const std::string& variable : environment) command += " " + quoted(variable);
-  command += " timeout 3600 " + quoted(program);
-  for (const std::string& argument : arguments) command += " " + quoted(argument);
-  command +=
-      " </dev/null >" + quoted(folder.path() / "out") + " 2>" + quoted(folder.path() / "err");
-  const int status = std::system(command.c_str());
-  const std::string err = read_file(folder.path() / "err");
-  if (program == PENUMBRA_PROGRAM) expect_remedies_exist(arguments, err);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder.path() / "out"), err};
-}
-
-double peak_memory_mb(const Words& arguments) {
-  const pid_t child = start_program(arguments, "/dev/null", "/dev/null", [] {});
-  int status = -1;
-  rusage usage{};
-  EXPECT_EQ(wait4(child, &status, 0, &usage), child);
-  EXPECT_EQ(status, 0);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+  const fs::path out = folder.path() / "out", err = folder.path() / "err";
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0644);
+  posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0644);
+  const pid_t process = start_process(
+      Words{"/usr/bin/env"} + environment + Words{"timeout", "3600", program} + arguments, files);
+  int status = 0;
+  waitpid(process, &status, 0);
+  const Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
+                        read_file(out), read_file(err)};
+  if (program == PENUMBRA_PROGRAM) expect_remedies_exist(arguments, outcome.err);
+  return outcome;
 }
 
 int penumbra_within(std::size_t bytes, TooLarge what, const Words& arguments) {
-  const pid_t child = start_program(arguments, "/dev/null", "/dev/null", [&] {
-    const rlimit none{0, 0}, most{bytes, bytes};
-    setrlimit(RLIMIT_CORE, &none);
-    setrlimit(RLIMIT_FSIZE, &most);
-    signal(SIGXFSZ, what == TooLarge::fails ? SIG_IGN : SIG_DFL);
-  });
-  int status = 0;
-  waitpid(child, &status, 0);
-  return status_of(status);
-}
-
-Outcome penumbra_interrupted(const Words& arguments,
-                             const std::function<bool(const Outcome&)>& when) {
-  const TemporaryFolder folder;
-  const auto outcome = [&](int status) -> Outcome {
-    return {status_of(status), read_file(folder.path() / "out"), read_file(folder.path() / "err")};
-  };
-  for (const char* const name : {"out", "err"}) write_file(folder.path() / name, "");
-  const pid_t child = start_program(arguments, folder.path() / "out", folder.path() / "err", [] {});
-  int status = 0;
-  while (waitpid(child, &status, WNOHANG) == 0 && !when(outcome(0)))
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  kill(child, SIGINT);
-  waitpid(child, &status, 0);
-  return outcome(status);
+  const std::string line = std::string(what == TooLarge::fails ? "trap '' XFSZ; " : "") +
+                           "exec prlimit --core=0 --fsize=" + std::to_string(bytes) +
+                           " \"$0\" \"$@\" >/dev/null 2>&1";
+  return penumbra(Words{"-c", line, PENUMBRA_PROGRAM} + arguments, {}, "/bin/sh").status;
 }
 
 Outcome succeed(Outcome outcome) {

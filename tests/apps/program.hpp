@@ -21,12 +21,12 @@ using Words = std::vector<std::string>;
 
 [[nodiscard]] Words split(const std::string& text);
 
+[[nodiscard]] std::string joined(const Words& words);  // by commas
+
 [[nodiscard]] Words operator+(Words first, const Words& second);
 
-/// What a program did. A program that is killed or does not end in time has another status than
-/// any of its own.
 struct Outcome {
-  int status = -1;
+  int status = -1;  ///< 128 + the number of the signal that killed it; 124: it did not end in time
   std::string out;
   std::string err;
 };
@@ -36,21 +36,12 @@ struct Outcome {
 [[nodiscard]] Outcome penumbra(const Words& arguments, const Words& environment = {},
                                const fs::path& program = PENUMBRA_PROGRAM);
 
-/// Runs the program silently and returns the peak of its resident memory, MB. Fails the test unless
-/// it ends with status 0.
-[[nodiscard]] double peak_memory_mb(const Words& arguments);
-
 /// What happens to a program that makes a file too large: the same as on a full disk, or the same
 /// as kill -9 does.
 enum class TooLarge { fails, kills };
 
-/// Runs it silently. `bytes`: of each file at most. Returns the status, or 128 + the signal's
-/// number.
+/// Runs it silently and returns its status. `bytes`: of each file at most.
 [[nodiscard]] int penumbra_within(std::size_t bytes, TooLarge what, const Words& arguments);
-
-/// Runs it and sends it Ctrl-C `when` it has printed enough, or as soon as anything else is so.
-[[nodiscard]] Outcome penumbra_interrupted(const Words& arguments,
-                                           const std::function<bool(const Outcome&)>& when);
 
 /// An environment in which EGL finds no driver.
 inline const Words no_egl_driver = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"};

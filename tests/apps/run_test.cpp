@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+// penumbra run, its report, its memory, and what Ctrl-C leaves.
+#include "../support/data.hpp"
+#include "../support/run_length.hpp"
+#include "../support/running_program.hpp"
 #include "fixtures.hpp"
 
 #include <algorithm>
 #include <cstring>
+#include <iostream>
+#include <thread>
 #include <tuple>
+
+#include <sys/resource.h>
 
 #include <penumbra/base/version.hpp>
 #include <penumbra/labels/labels.hpp>
@@ -37,9 +45,9 @@ void expect_report(const Json& report) {
 using RunTest = TinyTest;
 
 TEST_F(RunTest, ATargetThatALinkCarriesIsHeld) {
-  edit_file(path("recording.yaml"), "robot:",
-            "attached: [{name: part, link: board, box: [0.1, 0.1, 0.1], "
-            "pose: [0.3, -0.2, 0, 0, 0, 0, 1], frames: [1, 2]}]\nrobot:");
+  edit("recording.yaml", "robot:",
+       "attached: [{name: part, link: board, box: [0.1, 0.1, 0.1], "
+       "pose: [0.3, -0.2, 0, 0, 0, 0, 1], frames: [1, 2]}]\nrobot:");
   write_targets("- {name: part, box: [1, 1, 3, 3]}\n");
   expect_has(succeed(run({"--targets", path("targets.yaml"), "--save", "overlay"})).out,
              {"1 held"});
@@ -67,7 +75,7 @@ TEST_F(RunTest, ImagesNamedByTimeBelongToTheRowsOfTheirStamps) {
     for (std::size_t i = 0; i < 3; ++i) {
       for (const std::string kind : {"depth_", "color_"})
         fs::rename(path(kind + names[i] + ".png"), path(kind + times[i] + ".png"));
-      write_file(path("found_" + times[i] + ".txt"), "0 0.5 0.5 0.2 0.2 0.9\n");
+      write("found_" + times[i] + ".txt", "0 0.5 0.5 0.2 0.2 0.9\n");
     }
     names = times;
     succeed(penumbra({"init", path(), "--force"}));
@@ -213,7 +221,7 @@ TEST_F(RunTest, StampsAreToldWhereTheyAreKnown) {
 
 TEST_F(RunTest, OptionsComeBeforeTheRecordingBeforeTheDefault) {
   const auto front = [&] { return report()["frames"][0]["pixels"]["front"].get<int>(); };
-  edit_file(path("recording.yaml"), "  parent:", "  tolerance: [0.6, 0.0, 0.0]\n  parent:");
+  edit("recording.yaml", "  parent:", "  tolerance: [0.6, 0.0, 0.0]\n  parent:");
   succeed(run());
   EXPECT_EQ(front(), 0) << "the recording's tolerance";
   succeed(run({"--labels", "paper"}));
@@ -250,10 +258,10 @@ TEST_F(RunTest, TheReportSaysByWhichRuleItWasMade) {
                   {"joints", Json::object()},
                   {"only_links", Json::array()}}));
 
-  edit_file(path("recording.yaml"), "  parent:",
-            "  tolerance: [0.03, 0.0, 0.001]\n  range: [0.25, 4.0]\n  beyond: visible\n  parent:");
-  edit_file(path("recording.yaml"), "  urdf: tiny.urdf",
-            "  urdf: tiny.urdf\n  geometry: {board: collision}\n  margins: {board: 0.01}");
+  edit("recording.yaml", "  parent:",
+       "  tolerance: [0.03, 0.0, 0.001]\n  range: [0.25, 4.0]\n  beyond: visible\n  parent:");
+  edit("recording.yaml", "  urdf: tiny.urdf",
+       "  urdf: tiny.urdf\n  geometry: {board: collision}\n  margins: {board: 0.01}");
   succeed(run({"--labels", "paper", "--image", "rectified"}));
   expect_values(report()["settings"],
                 {{"/labels", "paper"},
@@ -266,7 +274,7 @@ TEST_F(RunTest, TheReportSaysByWhichRuleItWasMade) {
 }
 
 TEST_F(RunTest, RectifiedImagesHaveTheirOwnSize) {
-  edit_file(path("camera_info.yaml"), "d: [0.0", "d: [-0.2");
+  edit("camera_info.yaml", "d: [0.0", "d: [-0.2");
   for (const char* image : {"raw", "rectified"}) {
     succeed(run({"--image", image, "--save", "vdi,labels,overlay"}));
     const auto vdi = read_image<float>(out("vdi/000000.npy"));
@@ -282,6 +290,64 @@ TEST(Help, TellsExamplesOfEveryCommand) {
     EXPECT_EQ(outcome.err, "");
   }
   EXPECT_EQ(penumbra({"--version"}).out, "penumbra " PENUMBRA_VERSION "\n");
+}
+
+using Process = TinyTest;
+
+TEST_F(Process, ARunOnTheRecordingStaysSmall) {
+  PENUMBRA_REQUIRE_DATA();
+  if (sanitized) GTEST_SKIP() << "skipped: sanitized";
+  constexpr double budget = 200.0;  // MB
+  succeed(penumbra({"run", data_folder() / "xarm7_realsense", "-o", out(), "--save",
+                    "vdi,labels,links,overlay"}));
+  rusage usage{};
+  getrusage(RUSAGE_CHILDREN, &usage);
+  const double peak = static_cast<double>(usage.ru_maxrss) / 1024.0;
+  std::cout << peak << " MB\n";
+  EXPECT_LT(peak, budget);
+  EXPECT_GT(peak, 1.0) << "not measured";
+}
+
+TEST_F(Process, TheDemosProgramRunsRecordingsOfImages) {
+  const auto demo = [](const Words& arguments) {
+    return penumbra(arguments, {}, PENUMBRA_DEMO_PROGRAM);
+  };
+  succeed(penumbra({"run", path(), "-o", out(), "--save", "labels,overlay"}));
+  succeed(demo({"run", path(), "-o", path("demo"), "--save", "labels,overlay"}));
+  for (const char* const name : {"labels/000000.png", "overlay/000000.png"})
+    EXPECT_EQ(read_file(path("demo") / name), read_file(out(name)));
+  expect_failed(demo({"run", path(), "-o", path("out.mcap")}), {"out.mcap", "images in a folder"});
+  expect_failed(demo({"run", path("in.mcap"), "-o", path("other")}),
+                {"in.mcap", "images in a folder"});
+  expect_failed(demo({"view", path()}), {"view", "run"});
+}
+
+TEST_F(Process, AnInterruptLeavesTheReportOfTheFramesThatAreDone) {
+  constexpr std::size_t many_frames = 20'000;  // the tiny recording's first one: seconds of work
+  std::string joints = "frame,slide\n";
+  for (std::size_t i = 0; i < many_frames; ++i) {
+    joints += std::to_string(i) + ",0\n";
+    const fs::path image = path("depth_" + std::to_string(i) + ".png");
+    if (!fs::exists(image)) fs::create_symlink("depth_0.png", image);
+  }
+  write_joints(joints);
+  edit("recording.yaml", "  color: color_%d.png\n", "");
+  RunningProgram program({"run", path(), "-o", out(), "--save", "labels"}, path("log"));
+  while (!program.has_ended() && !fs::exists(out("labels/000000.png")))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_EQ(program.end(SIGINT), 130);
+  const Json json = report();
+  const std::size_t done = json["frames"].size();
+  EXPECT_GT(done, 0U);
+  EXPECT_LT(done, many_frames);
+  EXPECT_EQ(json["summary"]["frames"], done);
+  const std::string note = json["summary"]["notes"].back();
+  expect_has(note, {"stopped after " + std::to_string(done)});
+  expect_has(read_file(path("log")), {note});
+  std::size_t images = 0;
+  for (const auto& entry : fs::directory_iterator(out("labels")))
+    images += entry.path().extension() == ".png" ? 1 : 100'000;  // nothing unfinished
+  EXPECT_EQ(images, done);
 }
 
 }  // namespace

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// `run` with targets, on the shipped recording against its truth (an independent ray caster's).
+// `run` with targets, on the shipped recording against its truth (an independent ray caster's), and
+// on a recording without depth images.
 #include "fixtures.hpp"
 
-#include <cmath>
-
-#include <Eigen/Core>
+#include <penumbra/labels/labels.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -40,7 +39,7 @@ class RunTargetsTest : public FolderTest {
     return succeed(penumbra(Words{"run", example, "-o", out()} + options));
   }
   [[nodiscard]] fs::path targets(const std::string& list) const {
-    write_file(path("targets.yaml"), "targets:\n" + list);
+    write("targets.yaml", "targets:\n" + list);
     return path("targets.yaml");
   }
 };
@@ -84,7 +83,24 @@ void expect_hidden_as_in_truth(const Json& json) {
   EXPECT_GT(target(json, 5, "cylinder")["hidden_by_other_fraction"], 0.3) << "the hand";
 }
 
-void expect_point_is_held_and_comes_back(const Json& json) {
+void expect_near(const Json& point, const Eigen::Vector3d& wanted) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(point.at(i).get<double>(), wanted[i], depth_noise) << i;
+}
+
+TEST_F(RunTargetsTest, TheRecordingsTargetsAreInTheReport) {
+  const Outcome outcome = run();
+  expect_has(outcome.out, {"target cylinder: 4 frames visible, 8 partial, 0 hidden",
+                           "target lid: 4 frames visible, 2 partial, 4 hidden, 2 unknown, 0 out",
+                           "\ntargets: median "});
+  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
+  expect_has(outcome.err, {"'lid'", "2 of 12", "frame 3"});
+  const Json json = report();
+  EXPECT_EQ(json["settings"]["targets"], (example / "targets.yaml").string());
+  expect_keys(json);
+  expect_hidden_as_in_truth(json);
+  expect_lacks(read_file(out("report.json")), {": inf", ": nan", ": Inf", ": NaN"});
+
+  // The lid's point is held while it is hidden, and comes back.
   const Json& hidden = target(json, 2, "lid");
   expect_values(hidden, {{"/verdict", "hidden"},
                          {"/occluded_fraction", 1.0},
@@ -100,53 +116,28 @@ void expect_point_is_held_and_comes_back(const Json& json) {
   EXPECT_EQ(target(json, 3, "lid")["verdict"], "unknown") << "what is not hidden is not measured";
   EXPECT_EQ(target(json, 9, "lid")["verdict"], "unknown") << "the gripper is about there";
   EXPECT_EQ(target(json, 11, "lid")["handled"]["source"], "measured");
-}
 
-void expect_near(const Json& point, const Eigen::Vector3d& wanted) {
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(point.at(i).get<double>(), wanted[i], depth_noise) << i;
-}
-
-void expect_points_where_things_are(const Json& json) {
   const Json& cube = target(json, 0, "cube");
   EXPECT_EQ(cube["verdict"], "visible");
   expect_near(cube["point"], {0.52, 0.28, 0.04});  // of its faces towards the camera
   const Json& wrist = target(json, 6, "wrist");
   EXPECT_EQ(wrist["verdict"], "visible") << "the hand stands before the arm";
   expect_near(wrist["handled"]["position"], {0.50, -0.34, 0.44});
-}
 
-/// What is not known is null: no number that JSON cannot hold, none that is made up.
-void expect_null_where_lost_and_outside(const Json& json) {
-  const Json& wrist = target(json, 0, "wrist");
-  EXPECT_EQ(wrist["verdict"], "out_of_view");
-  EXPECT_GT(wrist["covered"], 0);
-  EXPECT_EQ(wrist["inside"], 0);
+  // What is not known is null: no number that JSON cannot hold, none that is made up.
+  const Json& lost = target(json, 0, "wrist");
+  EXPECT_EQ(lost["verdict"], "out_of_view");
+  EXPECT_GT(lost["covered"], 0);
+  EXPECT_EQ(lost["inside"], 0);
   for (const char* const share : {"occluded_fraction", "front_fraction", "clear_fraction",
                                   "unknown_fraction", "hidden_by_other_fraction", "point"})
-    EXPECT_TRUE(wrist[share].is_null()) << share;
-  EXPECT_EQ(wrist["handled"], (Json{{"source", "lost"},
-                                    {"age_s", nullptr},
-                                    {"position", nullptr},
-                                    {"orientation", nullptr},
-                                    {"sigma_m", nullptr},
-                                    {"lost_in_s", nullptr}}));
-}
-
-TEST_F(RunTargetsTest, TheRecordingsTargetsAreInTheReport) {
-  const Outcome outcome = run();
-  expect_has(outcome.out, {"target cylinder: 4 frames visible, 8 partial, 0 hidden",
-                           "target lid: 4 frames visible, 2 partial, 4 hidden, 2 unknown, 0 out",
-                           "\ntargets: median "});
-  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  expect_has(outcome.err, {"'lid'", "2 of 12", "frame 3"});
-  const Json json = report();
-  EXPECT_EQ(json["settings"]["targets"], (example / "targets.yaml").string());
-  expect_keys(json);
-  expect_hidden_as_in_truth(json);
-  expect_point_is_held_and_comes_back(json);
-  expect_points_where_things_are(json);
-  expect_null_where_lost_and_outside(json);
-  expect_lacks(read_file(out("report.json")), {": inf", ": nan", ": Inf", ": NaN"});
+    EXPECT_TRUE(lost[share].is_null()) << share;
+  EXPECT_EQ(lost["handled"], (Json{{"source", "lost"},
+                                   {"age_s", nullptr},
+                                   {"position", nullptr},
+                                   {"orientation", nullptr},
+                                   {"sigma_m", nullptr},
+                                   {"lost_in_s", nullptr}}));
 }
 
 TEST_F(RunTargetsTest, TheOptionComesBeforeTheRecording) {
@@ -176,7 +167,7 @@ TEST_F(RunTargetsTest, TheOverlayShowsThem) {
 
 /// Frames that a csv leaves out have no target there; the run goes on and says so.
 TEST_F(RunTargetsTest, FramesWithoutAKeypointAreUnknown) {
-  write_file(path("k.csv"), "frame,u,v\n0,230,350\n2,230,350\n");
+  write("k.csv", "frame,u,v\n0,230,350\n2,230,350\n");
   const fs::path file = targets("- {name: ball, keypoint: {csv: k.csv}, handling: point}\n");
   const Outcome outcome = run({"--targets", file, "--frames", "0:4"});
   EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
@@ -197,8 +188,8 @@ TEST_F(RunTargetsTest, LateStampsMayGoBack) {
     return std::to_string(frame) + "," + std::to_string(1700000000000000000 + of * 100000000LL) +
            ",465,180,24,60\n";
   };
-  write_file(path("b.csv"), "frame,stamp,u,v,width,height\n" + row(2, 1) + row(3, 2) + row(4, 1) +
-                                row(5, 4) + "11,7,465,180,24,60\n");
+  write("b.csv", "frame,stamp,u,v,width,height\n" + row(2, 1) + row(3, 2) + row(4, 1) + row(5, 4) +
+                     "11,7,465,180,24,60\n");
   run({"--targets", targets("- {name: part, box: {csv: b.csv}}\n")});
   const Json json = report();
   EXPECT_EQ(json["settings"]["target_history_s"], 0.5);
@@ -208,6 +199,66 @@ TEST_F(RunTargetsTest, LateStampsMayGoBack) {
   EXPECT_EQ(target(json, 4, "part")["stamp_ns"], 1700000000100000000);
   EXPECT_EQ(target(json, 11, "part")["verdict"], "unknown");
   expect_has(target(json, 11, "part")["reason"], {"stamp"});
+}
+
+using WithoutDepthTest = TinyTest;
+
+TEST_F(WithoutDepthTest, VerdictsAndMasksComeFromTheModel) {
+  edit("recording.yaml", "  depth: depth_%d.png\n", "");
+  write_targets(
+      "- {name: behind, point: [0, 0, 1.5], radius: 0.05, link: base}\n"
+      "- {name: before, point: [0, 0, 0.5], radius: 0.02, link: base}\n"
+      "- {name: region, box: [28, 20, 6, 6]}\n");
+  expect_has(succeed(run({"--save", "vdi,labels,robot_mask,overlay", "--targets",
+                          path("targets.yaml"), "--report"}))
+                 .err,
+             {"no depth camera"});
+  const Json all = report();
+  ASSERT_EQ(all["frames"].size(), 3U);
+  for (const Json& frame : all["frames"])
+    expect_values(frame, {{"/status", "ok"},
+                          {"/pixels/unknown", frame["pixels"]["robot"]},
+                          {"/targets/0/verdict", "hidden"},
+                          {"/targets/0/blame/0/link", "board"},
+                          {"/targets/1/verdict", "visible"},
+                          {"/targets/2/verdict", "unknown"}});
+  for (const std::size_t frame : {0U, 2U}) {
+    const auto mask = read_image<std::uint8_t>(out("robot_mask") / numbered(frame));
+    const Image<std::uint8_t> label = labels(frame);
+    for (std::size_t i = 0; i < mask.size(); ++i)
+      ASSERT_EQ(mask.data()[i] == 255,
+                label.data()[i] == static_cast<std::uint8_t>(Label::unknown));
+    EXPECT_GT(std::count(mask.data(), mask.data() + mask.size(), 255), 100);
+  }
+  EXPECT_TRUE(fs::exists(out("overlay/000000.png")));
+  EXPECT_TRUE(fs::exists(out("report.html")));
+
+  edit("recording.yaml", "  color: color_%d.png\n", "");  // no images at all
+  succeed(run({"--save", "robot_mask"}));
+  EXPECT_EQ(report()["frames"].size(), 3U);
+}
+
+using BagWithoutDepth = BagTest;
+
+TEST_F(BagWithoutDepth, IsJudgedByItsColourImages) {
+  bag_.remove(depth_topic);
+  bag_.rename(info_topic, "/camera/color/camera_info");
+  saves_ = "robot_mask,overlay";
+  succeed(penumbra({"run", path(), "-o", path("wanted"), "--save", "robot_mask"}));
+  for (const Words& options : {Words{}, {"--color-topic", color_topic}}) {
+    const Outcome outcome = succeed(run(options + Words{"--no-depth"}));
+    expect_has(outcome.out + outcome.err, {"no depth camera", "color: /camera/color/image_raw"});
+    EXPECT_EQ(statuses(), (Words{"ok", "ok", "ok"}));
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_TRUE(read_file(out("robot_mask") / numbered(i)) ==
+                  read_file(path("wanted/robot_mask") / numbered(i)))
+          << i;
+      EXPECT_TRUE(fs::exists(out("overlay") / numbered(i)));
+    }
+  }
+  expect_failed(
+      penumbra({"calibrate", tiny_mcap(), "-o", path("calibrated"), "--no-depth", "--search"}),
+      {"--no-depth", "compares depth images"});
 }
 
 }  // namespace

@@ -95,6 +95,16 @@ void TinyBag::rename(const std::string& from, const std::string& to) {
     if (message.topic == from) message.topic = to;
 }
 
+void TinyBag::rename_frames(const std::function<std::string(const std::string&)>& renamed) {
+  for (const char* const topic : {"/tf", "/tf_static"})
+    edit<io::TfMessage>(topic, [&](auto& tf) {
+      for (io::TransformMessage& transform : tf.transforms) {
+        transform.header.frame_id = renamed(transform.header.frame_id);
+        transform.child_frame_id = renamed(transform.child_frame_id);
+      }
+    });
+}
+
 void TinyBag::copy(const std::string& from, const std::string& to) {
   const std::vector<Message> before = messages;
   for (Message message : before) {
@@ -113,11 +123,9 @@ void TinyBag::write_mcap(const std::filesystem::path& file) const {
     if (channel == channels.end()) {
       const auto schema =
           writer.add_schema(message.type, "ros2msg", std::string(io::definition_of(message.type)));
-      const auto told = qos.find(message.topic);
-      const auto id = told == qos.end()
-                          ? writer.add_channel(message.topic, encoding, schema)
-                          : writer.add_channel(message.topic, encoding, schema,
-                                               {{"offered_qos_profiles", told->second}});
+      std::map<std::string, std::string> more;
+      if (qos.contains(message.topic)) more = {{"offered_qos_profiles", qos.at(message.topic)}};
+      const auto id = writer.add_channel(message.topic, encoding, schema, more);
       channel = channels.emplace(message.topic, id).first;
     }
     writer.write(channel->second, message.log_time, message.log_time, 0, message.data);
@@ -131,11 +139,9 @@ void TinyBag::write_sqlite(const std::filesystem::path& file) const {
   std::map<std::string, int> ids;
   for (const Message& message : messages) {
     const auto [topic, is_new] = ids.emplace(message.topic, static_cast<int>(ids.size()) + 1);
-    if (is_new) {
-      const auto told = qos.find(message.topic);
+    if (is_new)
       database.topic(topic->second, message.topic, message.type,
-                     told == qos.end() ? "" : told->second);
-    }
+                     qos.contains(message.topic) ? qos.at(message.topic) : "");
     database.message(topic->second, message.log_time,
                      {reinterpret_cast<const char*>(message.data.data()), message.data.size()});
   }

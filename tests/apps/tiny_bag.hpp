@@ -25,6 +25,13 @@ namespace penumbra::test {
 [[nodiscard]] io::CameraInfoMessage camera_info_of(const Intrinsics& of,
                                                    const io::MessageHeader& header);
 
+template <typename M>
+M decoded(const std::vector<std::byte>& data) {
+  M message;
+  EXPECT_EQ(io::Decoder<M>().decode(data, message), std::nullopt);
+  return message;
+}
+
 /// Calls `call(message, log_time, number)` with each message of a topic of a bag, in their order,
 /// and returns their count.
 template <typename M, typename Call>
@@ -63,12 +70,16 @@ struct TinyBag {
     io::encode(message, messages.back().data);
   }
 
-  /// The messages of one topic are decoded, changed and encoded again.
+  /// The messages of one type, or of one topic, are decoded, changed and encoded again.
+  template <typename M>
+  void edit(const std::function<void(M&)>& change) {
+    edit("", change);
+  }
   template <typename M>
   void edit(const std::string& topic, const std::function<void(M&)>& change) {
     const io::Decoder<M> decoder;
     for (Message& message : messages) {
-      if (message.topic != topic) continue;
+      if (topic.empty() ? message.type != io::message_type<M>() : message.topic != topic) continue;
       const std::vector<std::byte> before = message.data;
       M decoded;
       if (decoder.decode(before, decoded)) std::abort();
@@ -79,6 +90,8 @@ struct TinyBag {
 
   void remove(const std::string& topic);
   void rename(const std::string& from, const std::string& to);
+  /// The frames of /tf and /tf_static.
+  void rename_frames(const std::function<std::string(const std::string&)>& renamed);
   void copy(const std::string& from, const std::string& to);
   void sort();
   /// Adds what robot_state_publisher sends of the tiny board, on /tf at 10 Hz.

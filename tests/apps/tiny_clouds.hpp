@@ -21,9 +21,9 @@ inline float on_board(int frame) { return 0.96F + 0.05F * static_cast<float>(fra
 /// it, on the wall next to it, and no measurement.
 struct FourPoints {
   explicit FourPoints(int frame) {
-    const float nan = std::nanf("");
+    const float no = std::nanf("");
     const float points[4][4] = {
-        {0, 0, on_board(frame), 0}, {0, 0, 0.5F, 1}, {1, 0, 3, 2}, {nan, nan, nan, 3}};
+        {0, 0, on_board(frame), 0}, {0, 0, 0.5F, 1}, {1, 0, 3, 2}, {no, no, no, 3}};
     data.resize(sizeof points);
     std::memcpy(data.data(), points, sizeof points);
     message = {.header = {0, "optical"},
@@ -37,6 +37,14 @@ struct FourPoints {
   std::vector<std::byte> data;
   io::PointCloud2Message message;
 };
+
+/// A recording.yaml of the clouds scans/0.pcd and so on. `joints`: its table of joints.
+inline std::string clouds_yaml(const std::string& joints = "joint_states.csv") {
+  return "robot: {urdf: tiny.urdf}\nsensor: {parent: base, pose: camera_pose.csv, model: "
+         "lidar_2cm}\n"
+         "frames: {joints: " +
+         joints + ", cloud: scans/%d.pcd}\n";
+}
 
 inline std::vector<int> numbers_of(const io::PointCloud2Message& cloud) {
   std::vector<int> numbers;

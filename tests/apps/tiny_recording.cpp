@@ -4,7 +4,6 @@
 #include "program.hpp"
 
 #include <cstdint>
-#include <utility>
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/mesh/primitives.hpp>

@@ -24,13 +24,13 @@ class TuneTest : public RealRecording {
  protected:
   void strip(const std::string& link) {
     const std::regex geometry("<(visual|collision)[^]*?</(visual|collision)>");
-    std::string urdf = read_file(path("xarm7.urdf"));
+    std::string urdf = read_file(path("recording/xarm7.urdf"));
     const std::size_t begin = urdf.find("<link name=\"" + link + "\"");
     const std::size_t end = urdf.find("</link>", begin);
     ASSERT_NE(end, std::string::npos);
     urdf.replace(begin, end - begin,
                  std::regex_replace(urdf.substr(begin, end - begin), geometry, ""));
-    write_file(path("xarm7.urdf"), urdf);
+    write("recording/xarm7.urdf", urdf);
   }
 
   [[nodiscard]] Json tune() {
@@ -56,33 +56,20 @@ class TuneTest : public RealRecording {
   std::string out_;  // of tune
 };
 
-Words recommended(const Json& tuned, const fs::path& folder, bool has_reach) {
-  const Json& abc = tuned["tolerance"]["abc"];
-  Words options = {"--tolerance", abc[0].dump() + ",0," + abc[2].dump()};
-  if (has_reach) options.insert(options.end(), {"--fringe-reach", tuned["fringe"]["reach"].dump()});
-  for (const Json& extra : tuned["extra"])
-    options.insert(options.end(), {"--extra", extra["link"].get<std::string>() + "=" +
-                                                  (folder / extra["mesh"]).string()});
-  return options;
-}
-
 double percent_said(const Json& tuned) {
   for (const Json& tried : tuned["fringe"]["left_over"])
     if (tried["reach"] == tuned["fringe"]["reach"]) return 100.0 * tried["share"].get<double>();
   return NAN;
 }
 
-double tolerance_at(const Json& tuned, double z) {
-  const Json& abc = tuned["tolerance"]["abc"];
-  return abc[0].get<double>() + abc[2].get<double>() * z * z;
-}
-
 TEST_F(TuneTest, FindsReachAndToleranceOfARealSense) {
   const Json tuned = tune();
   EXPECT_GE(tuned["fringe"]["reach"], 20);
   EXPECT_LE(tuned["fringe"]["reach"], 60);
+  const Json& abc = tuned["tolerance"]["abc"];
   for (const double z : {0.8, 1.2})  // as far as the arm is
-    EXPECT_NEAR(tolerance_at(tuned, z), Tolerance().at(z), 0.3 * Tolerance().at(z));
+    EXPECT_NEAR(abc[0].get<double>() + abc[2].get<double>() * z * z, Tolerance().at(z),
+                0.3 * Tolerance().at(z));
   EXPECT_EQ(tuned["extra"], Json::array()) << "this robot is as its URDF";
   EXPECT_TRUE(fs::exists(path("tuned/tune.png")));
   expect_has(out_, {"fringe_reach: " + tuned["fringe"]["reach"].dump()});
@@ -97,15 +84,19 @@ TEST_F(TuneTest, StatesWhatRunLeavesAndNoMoreThanWithTheDefault) {
   for (const Recorded& of :
        {Recorded{"xarm7_realsense", 10, 420, false}, Recorded{"xarm7_realsense_2", 5, 320, false},
         Recorded{"xarm7_realsense", 10, 420, true}}) {
-    copy_recording(of.name);
+    copy_real_recording(of.name, path("recording"));
     if (of.has_tool) strip("link7");
     const Json tuned = tune();
-    const auto left = [&](bool has_reach) {
-      return percent_left(of.frames, of.air_rows, recommended(tuned, path("tuned"), has_reach));
-    };
-    const double with_reach = left(true);
+    const Json& abc = tuned["tolerance"]["abc"];
+    Words options = {"--tolerance", abc[0].dump() + ",0," + abc[2].dump()};
+    for (const Json& extra : tuned["extra"])
+      options = options + Words{"--extra", extra["link"].get<std::string>() + "=" +
+                                               (path("tuned") / extra["mesh"]).string()};
+    const double by_default = percent_left(of.frames, of.air_rows, options);
+    options = options + Words{"--fringe-reach", tuned["fringe"]["reach"].dump()};
+    const double with_reach = percent_left(of.frames, of.air_rows, options);
     EXPECT_NEAR(percent_said(tuned), with_reach, same_percent) << of.name;
-    EXPECT_LE(with_reach, left(false)) << of.name;
+    EXPECT_LE(with_reach, by_default) << of.name;
   }
 }
 
@@ -153,8 +144,8 @@ TEST_F(TuneTest, FindsWhatTheUrdfLacks) {
   expect_lacks(succeed(run("with", options)).err, {note});
   EXPECT_GT(covered_share(path("whole"), path("with"), lacking), 0.8);
 
-  edit_file(path("recording/recording.yaml"),
-            "camera:", "  extra: [{link: link7, mesh: ../tuned/extra_link7.stl}]\ncamera:");
+  edit("recording/recording.yaml",
+       "camera:", "  extra: [{link: link7, mesh: ../tuned/extra_link7.stl}]\ncamera:");
   expect_has(succeed(run("by_key")).out, {"10 frames, 0 bad"});
 }
 

@@ -283,8 +283,6 @@ TEST(Registration, SeesTheSceneAsTheOtherCameraDoes) {
   }
 }
 
-// Registered depth images of pixels without measurement, at edges, and of invalid images.
-
 TEST(Registration, WhatIsNotMeasuredStaysSo) {
   const Camera camera = plain_camera(80, 60, 70);
   DepthRegistration registration(camera, camera);
@@ -318,30 +316,6 @@ TEST(Registration, StridesAreFollowedAndRubbishIsSafe) {
     static_cast<void>(registration.warp(rubbish.view(),
                                         pose(0.3, -0.2, -0.5, 0.4 * round, Vector3d(1, round, 2))));
   }
-}
-
-TEST(Registration, AFootprintIsBounded) {
-  const Camera from = plain_camera(64, 48, 50);
-  const Camera to = plain_camera(400, 400, 5000);
-  DepthRegistration registration(from, to);
-  Image<float> depth(64, 48);
-  depth(31, 25) = 1.0F;
-  const auto seen =
-      std::get<ImageView<const float>>(registration.warp(depth.view(), pose(0, 0, -0.9)));
-  std::size_t covered = 0;
-  for (const auto [u, v] : each_pixel(0, 0, 400, 400)) covered += seen(u, v) > 0 ? 1 : 0;
-  EXPECT_LE(covered, std::size_t(4 * DepthRegistration::max_reach * DepthRegistration::max_reach));
-}
-
-TEST(Registration, RefusesWhatIsNoImageOfTheCamera) {
-  const Camera camera = plain_camera(80, 60, 70);
-  DepthRegistration registration(camera, camera);
-  const Image<float> image(81, 60);
-  EXPECT_THROW(static_cast<void>(registration.warp(image.view(), Isometry3d::Identity())),
-               std::invalid_argument);
-  Camera reversed = camera;
-  reversed.range = {3, 1};
-  EXPECT_THROW(DepthRegistration(reversed, camera), InputError);
 }
 
 }  // namespace

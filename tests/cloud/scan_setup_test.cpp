@@ -151,21 +151,16 @@ TEST(ScanSetup, ASensorThatStandsElsewhereIsNamedWithTheAmount) {
   }
 }
 
-TEST(ScanSetup, AJointsZeroIsNamed) {
-  const Mistake mistake{.zero = -0.15};
-  Session session = session_of();
-  watch(session, few_scans, columns_of_few, mistake);
-  EXPECT_EQ(session.diagnosis().cause, Diagnosis::Cause::joint_zero);
-  EXPECT_TRUE(holds(session.diagnosis().message, "'lift'")) << session.diagnosis().message;
-}
-
-TEST(ScanSetup, ClocksThatDifferAreNamed) {
-  const Mistake mistake{.late = 60 * ms};
-  Session session = session_of();
-  watch(session, few_scans, columns_of_few, mistake);
-  EXPECT_EQ(session.diagnosis().cause, Diagnosis::Cause::joint_time);
-  EXPECT_TRUE(holds(session.diagnosis().message, "scans and joint states"))
-      << session.diagnosis().message;
+TEST(ScanSetup, WrongJointsAreNamed) {
+  using enum Diagnosis::Cause;
+  for (const auto& [mistake, cause, named] :
+       {std::tuple(Mistake{.zero = -0.15}, joint_zero, "'lift'"),
+        std::tuple(Mistake{.late = 60 * ms}, joint_time, "scans and joint states")}) {
+    Session session = session_of();
+    watch(session, few_scans, columns_of_few, mistake);
+    EXPECT_EQ(session.diagnosis().cause, cause);
+    EXPECT_TRUE(holds(session.diagnosis().message, named));
+  }
 }
 
 TEST(ScanSetup, CloudsWithoutRaysAreNotDiagnosed) {

@@ -255,8 +255,10 @@ TEST(Scans, SaysWhatIsWrongWithACloud) {
   EXPECT_TRUE(holds(fault(frame), "3 times for 4 points"));
   frame = few.scan(pose);
   frame.scan->times = {};
-  frame.scan->origin = Vector3d(0.5, 2.0, 0.0);
-  EXPECT_TRUE(holds(fault(frame), "inside link 'bar'"));
+  for (const double y : {2.0, 1.935}) {  // or too near
+    frame.scan->origin = Vector3d(0.5, y, 0.0);
+    EXPECT_TRUE(holds(fault(frame), "inside link 'bar'"));
+  }
   frame.source_status = FrameStatus::bad_depth;
   frame.source_message = "the file cannot be read";
   EXPECT_EQ(fault(frame), "the file cannot be read");
@@ -282,6 +284,16 @@ struct BoxScene {
   bool is_there = true;
   std::size_t on_box = 0, behind_bar = 0;  // rays
 
+  /// The box, in the sensor's frame or the root's.
+  [[nodiscard]] Target target(const ReferenceFrame& frame = {}) const {
+    const Vector3d in_root = centre - Vector3d(0, 2, 0);
+    return {
+        .name = "box",
+        .shape = BoxTarget{.pose = at(frame.kind == ReferenceFrame::Kind::root ? in_root : centre),
+                           .size = 2.0 * half,
+                           .frame = frame}};
+  }
+
   [[nodiscard]] Cloud scan() {
     Cloud cloud;
     constexpr int steps = 200;
@@ -303,19 +315,9 @@ TEST(Scans, JudgesBoxesAsTheRaysSeeThem) {
   Pipeline pipeline(bar_robot(), config());
   const auto judge = [&](BoxScene scene, const PoseAt& pose) {
     const Cloud cloud = scene.scan();
-    Target target{
-        .name = "box",
-        .shape = BoxTarget{.pose = at(scene.centre.x(), scene.centre.y(), scene.centre.z()),
-                           .size = 2.0 * scene.half}};
-    target.has_identity = false;
-    // The same box in the root's frame.
-    Target of_root = target;
-    of_root.shape =
-        BoxTarget{.pose = at(scene.centre.x(), scene.centre.y() - 2.0, scene.centre.z()),
-                  .size = 2.0 * scene.half,
-                  .frame = ReferenceFrame::root()};
     Frame frame = cloud.scan(pose);
-    frame.targets = {target, of_root};
+    frame.targets = {scene.target(), scene.target(ReferenceFrame::root())};
+    for (Target& target : frame.targets) target.has_identity = false;
     const FrameReport& report = pipeline.process(frame);
     EXPECT_EQ(report.targets.size(), 2U);
     EXPECT_EQ(report.targets[0].verdict, report.targets[1].verdict);
@@ -370,14 +372,9 @@ TEST(Scans, FollowsAndForgetsTargetsAsInImages) {
   const auto at_step = [&](int step, std::size_t times = 1, int shift_ms = 0) {
     BoxScene scene{.centre = {0.5, 3.0, 0.35 - fall * step}, .half = {0.1, 0.1, 0.03}};
     const Cloud cloud = scene.scan();
-    const Vector3d centre = scene.centre - Vector3d(0, 2, 0);
     Frame frame = cloud.scan(standing({}));
-    frame.targets =
-        std::vector<Target>(times, {.name = "box",
-                                    .shape = BoxTarget{.pose = Isometry3d(Translation3d(centre)),
-                                                       .size = 2.0 * scene.half,
-                                                       .frame = ReferenceFrame::root()},
-                                    .handling = PoseTrackerConfig{}});
+    frame.targets = std::vector(times, scene.target(ReferenceFrame::root()));
+    for (Target& target : frame.targets) target.handling = PoseTrackerConfig{};
     *frame.stamp += ms * (100 * step + shift_ms);
     return pipeline.process(frame).targets.back();
   };
@@ -407,11 +404,10 @@ TEST(Scans, JudgesTargetsThatComeLateOnTheScanOfTheirStamp) {
     const Cloud cloud = scene.scan();
     Frame frame = cloud.scan(standing({.positions = {step == 0 ? 0.0 : 2.0, 0.0}}));
     *frame.stamp += 100 * ms * step;
-    if (step_of_target)
-      frame.targets = {{.name = "box",
-                        .shape = BoxTarget{.pose = Isometry3d(Translation3d(scene.centre)),
-                                           .size = 2.0 * scene.half},
-                        .stamp = scan_begin + 100 * ms * *step_of_target}};
+    if (step_of_target) {
+      frame.targets = {scene.target()};
+      frame.targets[0].stamp = scan_begin + 100 * ms * *step_of_target;
+    }
     const FrameReport& report = pipeline.process(frame);
     return report.targets.empty() ? TargetReport() : report.targets[0];
   };

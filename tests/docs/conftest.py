@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import penumbra
-from bag import write_bag
+from bag import messages_of, write_bag
 from blocks import ROOT
 
 SHIPPED = ROOT / "examples" / "arm_over_table"
@@ -47,7 +47,7 @@ def template(tmp_path_factory):
     for i, frame in enumerate(given):
         mask = session.process(frame).robot_mask
         penumbra.write_png(folder / "my_recording" / f"mask_{i}.png", mask.astype(np.uint8))
-    write_bag(folder / "recording.mcap", given, list(given), urdf, "base_link")
+    write_bag(folder / "recording.mcap", messages_of(given, urdf, "base_link"))
     return folder
 
 

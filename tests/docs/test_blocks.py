@@ -91,11 +91,11 @@ def recording_of(text, work):
         whole["frames"] = {"joints": whole["frames"]["joints"]}
         whole["cameras"] = {name: {**camera, "depth": "examples/arm_over_table/depth/%d.png"}
                             for name in shown["cameras"]}
-        return written(whole, work)
-    for part, keys in shown.items():
-        whole[part] = {**whole[part], **keys} if part in whole else keys
-    whole["frames"].update({"depth": "examples/arm_over_table/depth/%d.png",
-                            "color": "examples/arm_over_table/color/%d.png"})
+    else:
+        for part, keys in shown.items():
+            whole[part] = {**whole[part], **keys} if part in whole else keys
+        whole["frames"].update({"depth": "examples/arm_over_table/depth/%d.png",
+                                "color": "examples/arm_over_table/color/%d.png"})
     if "robots" in shown:
         del whole["robot"]
         rows = list(csv.reader((work / whole["frames"]["joints"]).read_text().splitlines()))
@@ -103,10 +103,6 @@ def recording_of(text, work):
         rows = [rows[0][:2] + sum(names, [])] + [row + row[2:] for row in rows[1:]]
         (work / "joints.csv").write_text("\n".join(",".join(row) for row in rows))
         whole["frames"]["joints"] = "joints.csv"
-    return written(whole, work)
-
-
-def written(whole, work):
     file = work / "recording.yaml"
     file.write_text(yaml.safe_dump(whole))
     return file

@@ -23,7 +23,7 @@ NOT_RUN = {
     r"scripts/(demo|test|deb|wheel|docs|make_example|bench)\.sh": "builds everything: the tests are run by one",
     r"cmake --(preset|build|install)": "builds everything",
     r"ctest --preset": "these tests",
-    r"python3 -m (venv|pip)|~/penumbra-python": "a wheel: tests/python/test_wheel.py",
+    r"python3 -m (venv|pip)|~/penumbra-python": "a wheel: tests/python/test_stubs.py",
     r"docker ": "needs Docker and its base images",
     r"build/dev/bench/": "a benchmark on real recordings",
     r"cd penumbra$": "after git clone",

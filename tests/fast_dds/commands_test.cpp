@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// `penumbra play` and `penumbra topics`, and who listens.
-#include "live_graph.hpp"
+// Commands on ROS 2's graph: `penumbra play` and `penumbra topics`, and who listens; `penumbra
+// live` where the tiny recording is played.
+#include "../apps/fixtures.hpp"
+#include "../apps/tiny_clouds.hpp"
+#include "../support/opengl.hpp"
+#include "../support/run_length.hpp"
+#include "../support/running_program.hpp"
+#include "listening.hpp"
+#include "lone_domain.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <future>
+
+#include <gtest/gtest.h>
+
+#include <io/ros/moveit_messages.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -21,6 +33,42 @@ io::JointStateMessage joints(int i) {
           .names = {"a", "b"},
           .positions = {0.5 * i, -1.0}};
 }
+
+/// A domain of its own, on which programs run that this test hears.
+class LiveGraph : public FolderTest {
+ protected:
+  [[nodiscard]] Words on_domain(const std::string& command, const Words& options = {}) const {
+    return Words{command, "--domain", std::to_string(domain_.id())} + options;
+  }
+  /// Plays a bag again and again, with the stamps of now.
+  [[nodiscard]] std::unique_ptr<RunningProgram> play_in_loop(const TinyBag& bag) const {
+    bag.write_mcap(path("bag.mcap"));
+    return std::make_unique<RunningProgram>(
+        on_domain("play", {"--loop", "--restamp", path("bag.mcap")}), path("play.log"));
+  }
+  [[nodiscard]] std::unique_ptr<RunningProgram> live(const Words& options) const {
+    return std::make_unique<RunningProgram>(on_domain("live", options), path("live.log"));
+  }
+  [[nodiscard]] std::unique_ptr<io::Subscription> hear(const std::string& topic,
+                                                       const std::string& type) const {
+    return graph_->subscribe(topic, type, {.reliable = true, .depth = 100});
+  }
+  /// Waits for messages of a topic until `is_enough(message)`; false: in vain.
+  template <typename M, typename IsEnough>
+  [[nodiscard]] bool hears(io::Subscription& heard, IsEnough is_enough) const {
+    const io::Decoder<M> decoder;
+    io::SerializedMessage sample;
+    return eventually(*graph_, [&] {
+      bool is_so = false;
+      for (M message; !is_so && heard.take(sample);)
+        is_so = !decoder.decode(sample.data, message) && is_enough(message);
+      return is_so;
+    });
+  }
+
+  LoneDomain domain_;
+  std::unique_ptr<io::Participant> graph_ = io::join_graph({.domain = domain_.id()});
+};
 
 class Commands : public LiveGraph {
  protected:
@@ -57,12 +105,6 @@ class Commands : public LiveGraph {
     messages.erase(messages.begin(), messages.begin() + static_cast<std::ptrdiff_t>(from));
     return messages;
   }
-  static io::JointStateMessage decoded(const Bytes& bytes) {
-    io::JointStateMessage message;
-    EXPECT_EQ(io::Decoder<io::JointStateMessage>().decode(bytes, message), std::nullopt);
-    return message;
-  }
-
   TinyBag bag_;
   std::string out_;
 };
@@ -113,11 +155,11 @@ TEST_F(Commands, PlayRestampsToNow) {
   const std::int64_t before = system_now();
   const auto messages = hear_joints({"--restamp", "--rate", "2"});
   ASSERT_EQ(messages.size(), 25U);
-  const std::int64_t first = decoded(messages.front()).header.stamp;
+  const std::int64_t first = decoded<io::JointStateMessage>(messages.front()).header.stamp;
   EXPECT_GT(first, before);
   EXPECT_LT(first, system_now());
   for (int i = 0; i < 25; ++i) {
-    const auto message = decoded(messages[static_cast<std::size_t>(i)]);
+    const auto message = decoded<io::JointStateMessage>(messages[static_cast<std::size_t>(i)]);
     EXPECT_NEAR(static_cast<double>(message.header.stamp - first), period / 2.0 * i, 1.0);
     EXPECT_EQ(message.positions, joints(i).positions);
   }
@@ -218,6 +260,116 @@ TEST_F(Commands, TopicsListsBothSides) {
     table = succeed(penumbra(words)).out;
   expect_has(table, {"reliable, latched"});
 }
+
+class LiveTest : public LiveGraph {
+ protected:
+  LiveTest() {
+    write_tiny_recording(path());
+    bag_ = tiny_bag(path());
+  }
+
+  TinyBag bag_;
+};
+
+TEST_F(LiveTest, CloudsAndScansComeWithoutTheRobot) {
+  add_clouds(bag_);
+  const auto points = hear("/penumbra/points", "sensor_msgs/msg/PointCloud2");
+  const auto labelled = hear("/penumbra/points/labelled", "sensor_msgs/msg/PointCloud2");
+  const auto scans = hear("/penumbra/scan", "sensor_msgs/msg/LaserScan");
+  const auto livox = hear("/penumbra/livox/lidar", "livox_ros_driver2/msg/CustomMsg");
+  const auto program = live({"--robot", path("tiny.urdf"), "--cloud", "/points", "--cloud",
+                             "/scan removed_ranges=inf sensor=hokuyo", "--cloud", "/livox/lidar",
+                             "--summary", path("summary.json")});
+  const auto player = play_in_loop(bag_);
+  const auto thrice = [](const auto& is_right) {
+    return [is_right, count = 0](const auto& message) mutable {
+      count += is_right(message) ? 1 : 0;
+      return count > 2;
+    };
+  };
+  EXPECT_TRUE(hears<io::PointCloud2Message>(*points, thrice([](const auto& m) {
+    return numbers_of(m) == std::vector{1, 2};
+  })));
+  EXPECT_TRUE(hears<io::PointCloud2Message>(*labelled, thrice([](const auto& m) {
+    return numbers_of(m).size() == 4 && m.fields.back().name == "link";
+  })));
+  EXPECT_TRUE(hears<io::LaserScanMessage>(*scans, thrice([](const auto& m) {
+    return m.ranges.at(0) == 3.0F && std::isinf(m.ranges.at(1)) && m.ranges.at(2) == 3.0F;
+  })));
+  EXPECT_TRUE(hears<io::LivoxMessage>(*livox, thrice([](const auto& m) {
+    return m.points.size() == 1 && m.points[0].y == 2.0F;
+  }))) << read_file(path("live.log"));
+  EXPECT_EQ(program->end(), 0);
+  const Json summary = read_json(path("summary.json"));
+  ASSERT_EQ(summary["clouds"].size(), 3U);
+  EXPECT_EQ(summary["clouds"][0]["topic"], "/points");
+  EXPECT_GT(summary["clouds"][0]["points"]["occluded"], 2);
+  EXPECT_GT(summary["clouds"][1]["judged"], 2);
+  EXPECT_TRUE(summary["cameras"].empty());
+}
+
+/// The board moves on the motion that MoveIt shows, towards a knob that it hides until its near
+/// face has passed.
+TEST_F(LiveTest, APlanIsForecast) {
+  io::DisplayTrajectoryMessage plan{.model_id = "tiny", .parts = {{}}};
+  plan.parts[0].joints = {
+      .joint_names = {"slide"},
+      .points = {{.positions = {0.0}},
+                 {.positions = {tiny_speed * 6}, .time_from_start = {.sec = 6}}}};
+  bag_.add("/display_planned_path", tiny_stamp(0) - 1'000'000, plan);
+  for (int frame = 0; frame < 3; ++frame)
+    bag_.add("/knob", tiny_stamp(frame),
+             io::PoseStampedMessage{{tiny_stamp(frame), "optical"},
+                                    Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 1.5))});
+  const auto heard = hear("/penumbra/targets", "penumbra_msgs/msg/Targets");
+  const auto program = live({"--depth-topic", "/camera/depth/image_rect_raw", "--robot",
+                             path("tiny.urdf"), "--target-topic", "/knob"});
+  const auto player = play_in_loop(bag_);
+  EXPECT_TRUE(hears<io::TargetsMessage>(*heard, [](const auto& message) {
+    if (message.targets.empty() || message.targets[0].forecast_seconds <= 0) return false;
+    EXPECT_EQ(message.targets[0].hidden_in, 0.0);
+    EXPECT_EQ(message.targets[0].hidden_by, "board");
+    EXPECT_NEAR(message.targets[0].forecast_seconds, 2.0, 1e-9);
+    return true;
+  })) << read_file(path("live.log"));
+  EXPECT_EQ(program->end(), 0);
+}
+
+TEST_F(LiveTest, RemapsItsDiagnostics) {
+  const auto heard = hear("/cell/health", "diagnostic_msgs/msg/DiagnosticArray");
+  const auto program = live({"--depth-topic", "/depth", "--remap", "/diagnostics:=/cell/health"});
+  EXPECT_TRUE(hears<io::DiagnosticArrayMessage>(
+      *heard, [](const auto& message) { return !message.status.empty(); }));
+  const auto topics = graph_->graph();
+  EXPECT_TRUE(std::none_of(topics.begin(), topics.end(),
+                           [](const auto& topic) { return topic.name == "/diagnostics"; }));
+  EXPECT_EQ(program->end(), 0);
+}
+
+#ifdef PENUMBRA_FAILING_DEVICE
+TEST_F(LiveTest, ADeviceThatFailsLeavesTheSummary) {
+  if (sanitized) GTEST_SKIP() << "skipped: sanitized";  // what fails wants to be the first library
+  if (!has_opengl()) GTEST_SKIP() << no_opengl;
+  write("live.json", "former");
+  const auto player = play_in_loop(bag_);
+  const Outcome outcome =
+      penumbra(on_domain("live", {"--depth-topic", "/camera/depth/image_rect_raw", "--robot",
+                                  path("tiny.urdf"), "--duration", "120", "--summary",
+                                  path("live.json"), "--renderer", "gl"}),
+               {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE, "PENUMBRA_TEST_SPARED=6"});
+  EXPECT_EQ(outcome.status, 1) << outcome.err;
+  expect_has(outcome.err, {"OpenGL: the graphics device was reset"});
+  expect_lacks(outcome.err, {"left as it was"});
+  const Json json = read_json(path("live.json"));
+  const std::string fault = json["fault"];
+  EXPECT_TRUE(fault.starts_with("OpenGL: the graphics device was reset")) << fault;
+  const Json& camera = json["cameras"][0];
+  EXPECT_GT(camera["judged"], 0);
+  EXPECT_EQ(camera["in_work"], 1) << "the one that failed";
+  EXPECT_EQ(camera["renderer"]["backend"], "gl");
+  EXPECT_TRUE(camera["renderer"]["device"].is_string());
+}
+#endif
 
 }  // namespace
 }  // namespace penumbra::test

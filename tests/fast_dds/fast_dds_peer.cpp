@@ -5,14 +5,14 @@
 //     says "ready", "matched" (if not latched), begins with a line on stdin, says "written N":
 //     messages of pattern.hpp
 //   fast_dds_peer DOMAIN publish TOPIC TYPE QOS
-//     messages from stdin, each behind its size in 4 bytes; says "heard", and when, after the first
-//     that somebody acknowledged (QoS best effort: may have heard), nanoseconds since 1970
+//     messages from stdin, each behind its size in 4 bytes
 //   fast_dds_peer DOMAIN repeat TOPIC TYPE QOS HZ
 //     one message with a header from stdin, likewise, again and again with each tick of the clock
-//     as its stamp; says "heard" likewise, and "written N" since then at the end
+//     as its stamp; says "written N" at the end: from the first on that somebody acknowledged (QoS
+//     best effort: may have heard)
 //   fast_dds_peer DOMAIN watch TOPIC TYPE QOS
-//     "NUMBER STAMP ARRIVAL DIGEST" for each message with a header: its writer's sequence number,
-//     from 1 on, and stamp and arrival in nanoseconds since 1970
+//     "NUMBER STAMP DIGEST" for each message with a header: its writer's sequence number, from 1
+//     on, and its stamp in nanoseconds since 1970
 //   fast_dds_peer DOMAIN count TOPIC TYPE QOS
 //     says "ready", "matched", and "NUMBER SIZE" for each message of pattern.hpp
 // TOPIC and TYPE are DDS's: rt/image, sensor_msgs::msg::dds_::Image_. QOS: words of reliable,
@@ -21,7 +21,6 @@
 #include "pattern.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -82,18 +81,15 @@ class BytesType final : public dds::TopicDataType {
 };
 
 struct Qos {
-  bool reliable = false, latched = false;
+  explicit Qos(const std::string& text)
+      : reliable(text.find("reliable") != std::string::npos),
+        latched(text.find("latched") != std::string::npos) {
+    const std::size_t at = text.find("depth=");
+    if (at != std::string::npos) depth = std::stoi(text.substr(at + 6));
+  }
+  bool reliable, latched;
   int depth = 5;
 };
-
-Qos to_qos(const std::string& text) {
-  Qos qos;
-  qos.reliable = text.find("reliable") != std::string::npos;
-  qos.latched = text.find("latched") != std::string::npos;
-  const std::size_t depth = text.find("depth=");
-  if (depth != std::string::npos) qos.depth = std::stoi(text.substr(depth + 6));
-  return qos;
-}
 
 template <typename EntityQos>
 EntityQos entity_qos(const Qos& qos) {
@@ -158,13 +154,16 @@ bool stdin_ended() {
 
 void say(const std::string& line) { std::cout << line << std::endl; }
 
+bool is_matched(dds::DataWriter& writer) {
+  dds::PublicationMatchedStatus matched;
+  return writer.get_publication_matched_status(matched) == ReturnCode_t::RETCODE_OK &&
+         matched.current_count > 0;
+}
+
 void publish_pattern(dds::DataWriter& writer, std::size_t size, std::uint32_t count, double rate,
                      const Qos& qos) {
   using namespace std::chrono_literals;
-  dds::PublicationMatchedStatus matched;
-  while (!qos.latched &&
-         writer.get_publication_matched_status(matched) == ReturnCode_t::RETCODE_OK &&
-         matched.current_count == 0) {
+  while (!qos.latched && !is_matched(writer)) {
     if (stdin_ended()) return;
     std::this_thread::sleep_for(5ms);
   }
@@ -184,39 +183,6 @@ void publish_pattern(dds::DataWriter& writer, std::size_t size, std::uint32_t co
   while (!stdin_ended()) std::this_thread::sleep_for(20ms);
 }
 
-/// Writes, and says when a message was heard for the first time: by a reader that was known before
-/// it was written, and has acknowledged it. While no reader is known nothing waits to be
-/// acknowledged.
-class HeardWriter {
- public:
-  explicit HeardWriter(dds::DataWriter& writer) : writer_(writer) {}
-
-  void write(Bytes& message) {
-    const bool has_reader = heard_ > 0 || is_matched();
-    if (!writer_.write(&message)) {
-      std::cerr << "a message was refused\n";
-      return;
-    }
-    if (!has_reader || (heard_ == 0 && !is_acknowledged())) return;
-    if (heard_++ == 0) say("heard " + std::to_string(system_now()));
-  }
-  [[nodiscard]] std::size_t heard() const { return heard_; }
-
- private:
-  bool is_matched() {
-    dds::PublicationMatchedStatus matched;
-    return writer_.get_publication_matched_status(matched) == ReturnCode_t::RETCODE_OK &&
-           matched.current_count > 0;
-  }
-  bool is_acknowledged() {
-    const eprosima::fastrtps::Duration_t shortly(0, 5'000'000);
-    return writer_.wait_for_acknowledgments(shortly) == ReturnCode_t::RETCODE_OK;
-  }
-
-  dds::DataWriter& writer_;
-  std::size_t heard_ = 0;
-};
-
 bool read_message(Bytes& message) {
   std::uint32_t size = 0;
   if (std::fread(&size, sizeof(size), 1, stdin) != 1) return false;
@@ -224,27 +190,29 @@ bool read_message(Bytes& message) {
   return std::fread(message.data(), 1, size, stdin) == size;
 }
 
-void publish_stdin(dds::DataWriter& writer) {
-  HeardWriter heard(writer);
-  for (Bytes message; read_message(message);) heard.write(message);
-}
-
+/// The first message counts that a reader has acknowledged which was known before it was written.
+/// While no reader is known nothing waits to be acknowledged.
 void repeat(dds::DataWriter& writer, std::int64_t hertz, const Qos& qos) {
   Bytes message;
   if (!read_message(message)) return;
-  HeardWriter heard(writer);
+  std::size_t heard = 0;
   for (std::int64_t tick = 0; !stdin_ended();) {
     tick = next_tick(std::max(tick, system_now()), hertz);
     std::this_thread::sleep_for(std::chrono::nanoseconds(tick - system_now()));
     set_stamp(message, tick);
-    heard.write(message);
+    const bool has_reader = heard > 0 || is_matched(writer);
+    if (!writer.write(&message))
+      std::cerr << "a message was refused\n";
+    else if (heard > 0 || (has_reader && writer.wait_for_acknowledgments({0, 5'000'000}) ==
+                                             ReturnCode_t::RETCODE_OK))
+      ++heard;
   }
   if (qos.reliable) writer.wait_for_acknowledgments({10, 0});
-  say("written " + std::to_string(heard.heard()));
+  say("written " + std::to_string(heard));
 }
 
 void publish(dds::DataWriter& writer, const std::vector<std::string>& words) {
-  const Qos qos = to_qos(words[4]);
+  const Qos qos(words[4]);
   say("ready");
   if (words[1] == "repeat")
     repeat(writer, std::stol(words.at(5)), qos);
@@ -252,7 +220,7 @@ void publish(dds::DataWriter& writer, const std::vector<std::string>& words) {
     publish_pattern(writer, std::stoul(words[5]), static_cast<std::uint32_t>(std::stoul(words[6])),
                     std::stod(words[7]), qos);
   else
-    publish_stdin(writer);
+    for (Bytes message; read_message(message);) writer.write(&message);
 }
 
 void wait_for_a_publisher(dds::DataReader& reader) {
@@ -272,21 +240,19 @@ void subscribe(dds::DataReader& reader, const std::string& mode) {
   while (!stdin_ended()) {
     reader.wait_for_unread_message({0, 20'000'000});
     while (reader.take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK) {
-      const std::string arrival = std::to_string(system_now());
       if (!info.valid_data) continue;
       if (mode == "count")
         say(std::to_string(pattern_number(message)) + " " + std::to_string(message.size()));
       else
         say(std::to_string(info.sample_identity.sequence_number().to64long()) + " " +
-            std::to_string(stamp_of(message)) + " " + arrival + " " +
-            std::to_string(digest_of(message)));
+            std::to_string(stamp_of(message)) + " " + std::to_string(digest_of(message)));
     }
   }
 }
 
 int run(const std::vector<std::string>& words) {
   const std::string& mode = words.at(1);
-  const Qos qos = to_qos(words.at(4));
+  const Qos qos(words.at(4));
   Peer peer(words[0], words[2], words[3]);
   if (mode == "publish" || mode == "repeat") {
     auto* const publisher = peer.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <io/dds/graph_names.hpp>
+#include <io/dds/type_hash.hpp>
+#include <io/ros/message_definition.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -16,7 +18,7 @@ namespace {
 constexpr const char* image = "sensor_msgs/msg/Image";
 
 // The names are those of REP-like conventions of ROS 2's "Topic and Service name mapping to DDS".
-TEST(GraphNames, AreThoseOfRos2) {
+TEST(GraphNames, AreThoseOfRos2AndOthersAreRefusedInBothDirections) {
   EXPECT_EQ(io::dds_topic("/camera/depth/image_raw"), "rt/camera/depth/image_raw");
   EXPECT_EQ(io::dds_type("sensor_msgs/msg/Image"), "sensor_msgs::msg::dds_::Image_");
   EXPECT_EQ(io::ros_topic("rt/tf"), "/tf");
@@ -24,9 +26,7 @@ TEST(GraphNames, AreThoseOfRos2) {
   EXPECT_EQ(io::ros_topic("ros_discovery_info"), std::nullopt);
   EXPECT_EQ(io::ros_topic("rq/add_two_intsRequest"), std::nullopt);
   EXPECT_EQ(io::ros_type("sensor_msgs::msg::Image"), std::nullopt);
-}
 
-TEST(GraphNames, ThatAreNoneAreRefusedInBothDirections) {
   for (const char* const name : {"", "/", "a", "a/b", "//a", "/a/", "/a//b", "/1", "/a/2b", "/a b",
                                  "/a\n", "/{ns}/a", "/~/a"}) {
     EXPECT_THROW(static_cast<void>(io::dds_topic(name)), InputError) << name;
@@ -86,19 +86,6 @@ TEST(Graph, RefusesBadSettingsInOneLineThatNamesThem) {
   EXPECT_EQ(refusal([&] { return io::join_graph({.domain = domain.id()}); }), "");
 }
 
-TEST(Graph, AMessageOutlivesItsSubscriptionAndParticipant) {
-  const LoneDomain domain;
-  io::SerializedMessage sample;
-  {
-    const auto graph = io::join_graph({.domain = domain.id()});
-    const auto heard = graph->subscribe("/a", image, {.reliable = true});
-    const auto said = graph->advertise("/a", image, {.reliable = true});
-    ASSERT_TRUE(said->write(pattern_message(3, 5001)));
-    ASSERT_TRUE(eventually(*graph, [&] { return heard->take(sample); }));
-  }
-  EXPECT_EQ(pattern_number(sample.data), 3);
-}
-
 TEST(Graph, CountsWhatNewerMessagesReplaced) {
   const LoneDomain domain;
   const auto graph = io::join_graph({.domain = domain.id()});
@@ -110,6 +97,28 @@ TEST(Graph, CountsWhatNewerMessagesReplaced) {
   EXPECT_EQ(status.received, 10U);
   EXPECT_EQ(status.taken, 3U);
   EXPECT_EQ(status.overwritten, 7U);
+}
+
+/// Hashes of message types as nodes of ROS 2 Jazzy announce them.
+TEST(TypeHash, IsThatOfJazzysOwnNodes) {
+  const std::pair<const char*, const char*> announced[] = {
+      {"std_msgs/msg/String", "df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"},
+      {"sensor_msgs/msg/Image", "d31d41a9a4c4bc8eae9be757b0beed306564f7526c88ea6a4588fb9582527d47"},
+      {"sensor_msgs/msg/JointState",
+       "a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e"},
+      {"sensor_msgs/msg/CameraInfo",
+       "b3dfd68ff46c9d56c80fd3bd4ed22c7a4ddce8c8348f2f59c299e73118e7e275"},
+      {"tf2_msgs/msg/TFMessage",
+       "e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"},
+      {"penumbra_msgs/msg/Keypoints",
+       "5f8cab968684ffa08b85be83d6fd2819dfb30e4579ca75e5f6e8399a3580f0f0"}};
+  for (const auto& [type, hash] : announced)
+    EXPECT_EQ(io::type_hash(type, io::definition_of(type)), std::string("RIHS01_") + hash) << type;
+}
+
+TEST(TypeHash, IsEmptyWithoutAllTypes) {
+  EXPECT_EQ(io::type_hash("a/msg/A", "Unknown field\n"), "");
+  EXPECT_EQ(io::type_hash("a/msg/A", "a/A itself\n").size(), 71U);  // ends
 }
 
 }  // namespace

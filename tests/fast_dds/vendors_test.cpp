@@ -48,63 +48,58 @@ class Vendors : public testing::Test {
   std::unique_ptr<io::Participant> graph = io::join_graph({.domain = domain.id()});
 };
 
-struct Case {
-  const char* name;
+constexpr struct {
   bool reliable;
   std::size_t size;
   std::uint32_t count;
-};
+} both_ways[] = {
+    {true, 12, 20}, {false, 12, 20}, {true, 65'537, 20}, {true, large, 15}, {false, 100'003, 15}};
 
-class BothWays : public Vendors, public testing::WithParamInterface<Case> {
- protected:
-  io::TopicQos qos() const { return {.reliable = GetParam().reliable, .depth = 50}; }
-  std::string peers_qos() const {
-    return std::string(GetParam().reliable ? "reliable" : "best_effort") + ",depth=50";
-  }
-};
+std::string qos_of(bool reliable) {
+  return reliable ? "reliable,depth=50" : "best_effort,depth=50";
+}
 
 // The first message may be missed: if a part of it is dropped before the publisher's first
 // heartbeat, a subscription that is not latched takes it for one from before they met.
-TEST_P(BothWays, FromFastDdsEveryByteArrives) {
-  const auto heard = graph->subscribe("/a", ros_image, qos());
-  auto other = peer("publish", peers_qos(),
-                    {std::to_string(GetParam().size), std::to_string(GetParam().count), "30"});
-  begin(other, *heard);
-  std::vector<std::int64_t> numbers;
-  const std::int64_t last = GetParam().count - 1;
-  ASSERT_TRUE(eventually(*graph, [&] {
-    for (const std::int64_t number : take_numbers(*heard)) numbers.push_back(number);
-    return !numbers.empty() && numbers.back() == last;
-  }));
-  const std::int64_t first = numbers.front();
-  EXPECT_LE(first, 1);
-  std::vector<std::int64_t> wanted = numbers_up_to(GetParam().count);
-  wanted.erase(wanted.begin(), wanted.begin() + first);
-  EXPECT_EQ(numbers, wanted);
-  const auto status = heard->status();
-  EXPECT_EQ(status.received, wanted.size());
-  EXPECT_EQ(status.taken, wanted.size());
-  EXPECT_EQ(status.lost, 0U);
-}
-
-TEST_P(BothWays, ToFastDdsEveryByteArrives) {
-  const auto said = graph->advertise("/a", ros_image, qos());
-  auto other = peer("count", peers_qos());
-  begin(other, *said);
-  for (std::uint32_t i = 0; i < GetParam().count; ++i) {
-    ASSERT_TRUE(said->write(pattern_message(i, GetParam().size)));
-    ASSERT_TRUE(other.says(std::to_string(i) + " " + std::to_string(GetParam().size)));
+TEST_F(Vendors, FromFastDdsEveryByteArrives) {
+  for (const auto& [reliable, size, count] : both_ways) {
+    SCOPED_TRACE(qos_of(reliable) + " " + std::to_string(size));
+    const auto heard = graph->subscribe("/a", ros_image, {.reliable = reliable, .depth = 50});
+    auto other =
+        peer("publish", qos_of(reliable), {std::to_string(size), std::to_string(count), "30"});
+    begin(other, *heard);
+    std::vector<std::int64_t> numbers;
+    const std::int64_t last = count - 1;
+    ASSERT_TRUE(eventually(*graph, [&] {
+      for (const std::int64_t number : take_numbers(*heard)) numbers.push_back(number);
+      return !numbers.empty() && numbers.back() == last;
+    }));
+    const std::int64_t first = numbers.front();
+    EXPECT_LE(first, 1);
+    std::vector<std::int64_t> wanted = numbers_up_to(count);
+    wanted.erase(wanted.begin(), wanted.begin() + first);
+    EXPECT_EQ(numbers, wanted);
+    const auto status = heard->status();
+    EXPECT_EQ(status.received, wanted.size());
+    EXPECT_EQ(status.taken, wanted.size());
+    EXPECT_EQ(status.lost, 0U);
+    EXPECT_EQ(other.end(), 0);
   }
-  EXPECT_EQ(other.end(), 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, BothWays,
-                         testing::Values(Case{"reliable_smallest", true, 12, 20},
-                                         Case{"best_effort_smallest", false, 12, 20},
-                                         Case{"reliable_odd", true, 65'537, 20},
-                                         Case{"reliable_large", true, large, 15},
-                                         Case{"best_effort_odd", false, 100'003, 15}),
-                         [](const auto& test) { return std::string(test.param.name); });
+TEST_F(Vendors, ToFastDdsEveryByteArrives) {
+  for (const auto& [reliable, size, count] : both_ways) {
+    SCOPED_TRACE(qos_of(reliable) + " " + std::to_string(size));
+    const auto said = graph->advertise("/a", ros_image, {.reliable = reliable, .depth = 50});
+    auto other = peer("count", qos_of(reliable));
+    begin(other, *said);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      ASSERT_TRUE(said->write(pattern_message(i, size)));
+      ASSERT_TRUE(other.says(std::to_string(i) + " " + std::to_string(size)));
+    }
+    EXPECT_EQ(other.end(), 0);
+  }
+}
 
 TEST_F(Vendors, WhoComesLateGetsLatchedMessages) {
   const auto said =

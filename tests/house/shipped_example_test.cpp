@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole method on the shipped recording, against its truth: an independent ray caster's.
+#include "../support/pixels.hpp"
+
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -28,9 +30,10 @@ constexpr double least_found_front = 0.99;  // of the measured pixels of things 
 /// Whether `rule` holds for every truth within `reach` of (u, v).
 template <typename Rule>
 bool all_near(const Image<std::uint8_t>& truth, int u, int v, int reach, Rule&& rule) {
-  for (int y = std::max(0, v - reach); y <= std::min(truth.height() - 1, v + reach); ++y)
-    for (int x = std::max(0, u - reach); x <= std::min(truth.width() - 1, u + reach); ++x)
-      if (!rule(truth(x, y))) return false;
+  for (const auto [x, y] :
+       each_pixel(std::max(0, u - reach), std::max(0, v - reach),
+                  std::min(truth.width(), u + reach + 1), std::min(truth.height(), v + reach + 1)))
+    if (!rule(truth(x, y))) return false;
   return true;
 }
 
@@ -41,26 +44,24 @@ struct Counts {
 
 void count(const FrameReport& report, const Image<std::uint8_t>& truth,
            ImageView<const std::uint16_t> depth, Counts& counts) {
-  for (int v = 0; v < truth.height(); ++v) {
-    for (int u = 0; u < truth.width(); ++u) {
-      const std::uint8_t value = truth(u, v);
-      const auto same = [value](std::uint8_t other) { return other == value; };
-      const bool front = report.labels(u, v) == static_cast<std::uint8_t>(Label::front);
-      if (value != no_robot) ++counts.robot;
-      if ((value != no_robot) != (report.virtual_depth.depth(u, v) > 0.0F)) {
-        ++counts.covered_differently;
-        if (all_near(truth, u, v, 1, same)) ++counts.inner_covered_differently;
-      }
-      if (value == robot_seen || value == hidden) {
-        ++counts.seen;
-        // The border of what stands before the robot may be measured outside of it.
-        const auto free = [](std::uint8_t other) { return other != before_robot; };
-        if (front && all_near(truth, u, v, edge_band, free)) ++counts.false_front;
-      }
-      if (value == before_robot && depth(u, v) != 0 && all_near(truth, u, v, edge_band, same)) {
-        ++counts.before;
-        if (front) ++counts.found;
-      }
+  for (const auto [u, v] : each_pixel(truth)) {
+    const std::uint8_t value = truth(u, v);
+    const auto same = [value](std::uint8_t other) { return other == value; };
+    const bool front = report.labels(u, v) == static_cast<std::uint8_t>(Label::front);
+    if (value != no_robot) ++counts.robot;
+    if ((value != no_robot) != (report.virtual_depth.depth(u, v) > 0.0F)) {
+      ++counts.covered_differently;
+      if (all_near(truth, u, v, 1, same)) ++counts.inner_covered_differently;
+    }
+    if (value == robot_seen || value == hidden) {
+      ++counts.seen;
+      // The border of what stands before the robot may be measured outside of it.
+      const auto free = [](std::uint8_t other) { return other != before_robot; };
+      if (front && all_near(truth, u, v, edge_band, free)) ++counts.false_front;
+    }
+    if (value == before_robot && depth(u, v) != 0 && all_near(truth, u, v, edge_band, same)) {
+      ++counts.before;
+      if (front) ++counts.found;
     }
   }
 }

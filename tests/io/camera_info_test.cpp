@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <gtest/gtest.h>
-
 #include <io/files/camera_info.hpp>
 
 namespace penumbra::io {

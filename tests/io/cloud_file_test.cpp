@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cloud_samples.hpp"
-#include "files.hpp"
 
 #include <cmath>
-
-#include <gtest/gtest.h>
 
 #include <io/cloud/cloud_file.hpp>
 
@@ -168,15 +165,6 @@ TEST_F(CloudFile, NumpyRowsArePoints) {
   const StoredCloud doubles = read("c.npy", test::fortran_npy());
   expect_fields(doubles.cloud, {{"x", type_f64, 1}, {"y", type_f64, 1}, {"z", type_f64, 1}});
   EXPECT_EQ(points_of(doubles), raw(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
-}
-
-TEST_F(CloudFile, KittiIsWrittenAsItWasRead) {
-  const StoredCloud stored = read("a.bin", test::kitti());
-  expect_fields(
-      stored.cloud,
-      {{"x", type_f32, 1}, {"y", type_f32, 1}, {"z", type_f32, 1}, {"intensity", type_f32, 1}});
-  EXPECT_EQ(points_of(stored), test::kitti());
-  EXPECT_EQ(written("b.bin", stored.cloud), test::kitti());
 }
 
 TEST_F(CloudFile, EveryFormatHoldsACloudWithoutPoints) {

@@ -3,11 +3,6 @@
 #include "../support/errors.hpp"
 #include "live_run.hpp"
 
-#include <cstring>
-#include <mutex>
-
-#include <gtest/gtest.h>
-
 #include <io/live/cloud_text.hpp>
 #include <io/live/live_diagnostics.hpp>
 
@@ -72,26 +67,6 @@ std::size_t wrong_labels(const io::PointCloud2Message& cloud) {
   return wrong;
 }
 
-/// Keeps what is published of a sensor.
-class KeptClouds final : public io::ResultSink {
- public:
-  [[nodiscard]] bool wants(io::Result result) const override {
-    return result != io::Result::overlay;
-  }
-  void write(io::Result result, std::int64_t, std::span<const std::byte> payload) override {
-    const std::lock_guard lock(mutex_);
-    kept_[result].emplace_back(payload.begin(), payload.end());
-  }
-  [[nodiscard]] std::vector<std::vector<std::byte>> kept(io::Result result) {
-    const std::lock_guard lock(mutex_);
-    return kept_[result];
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<io::Result, std::vector<std::vector<std::byte>>> kept_;
-};
-
 /// Counts the scans that a page would show.
 class ScanWatcher final : public io::FrameWatcher {
  public:
@@ -107,6 +82,7 @@ class ScanWatcher final : public io::FrameWatcher {
 class LiveClouds : public testing::Test {
  protected:
   void start(const std::string& text = "/points") {
+    kept_.wanted = {io::Result::without_robot, io::Result::labelled, io::Result::targets};
     options_.clouds = {io::parse_cloud(text)};
     options_.clouds[0].has_targets = !options_.target_topics.empty();
     run_ =
@@ -117,26 +93,23 @@ class LiveClouds : public testing::Test {
     run_->say_robot_and_mount();
     ASSERT_TRUE(run_->wait_for_robot());
   }
-  void say(const std::string& name, const std::vector<std::byte>& payload) {
-    run_->say(name, payload);
-  }
   /// Says joint states, every 10 ms of them, and a scan each 100 ms.
   void scan(int scans, std::int64_t begin = test::start) {
     for (int i = 0; i < scans; ++i) {
       const std::int64_t stamp = begin + i * scan_time;
       for (std::int64_t t = 0; t <= scan_time; t += 10 * milliseconds)
-        say("/joint_states", live_joints(stamp + t));
+        run_->say("/joint_states", live_joints(stamp + t));
       say_scan(LidarScan(stamp));
     }
   }
   /// Waits until it is labelled or dropped.
   void say_scan(const LidarScan& scan) {
     const std::size_t before = done();
-    say("/points", encoded(scan.message));
+    run_->say("/points", encoded(scan.message));
     ASSERT_TRUE(wait_until([&] { return done() > before; }));
   }
   /// The board hides it at any angle.
-  void say_knob(std::int64_t stamp) { say("/knob", live_target(stamp, {0, 0, 1.2})); }
+  void say_knob(std::int64_t stamp) { run_->say("/knob", live_target(stamp, {0, 0, 1.2})); }
   std::size_t done() {
     return run_->with_inbox(
         [](const io::LiveInbox& inbox) { return LiveRun::done(inbox.cloud(0)); });
@@ -151,15 +124,15 @@ class LiveClouds : public testing::Test {
       return io::cloud_fault(inbox, 0, links, *inbox.cloud(0).arrivals().last());
     });
   }
-  static io::PointCloud2Message decoded(const std::vector<std::byte>& payload) {
+  static io::PointCloud2Message decoded(const KeptResults::Published& one) {
     io::PointCloud2Message cloud;
-    const auto fault = io::Decoder<io::PointCloud2Message>().decode(payload, cloud);
+    const auto fault = io::Decoder<io::PointCloud2Message>().decode(one.payload, cloud);
     EXPECT_FALSE(fault) << *fault;
     return cloud;
   }
 
   io::LiveOptions options_;
-  KeptClouds kept_;
+  SharedResults kept_;
   ScanWatcher watcher_;
   std::unique_ptr<LiveRun> run_;
 };
@@ -206,7 +179,7 @@ TEST_F(LiveClouds, JudgeTheTargetsOfTheirStampThatComeLater) {
   const auto kept = kept_.kept(io::Result::targets);
   ASSERT_EQ(kept.size(), 1U);
   io::TargetsMessage targets;
-  ASSERT_FALSE(io::Decoder<io::TargetsMessage>().decode(kept[0], targets));
+  ASSERT_FALSE(io::Decoder<io::TargetsMessage>().decode(kept[0].payload, targets));
   EXPECT_EQ(targets.header.stamp, test::start + 3 * scan_time);
   ASSERT_EQ(targets.targets.size(), 1U);
   EXPECT_EQ(targets.targets[0].name, "/knob");
@@ -237,7 +210,7 @@ TEST_F(LiveClouds, WithoutJointStatesAreUnknownAndSaySo) {
 
 TEST_F(LiveClouds, InAFrameAboveTheRobotAreRefused) {
   start();
-  say("/tf_static", live_transform("odom", "base"));
+  run_->say("/tf_static", live_transform("odom", "base"));
   LidarScan scan(test::start);
   scan.message.header.frame_id = "odom";
   say_scan(scan);

@@ -7,8 +7,6 @@
 
 #include <iostream>
 
-#include <gtest/gtest.h>
-
 namespace penumbra::test {
 namespace {
 
@@ -74,20 +72,12 @@ class LiveMemory : public testing::Test {
   LiveBench bench_{LiveBench::one_camera({"/wrist", "/objects"})};
   std::string robot_ = live_urdf;
   /// The number of frames of TF. The long run has more of them than are kept.
-  std::size_t names_ = 400;
+  const std::size_t names_ = measures_in_full() ? 2 * io::FrameTree::max_frames : 400;
 };
 
 TEST_F(LiveMemory, IsFlat) {
   if (sanitized) GTEST_SKIP() << "sanitizers keep what was freed";
-  expect_flat(5000);
-}
-
-class LiveMemoryFull : public LiveMemory {};
-
-TEST_F(LiveMemoryFull, IsFlat) {
-  if (!measures_in_full()) GTEST_SKIP() << "set PENUMBRA_FULL";
-  names_ = 2 * io::FrameTree::max_frames;
-  expect_flat(100'000);
+  expect_flat(measures_in_full() ? 100'000 : 5000);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <chrono>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -22,6 +24,26 @@ bool wait_until(const IsSo& is_so) {
   }
   return false;
 }
+
+/// Keeps results of live's threads: those that are wanted.
+class SharedResults final : public io::ResultSink {
+ public:
+  std::set<io::Result> wanted;
+
+  [[nodiscard]] bool wants(io::Result result) const override { return wanted.contains(result); }
+  void write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) override {
+    const std::lock_guard lock(mutex_);
+    kept_[result].push_back({result, stamp, {payload.begin(), payload.end()}});
+  }
+  [[nodiscard]] std::vector<KeptResults::Published> kept(io::Result result) {
+    const std::lock_guard lock(mutex_);
+    return kept_[result];
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<io::Result, std::vector<KeptResults::Published>> kept_;
+};
 
 /// A runner that receives messages by the names of their topics.
 class LiveRun : public io::LiveRunner {

@@ -5,44 +5,16 @@
 
 #include <atomic>
 #include <future>
-#include <mutex>
-
-#include <gtest/gtest.h>
 
 #include <io/live/live_diagnostics.hpp>
 
 namespace penumbra::test {
 namespace {
 
-/// Results that another thread may read.
-class SharedResults final : public io::ResultSink {
- public:
-  [[nodiscard]] bool wants(io::Result result) const override {
-    return result == io::Result::labels || (with_points && result == io::Result::points);
-  }
-  void write(io::Result result, std::int64_t stamp, std::span<const std::byte> payload) override {
-    const std::lock_guard lock(mutex_);
-    results_.write(result, stamp, payload);
-  }
-  [[nodiscard]] std::size_t count(io::Result of) {
-    const std::lock_guard lock(mutex_);
-    return results_.count(of);
-  }
-  [[nodiscard]] std::vector<KeptResults::Published> published() {
-    const std::lock_guard lock(mutex_);
-    return results_.published;
-  }
-
-  bool with_points = false;
-
- private:
-  std::mutex mutex_;
-  KeptResults results_;
-};
-
 class LiveRunnerTest : public testing::Test {
  protected:
   LiveRunnerTest() {
+    left_.wanted = right_.wanted = {io::Result::labels};
     for (const std::string name : {"left", "right"})
       options_.cameras.push_back({.name = name,
                                   .depth_topic = "/" + name + "/depth",
@@ -56,9 +28,6 @@ class LiveRunnerTest : public testing::Test {
     if (fusion_) run_->fuse(*fusion_);
     run_->start();
     run_->say_robot_and_mount();
-  }
-  void say(const std::string& name, const std::vector<std::byte>& payload) {
-    run_->say(name, payload);
   }
   void end() {
     run_->stop();
@@ -75,7 +44,7 @@ class LiveRunnerTest : public testing::Test {
 TEST_F(LiveRunnerTest, JudgesTwoCamerasAtOnce) {
   start();
   for (const char* camera : {"/left", "/right"})
-    say(std::string(camera) + "/camera_info", encoded(live_info(0)));
+    run_->say(std::string(camera) + "/camera_info", encoded(live_info(0)));
   ASSERT_TRUE(run_->wait_for_robot());
   constexpr std::size_t frames = 60, waits = 6;
   const auto are_done = [&](std::size_t images) {
@@ -85,16 +54,16 @@ TEST_F(LiveRunnerTest, JudgesTwoCamerasAtOnce) {
   };
   for (std::size_t i = 0; i < frames; ++i) {
     const std::int64_t stamp = stamp_of(static_cast<int>(i));
-    say("/joint_states", live_joints(stamp));
+    run_->say("/joint_states", live_joints(stamp));
     for (const char* camera : {"/left", "/right"})
-      say(std::string(camera) + "/depth", live_depth(stamp));
+      run_->say(std::string(camera) + "/depth", live_depth(stamp));
     if (i % (frames / waits) != frames / waits - 1) continue;
     ASSERT_TRUE(wait_until([&] { return are_done(i + 1); }));
   }
   end();
   LiveTruth truth;
   for (SharedResults* results : {&left_, &right_}) {
-    const auto published = results->published();
+    const auto published = results->kept(io::Result::labels);
     EXPECT_GE(expect_true_labels(published, truth), waits);
     EXPECT_EQ(published.back().stamp, stamp_of(frames - 1));
   }
@@ -104,23 +73,22 @@ TEST_F(LiveRunnerTest, PointsAreAsFewAndAsSeldomAsAsked) {
   options_.cameras.resize(1);
   options_.points = {.stride = 4, .range = 2.0};  // the wall is farther
   options_.points_rate = 1e-6;
-  left_.with_points = true;
+  left_.wanted.insert(io::Result::points);
   start();
-  say("/left/camera_info", encoded(live_info(0)));
+  run_->say("/left/camera_info", encoded(live_info(0)));
   ASSERT_TRUE(run_->wait_for_robot());
   constexpr std::size_t frames = 5;
   for (std::size_t i = 0; i < frames; ++i) {
     const std::int64_t stamp = stamp_of(static_cast<int>(i));
     for (const int after : {-10, 10})
-      say("/joint_states", live_joints(stamp + after * milliseconds));
-    say("/left/depth", live_depth(stamp));
-    ASSERT_TRUE(wait_until([&] { return left_.count(io::Result::labels) > i; }));
+      run_->say("/joint_states", live_joints(stamp + after * milliseconds));
+    run_->say("/left/depth", live_depth(stamp));
+    ASSERT_TRUE(wait_until([&] { return left_.kept(io::Result::labels).size() > i; }));
   }
   end();
-  EXPECT_EQ(left_.count(io::Result::labels), frames);
-  EXPECT_EQ(left_.count(io::Result::points), 1U);
-  for (const auto& one : left_.published()) {
-    if (one.result != io::Result::points) continue;
+  EXPECT_EQ(left_.kept(io::Result::labels).size(), frames);
+  EXPECT_EQ(left_.kept(io::Result::points).size(), 1U);
+  for (const auto& one : left_.kept(io::Result::points)) {
     io::PointCloud2Message cloud;
     ASSERT_FALSE(io::Decoder<io::PointCloud2Message>().decode(one.payload, cloud));
     EXPECT_EQ(cloud.width, 0U) << "robot and wall are left out";
@@ -145,11 +113,11 @@ TEST_F(LiveRunnerTest, ReceivesWhileARobotsMeshesAreRead) {
     may_go_on.get_future().wait();
     return io::make_robot(request);
   });
-  say("/left/camera_info", encoded(live_info(0)));
+  run_->say("/left/camera_info", encoded(live_info(0)));
   begun.get_future().wait();
   const auto say_image = [&](std::int64_t stamp) {
-    say("/joint_states", live_joints(stamp));
-    say("/left/depth", live_depth(stamp));
+    run_->say("/joint_states", live_joints(stamp));
+    run_->say("/left/depth", live_depth(stamp));
   };
   for (int i = 0; i < 10; ++i) say_image(stamp_of(i));
   const std::vector<io::LiveLink> links(run_->topics.size());
@@ -165,11 +133,11 @@ TEST_F(LiveRunnerTest, ReceivesWhileARobotsMeshesAreRead) {
   int i = 10;
   EXPECT_TRUE(wait_until([&] {
     say_image(stamp_of(i++));
-    return !left_.published().empty();
+    return !left_.kept(io::Result::labels).empty();
   }));
   end();
   LiveTruth truth;
-  EXPECT_GT(expect_true_labels(left_.published(), truth), 0U);
+  EXPECT_GT(expect_true_labels(left_.kept(io::Result::labels), truth), 0U);
 }
 
 // A point 2 m before the left camera, behind the board, and beside the board for the right one.
@@ -190,11 +158,11 @@ TEST_F(LiveRunnerTest, CamerasGiveOneVerdict) {
   };
   start();
   ASSERT_TRUE(run_->wait_for_robot());
-  say("/tf_static", live_transform("base", "aside", {0.8, 0, 0}));
+  run_->say("/tf_static", live_transform("base", "aside", {0.8, 0, 0}));
   io::CameraInfoMessage info = live_info(0);
-  say("/left/camera_info", encoded(info));
+  run_->say("/left/camera_info", encoded(info));
   info.header.frame_id = "aside";
-  say("/right/camera_info", encoded(info));
+  run_->say("/right/camera_info", encoded(info));
   const Image<std::uint16_t> board(64, 48, 950), behind(64, 48, 2000);
   std::int64_t stamp = test::start;
   /// Judges frames until `is_done`.
@@ -202,14 +170,14 @@ TEST_F(LiveRunnerTest, CamerasGiveOneVerdict) {
     Views views;
     EXPECT_TRUE(wait_until([&] {
       stamp += 20 * milliseconds;
-      say("/part", live_target(stamp, {0, 0, 2}, "base"));
-      say("/left/depth",
-          encoded(io::image_message(io::MessageHeader{stamp, "optical"}, "16UC1", board.view())));
+      run_->say("/part", live_target(stamp, {0, 0, 2}, "base"));
+      run_->say("/left/depth", encoded(io::image_message(io::MessageHeader{stamp, "optical"},
+                                                         "16UC1", board.view())));
       if (with_right)
-        say("/right/depth",
-            encoded(io::image_message(io::MessageHeader{stamp, "aside"}, "16UC1", behind.view())));
+        run_->say("/right/depth", encoded(io::image_message(io::MessageHeader{stamp, "aside"},
+                                                            "16UC1", behind.view())));
       for (const int later : {-10, 10})
-        say("/joint_states", live_joints(stamp + later * milliseconds));
+        run_->say("/joint_states", live_joints(stamp + later * milliseconds));
       views = last();
       return is_done(views);
     }));

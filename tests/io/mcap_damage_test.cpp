@@ -6,8 +6,6 @@
 #include "mcap_files.hpp"
 #include "memory_file.hpp"
 
-#include <gtest/gtest.h>
-
 #include <io/mcap/compression.hpp>
 #include <io/mcap/file_index.hpp>
 
@@ -161,19 +159,6 @@ INSTANTIATE_TEST_SUITE_P(All, McapDamage,
                          [](const auto& test) {
                            return std::string(test.index == 0 ? "none" : to_string(test.param));
                          });
-
-// A schema of 100 MB is none, though the file has the bytes.
-TEST(McapClaims, LongSchemasArePassedOver) {
-  using namespace test::mcap_file;
-  test::TemporaryFolder folder;
-  const std::uint64_t length = 100'000'000;
-  const auto path = folder.write("a.mcap", magic + header() + '\x03' + u64(length));
-  std::filesystem::resize_file(path, data_start() + 9 + length);  // takes no room on the disk
-  const test::MemoryShortage none(large_memory, 0);
-  const McapContents all = test::read_mcap(path);
-  ASSERT_EQ(all.faults.size(), 2U);
-  EXPECT_HAS(all.faults[0], "100000000 bytes");
-}
 
 /// Returns how many bytes this process has read from files.
 std::uint64_t bytes_read() {

@@ -3,12 +3,9 @@
 // tests/reference with packages of npm.
 #include "../support/data.hpp"
 #include "../support/node_scripts.hpp"
-#include "../support/random.hpp"
 #include "mcap_files.hpp"
 
 #include <iomanip>
-
-#include <gtest/gtest.h>
 
 #include <io/mcap/compression.hpp>
 

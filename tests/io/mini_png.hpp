@@ -131,29 +131,4 @@ inline std::string unfiltered(const std::string& raw, std::size_t row_bytes, std
   return out;
 }
 
-/// The rows of a file that is not interlaced, 8 or 16 bits per sample, and its format.
-inline std::string decode(const std::string& file, Format& f) {
-  if (!file.starts_with(signature())) throw std::runtime_error("signature");
-  std::string packed;
-  for (std::size_t at = signature().size(); at < file.size();) {
-    const std::uint32_t length = big_endian(file, at);
-    const std::string type = file.substr(at + 4, 4), data = file.substr(at + 8, length);
-    if (crc(type + data) != big_endian(file, at + 8 + length)) throw std::runtime_error("CRC");
-    if (type == "IHDR")
-      f = {big_endian(data, 0), big_endian(data, 4), data[8], data[9], data[12] != 0};
-    if (type == "IDAT") packed += data;
-    at += 12 + length;
-  }
-  const std::size_t pixel =
-      static_cast<std::size_t>(channels(f.color_type)) * static_cast<std::size_t>(f.bits) / 8;
-  const std::size_t row_bytes = f.width * pixel;
-  std::string raw(f.height * (row_bytes + 1), '\0');
-  uLongf size = raw.size();
-  if (::uncompress(reinterpret_cast<Bytef*>(raw.data()), &size,
-                   reinterpret_cast<const Bytef*>(packed.data()), packed.size()) != Z_OK ||
-      size != raw.size())
-    throw std::runtime_error("pixels");
-  return unfiltered(raw, row_bytes, pixel);
-}
-
 }  // namespace penumbra::test::mini_png

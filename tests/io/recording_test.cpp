@@ -2,13 +2,8 @@
 #include "files.hpp"
 #include "robots.hpp"
 
-#include <cmath>
-#include <thread>
-
-#include <gtest/gtest.h>
-
 #include <io/files/frame_reader.hpp>
-#include <io/files/png.hpp>
+#include <io/files/joint_file.hpp>
 #include <io/files/recording.hpp>
 
 namespace penumbra::io {
@@ -26,10 +21,7 @@ constexpr const char* minimal =
     "  depth: depth_%d.png\n"
     "  color: color_%d.png\n";
 
-constexpr int width = 8;
-constexpr int height = 6;
-
-// A recording of frames 5 and 7 in a folder of its own.
+// A recording without images in a folder of its own.
 class RecordingFolder : public testing::Test {
  protected:
   void SetUp() override {
@@ -42,27 +34,13 @@ class RecordingFolder : public testing::Test {
     folder_.write("pose.csv", "1,0,0,0.5\n0,1,0,0\n0,0,1,-1\n0,0,0,1\n");
     folder_.write("joints.csv", "frame,stamp,shoulder,elbow\n5,100,0.1,0.2\n7,200,0.3,0.4\n");
     folder_.write("pkg/x", "");
-    for (const int i : {5, 7}) {
-      write_png(file("depth_" + std::to_string(i) + ".png"), depth(i).view());
-      write_png(file("color_" + std::to_string(i) + ".png"), std::as_const(color_).view());
-    }
-    write_yaml(minimal);
-  }
-
-  static Image<std::uint16_t> depth(int i) {
-    Image<std::uint16_t> image(width, height);
-    for (std::size_t p = 0; p < image.size(); ++p)
-      image.data()[p] = static_cast<std::uint16_t>(100 * i + static_cast<int>(p));
-    return image;
   }
 
   std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
-  void write_yaml(const std::string& text) const { folder_.write("recording.yaml", text); }
   Recording open(const std::string& yaml) const {
-    write_yaml(yaml);
+    folder_.write("recording.yaml", yaml);
     return Recording::open(folder_.path());
   }
-  FrameReader reader() const { return {Recording::open(folder_.path()), test::arm()}; }
 
   // `minimal` with `line` below the line that starts with `after`.
   static std::string with(const std::string& after, const std::string& line) {
@@ -79,64 +57,31 @@ class RecordingFolder : public testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  Image<Rgb8> color_ = Image<Rgb8>(width, height, Rgb8{1, 2, 3});
 };
 
-TEST_F(RecordingFolder, OpensByFolderAndByFile) {
-  for (const auto& path : {folder_.path(), file("recording.yaml")}) {
-    const Recording recording = Recording::open(path);
-    EXPECT_EQ(recording.file, file("recording.yaml"));
-    EXPECT_EQ(recording.robots.at(0).urdf, file("arm.urdf"));
-    EXPECT_EQ(recording.camera.camera.intrinsics, Intrinsics(8, 6, 9, 9, 3.5, 2.5));
-    EXPECT_EQ(recording.camera.T_parent_camera->translation(), Eigen::Vector3d(0.5, 0, -1));
-    EXPECT_EQ(recording.frames.depth.value().file(5), file("depth_5.png"));
-    EXPECT_EQ(recording.frames.color.value().file(5), file("color_5.png"));
-  }
-}
-
-TEST_F(RecordingFolder, ReadsEveryOptionalKey) {
+/// tests/python/test_recorder.py and tests/apps/run_test.cpp have the others.
+TEST_F(RecordingFolder, ReadsOptionalKeys) {
   const Recording recording = open(
       "robot:\n"
       "  urdf: arm.urdf\n"
       "  packages: {some_pkg: pkg}\n"
-      "  geometry: {'finger*': visual, base: collision}\n"
       "  ignore_links: ['tool*', base]\n"
       "  only_links: ['*']\n"
-      "  margins: {upper: 0.01, 'f*': -0.002}\n"
-      "  extra: [{link: lower, mesh: arm.urdf}]\n"
       "camera:\n"
       "  info: info.yaml\n"
       "  parent: lower\n"
       "  pose: pose.csv\n"
-      "  tolerance: [0.02, 0, 0.01]\n"
       "  front_min_width: 3\n"
-      "  range: [0.3, 4]\n"
       "  rectified: true\n"
-      "  beyond: visible\n"
       "frames:\n"
       "  joints: joints.csv\n"
       "  depth: depth/%04d.npy\n");
   EXPECT_EQ(recording.robots.at(0).options.packages.at("some_pkg"), file("pkg"));
-  EXPECT_EQ(recording.robots.at(0).options.geometry_of_links,
-            (std::map<std::string, Geometry>{{"finger*", Geometry::visual},
-                                             {"base", Geometry::collision}}));
   EXPECT_EQ(recording.robots.at(0).options.ignore_links,
             (std::vector<std::string>{"tool*", "base"}));
-  EXPECT_EQ(recording.robots.at(0).options.margins,
-            (std::map<std::string, double>{{"upper", 0.01}, {"f*", -0.002}}));
-  ASSERT_EQ(recording.robots.at(0).options.extra.size(), 1U);
-  EXPECT_EQ(recording.robots.at(0).options.extra[0].link, "lower");
-  EXPECT_EQ(recording.robots.at(0).options.extra[0].mesh, file("arm.urdf"));
-  const PipelineConfig config = recording.pipeline_config();
-  EXPECT_EQ(config.rule.tolerance.a, 0.02);
-  EXPECT_EQ(config.rule.tolerance.c, 0.01);
-  EXPECT_EQ(config.rule.front_min_width, 3);
-  EXPECT_EQ(config.camera_parent, "lower");
-  ASSERT_TRUE(recording.camera.range);
-  EXPECT_EQ(recording.camera.range->far, 4.0);
-  EXPECT_EQ(recording.camera.camera.range.near, 0.3);
+  EXPECT_EQ(recording.robots.at(0).options.only_links, std::vector<std::string>{"*"});
+  EXPECT_EQ(recording.pipeline_config().rule.front_min_width, 3);
   EXPECT_TRUE(recording.camera.rectified);
-  EXPECT_EQ(recording.camera.beyond, BeyondMeans::visible);
   EXPECT_FALSE(recording.camera.depth_along_ray);
   EXPECT_EQ(recording.frames.depth.value().file(5), file("depth/0005.npy"));
   EXPECT_FALSE(recording.frames.color);
@@ -191,39 +136,6 @@ TEST_F(RecordingFolder, NamesKeyAndLineOfEveryFault) {
   EXPECT_HAS(test::refusal([&] { return Recording::open(file("nowhere")); }), "nowhere: ");
 }
 
-TEST_F(RecordingFolder, ReadsFrames) {
-  const FrameReader frames = reader();
-  ASSERT_EQ(frames.size(), 2U);
-  EXPECT_EQ(frames.index(1), 7);
-  for (const std::size_t i : {0U, 1U, 0U}) {
-    const Frame frame = frames.read(i, true);
-    EXPECT_EQ(frame.pose.status, FrameStatus::ok) << frame.pose.message;
-    EXPECT_EQ(frame.pose.message + frame.source_message + frame.color_message, "");
-    EXPECT_EQ(frame.index, i == 0 ? 5U : 7U);
-    EXPECT_EQ(frame.stamp, i == 0 ? 100 : 200);
-    EXPECT_EQ(frame.pose.positions, i == 0 ? (std::vector{0.1, 0.2}) : (std::vector{0.3, 0.4}));
-    const auto view = std::get<ImageView<const std::uint16_t>>(frame.depth.view);
-    ASSERT_EQ(view.width, width);
-    ASSERT_EQ(view.height, height);
-    EXPECT_EQ(view(3, 2), depth(i == 0 ? 5 : 7)(3, 2));
-    EXPECT_EQ(frame.color.view(2, 2), (Rgb8{1, 2, 3}));
-  }
-  const Frame plain = frames.read(1, false);
-  EXPECT_TRUE(plain.color.view.empty());
-  EXPECT_EQ(plain.color_message, "");
-}
-
-TEST_F(RecordingFolder, DepthAlongTheRayBecomesZ) {
-  write_yaml(with("  parent", "  depth_along: ray"));
-  const Frame frame = reader().read(0, false);
-  const auto view = std::get<ImageView<const float>>(frame.depth.view);
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u)
-      EXPECT_NEAR(view(u, v),
-                  0.001 * depth(5)(u, v) / std::hypot(1.0, (u - 3.5) / 9.0, (v - 2.5) / 9.0), 1e-6)
-          << u << ' ' << v;
-}
-
 TEST_F(RecordingFolder, ReadsSeveralRobots) {
   const std::string two =
       "robots:\n"
@@ -235,11 +147,10 @@ TEST_F(RecordingFolder, ReadsSeveralRobots) {
   const auto with_robots = [&](const std::string& robots) {
     return replaced("robot:\n  urdf: arm.urdf\n", robots);
   };
-  write_yaml(with_robots(two));
   folder_.write("joints.csv",
                 "frame,a/shoulder,a/elbow,b/shoulder,b/elbow\n"
                 "5,0.1,0.2,,0.4\n7,0.1,0.2,0.3,0.4\n9,0.1,0.2,0.3\n");
-  const Recording recording = Recording::open(folder_.path());
+  const Recording recording = open(with_robots(two));
   const Robot robot = recording.load_robot();
   EXPECT_EQ(robot.links().size(), 11U);
   EXPECT_EQ(recording.robot_options().margins, (std::map<std::string, double>{{"b/tool", 0.01}}));
@@ -276,6 +187,76 @@ TEST_F(RecordingFolder, ReadsSeveralRobots) {
 TEST_F(RecordingFolder, SurvivesDamage) {
   test::read_damaged(minimal, 1000,
                      [&](const std::string& text) { static_cast<void>(open(text)); });
+}
+
+class JointFile : public testing::Test {
+ protected:
+  std::vector<JointRow> read(const std::string& text) {
+    return read_joint_file(folder_.write("joints.csv", text), robot_);
+  }
+  std::size_t variable(const std::string& name) { return robot_.find_variable(name).value(); }
+
+  Robot robot_ = test::arm();
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(JointFile, ReadsColumnsInAnyOrderAndFramesInTheFilesOrder) {
+  const auto rows = read(
+      "frame,stamp,elbow,finger_joint,shoulder\r\n"
+      "7,1700000000123456789,0.25,9,1.5\r\n\r\n000003,6,-0.5,,+2");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].index, 7);
+  EXPECT_EQ(rows[0].stamp, 1700000000123456789) << "exact";
+  EXPECT_EQ(rows[0].fault, "");
+  EXPECT_EQ(rows[0].positions[variable("elbow")], 0.25);
+  EXPECT_EQ(rows[0].positions[variable("shoulder")], 1.5);
+  EXPECT_EQ(rows[1].index, 3);
+  EXPECT_EQ(rows[1].positions[variable("elbow")], -0.5);
+  EXPECT_EQ(rows[1].positions[variable("shoulder")], 2.0);
+  EXPECT_EQ(read("frame,shoulder,elbow\n0,1,2\n")[0].stamp, std::nullopt);
+}
+
+TEST_F(JointFile, RefusesFilesItCannotBeSureOf) {
+  const std::string header = "frame,shoulder,elbow\n";
+  test::expect_refused({{"", "joints.csv: "},
+                        {header, "no frames"},
+                        {"shoulder,elbow\n1,2\n", ":1: "},
+                        {"frame;shoulder;elbow\n0;1;2\n", "commas"},
+                        {"frame,shoulder\n0,1\n", "'elbow'"},
+                        {"frame,shoulder,elbw,elbow\n0,1,2,3\n", "'elbw'"},
+                        {"frame,shoulder,elbow,flange\n0,1,2,3\n", "'flange'"},
+                        {"frame,shoulder,elbow,\n0,1,2,\n", "''"},
+                        {"frame,shoulder,elbow,shoulder\n0,1,2,3\n", "'shoulder' is there twice"},
+                        {header + "0,1,2\n1,1,2\n0,1,2\n", ":4: frame 0"},
+                        {"frame,stamp,shoulder,elbow\n0,0,1,2\n1,-5,1,2\n", ":3: stamp -5"},
+                        {header + "-1,1,2\n", ":2: '-1'"},
+                        {header + "1.0,1,2\n", ":2: '1.0'"},
+                        {header + "9223372036854775808,1,2\n", "'9223372036854775808'"},
+                        {header + "0,1,2\n9223372036854775807,1,2\n", ":3: '9223372036854775807'"}},
+                       [&](const std::string& text) { read(text); });
+}
+
+TEST_F(JointFile, ABadCellLeavesTheOtherJointsOfItsRowKnown) {
+  const auto rows = read("frame,shoulder,elbow\n0,0.5,\n1,x,0.25\n2,1,2,3\n");
+  ASSERT_EQ(rows.size(), 3U);
+  for (const auto& [row, unknown] :
+       {std::pair(std::size_t{0}, "elbow"), {std::size_t{1}, "shoulder"}}) {
+    EXPECT_EQ(rows[row].unknown, std::vector{variable(unknown)});
+    EXPECT_NE(rows[row].fault.find(unknown), std::string::npos) << rows[row].fault;
+  }
+  EXPECT_EQ(rows[0].positions[variable("shoulder")], 0.5);
+  EXPECT_TRUE(rows[2].unknown.empty() && rows[2].positions.empty()) << "too many cells";
+}
+
+TEST_F(JointFile, SurvivesDamage) {
+  test::read_damaged("frame,stamp,shoulder,elbow\n0,10,0.5,-1e-3\n1,20,1,2\n", 5000,
+                     [&](const std::string& text) {
+                       for (const JointRow& row : read(text)) {
+                         const bool is_usable = row.fault.empty() || !row.unknown.empty();
+                         EXPECT_EQ(row.positions.size(), is_usable ? 2U : 0U);
+                         for (const double p : row.positions) EXPECT_TRUE(std::isfinite(p));
+                       }
+                     });
 }
 
 }  // namespace

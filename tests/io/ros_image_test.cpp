@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "../support/random.hpp"
-#include "files.hpp"
 #include "jpeg_file.hpp"
 #include "ros_images.hpp"
 #include "ros_samples.hpp"
-
-#include <algorithm>
-
-#include <gtest/gtest.h>
 
 #include <io/ros/cdr_reader.hpp>
 #include <io/ros/compressed_depth-inl.hpp>
@@ -171,19 +165,6 @@ Image<Rgb8> smooth_colours(int width, int height) {
       image(u, v) = {static_cast<std::uint8_t>(4 * u), static_cast<std::uint8_t>(6 * v),
                      static_cast<std::uint8_t>(2 * u + 2 * v)};
   return image;
-}
-
-TEST(RosImage, PngThereAndBack) {
-  const auto image = smooth_colours(40, 30);
-  std::vector<std::byte> png;
-  const auto message = png_message(test::sample_header(), image.view(), png);
-  EXPECT_EQ(message.format, "png");
-  Image<Rgb8> read;
-  const auto fault = decode_color(message, read);
-  ASSERT_FALSE(fault) << *fault;
-  EXPECT_TRUE(same_pixels(image.view(), read.view()));
-  expect_cuts_are_faults(
-      png, [&](auto cut) { return decode_color(CompressedImageMessage{.data = cut}, read); });
 }
 
 TEST(RosImage, Jpeg) {

@@ -4,7 +4,6 @@
 #include "files.hpp"
 #include "ros_samples.hpp"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <io/assembly/attached_input.hpp>
@@ -222,9 +221,7 @@ TEST(RosReference, ItsPlanningScenesAreFollowed) {
   Exchange exchange;
   const auto payload = exchange.encoded("moveit_msgs/msg/PlanningScene", scene);
 
-  PlanningSceneMessage message;
-  const auto fault = Decoder<PlanningSceneMessage>().decode(payload, message);
-  ASSERT_FALSE(fault) << *fault;
+  const auto message = test::decoded<PlanningSceneMessage>(payload);
   EXPECT_EQ(message.name, "scene");
   ASSERT_EQ(message.world.objects.size(), 1U);
   EXPECT_EQ(message.world.objects[0].id, "part");
@@ -244,8 +241,7 @@ TEST(RosReference, ItsPlanningScenesAreFollowed) {
   EXPECT_NEAR(bodies[0].mesh->bounds.max().z(), 1.15, 1e-6);
   EXPECT_NEAR(bodies[0].mesh->bounds.min().x(), -10.0, 1e-6) << "turned by half a turn";
   const auto whole = exchange.encoded("moveit_msgs/msg/AttachedCollisionObject", attached);
-  AttachedObjectMessage object;
-  ASSERT_FALSE(Decoder<AttachedObjectMessage>().decode(whole, object));
+  const auto object = test::decoded<AttachedObjectMessage>(whole);
   EXPECT_EQ(object.weight, 2.5);
   EXPECT_EQ(object.object.subframe_names, std::vector<std::string>{"tip"});
 }
@@ -266,9 +262,7 @@ TEST(RosReference, ItsPlansAreRead) {
     "trajectory_start": {"joint_state": {"name": ["a"], "position": [0.25]}}})");
   Exchange exchange;
   const auto payload = exchange.encoded("moveit_msgs/msg/DisplayTrajectory", plan);
-  DisplayTrajectoryMessage message;
-  const auto fault = Decoder<DisplayTrajectoryMessage>().decode(payload, message);
-  ASSERT_FALSE(fault) << *fault;
+  const auto message = test::decoded<DisplayTrajectoryMessage>(payload);
   EXPECT_EQ(message.model_id, "arm");
   ASSERT_EQ(message.parts.size(), 1U);
   const JointTrajectoryMessage& read = message.parts[0].joints;

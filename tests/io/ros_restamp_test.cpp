@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ros_samples.hpp"
 
-#include <gtest/gtest.h>
-
 #include <io/ros/restamp.hpp>
 
 namespace penumbra::test {
@@ -31,14 +29,11 @@ void expect_as_encoded(M message, Shift shift_stamps) {
   EXPECT_TRUE(payload == wanted) << io::message_type<M>();
 }
 
-template <typename M>
-class Restamp : public testing::Test {};
-using Stamped = testing::Types<io::ImageMessage, io::CompressedImageMessage, io::CameraInfoMessage,
-                               io::JointStateMessage, io::PointCloud2Message>;
-TYPED_TEST_SUITE(Restamp, Stamped);
-
-TYPED_TEST(Restamp, ChangesTheStampAndNothingElse) {
-  expect_as_encoded(sample<TypeParam>(), [](TypeParam& message) { message.header.stamp += shift; });
+TEST(Restamp, ChangesTheStampAndNothingElse) {
+  for_each_sample([](const auto& message) {
+    if constexpr (requires { message.header; })
+      expect_as_encoded(message, [](auto& moved) { moved.header.stamp += shift; });
+  });
 }
 
 TEST(Restamp, FindsHeadersInSequences) {

@@ -10,6 +10,9 @@
 #include <tuple>
 #include <vector>
 
+#include <gtest/gtest.h>
+
+#include <io/ros/cdr_writer.hpp>
 #include <io/ros/lidar_messages.hpp>
 #include <io/ros/message_decoder.hpp>
 #include <io/ros/message_encoder.hpp>
@@ -157,6 +160,14 @@ std::vector<std::byte> encoded(const M& message) {
   return payload;
 }
 
+template <typename M>
+M decoded(std::span<const std::byte> payload) {
+  M message;
+  const auto fault = io::Decoder<M>().decode(payload, message);
+  EXPECT_FALSE(fault) << *fault;
+  return message;
+}
+
 /// A copy that ends where its memory ends, so that sanitizers see each byte read past it.
 struct ExactCopy {
   explicit ExactCopy(std::span<const std::byte> from)
@@ -169,8 +180,48 @@ struct ExactCopy {
   std::unique_ptr<std::byte[]> memory;
 };
 
-/// Payloads of messages that are read but not written, put together by hand: one detection each.
-std::vector<std::byte> detection_2d_payload();
-std::vector<std::byte> detection_3d_payload();
+// Payloads of messages that are read but not written, put together by hand: one detection each.
+
+inline void write_detections_header(io::CdrWriter& writer) {
+  writer.write(std::int32_t{1'699'999'999});
+  writer.write(std::uint32_t{987'654'321});
+  writer.write_string("camera/optical");
+}
+
+inline void write_doubles(io::CdrWriter& writer, std::initializer_list<double> values) {
+  for (const double value : values) writer.write(value);
+}
+
+// Header, detections, and of the one its header and two hypotheses.
+inline void begin_detections(io::CdrWriter& writer) {
+  write_detections_header(writer);
+  writer.write_count(1);
+  write_detections_header(writer);
+  writer.write_count(2);
+  for (const char* name : {"cup", "person"}) {
+    writer.write_string(name);
+    writer.write(0.5);
+    write_doubles(writer, {1, 2, 3, 0, 0, 0, 1});
+    for (int i = 0; i < 36; ++i) writer.write(static_cast<double>(i));
+  }
+}
+
+inline std::vector<std::byte> detection_2d_payload() {
+  std::vector<std::byte> payload;
+  io::CdrWriter writer(payload);
+  begin_detections(writer);
+  write_doubles(writer, {320.5, 240.25, 0.1, 64, 32});
+  writer.write_string("track/7");
+  return payload;
+}
+
+inline std::vector<std::byte> detection_3d_payload() {
+  std::vector<std::byte> payload;
+  io::CdrWriter writer(payload);
+  begin_detections(writer);
+  write_doubles(writer, {0.5, -0.25, 2, 0, 0, 0.6, 0.8, 0.1, 0.2, 0.3});
+  writer.write_string("box");
+  return payload;
+}
 
 }  // namespace penumbra::test

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-#include <span>
+// What messages say of targets, and what becomes of messages of targets.
+#include "../support/test.hpp"
+#include "robots.hpp"
 
-#include <gtest/gtest.h>
-
+#include <io/ros/message_definition.hpp>
+#include <io/ros/target_inbox.hpp>
 #include <io/ros/target_messages.hpp>
 
 namespace penumbra::io {
 namespace {
 
-TEST(RosTargets, AReportsTargetsArrive) {
-  TargetReport part{}, lost{};
-  part.name = "part";
-  part.stamp = 77;
+TEST(RosTargets, WhatIsKnownOfATargetArrives) {
+  TargetReport part{};
   part.judgement.emplace();
   part.judgement->covered = 200;
   part.judgement->inside = 100;
@@ -21,32 +20,16 @@ TEST(RosTargets, AReportsTargetsArrive) {
   part.point = Eigen::Vector3d(1, 2, 3);
   part.handled = HandledTarget{Source::held, 0.5, Eigen::Vector3d(4, 5, 6),
                                Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 0.01};
-  lost.name = "wrist";
-  lost.reason = "not found";
-  const std::vector<TargetReport> targets = {part, lost};
   FrameReport report;
-  report.stamp = 123;
-  report.status = FrameStatus::missing_depth;
-  report.targets = targets;
-  const TargetsMessage message = targets_message(report, "optical", "base");
-  EXPECT_EQ(message.header.stamp, 123);
-  EXPECT_EQ(message.header.frame_id, "optical");
-  EXPECT_EQ(message.root_frame, "base");
-  EXPECT_EQ(message.status, "missing_depth");
-  ASSERT_EQ(message.targets.size(), 2U);
-  const TargetMessage& told = message.targets[0];
-  EXPECT_EQ(told.stamp, 77);
+  report.targets = std::span(&part, 1);
+  const TargetMessage told = targets_message(report, "optical", "base").targets.at(0);
   EXPECT_EQ(told.covered, 200U);
   EXPECT_EQ(told.occluded_fraction, 0.375);
   ASSERT_EQ(told.blame.size(), 2U);
   EXPECT_EQ(told.blame[0].link, "tool");
   EXPECT_EQ(told.point, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(told.pose.orientation, Eigen::Vector4d(0.5, -0.5, 0.5, 0.5));  // x, y, z, w
-  const TargetMessage& second = message.targets[1];
-  EXPECT_EQ(second.verdict, TargetMessage::unknown);
-  EXPECT_EQ(second.reason, "not found");
-  EXPECT_FALSE(second.has_stamp || second.judged);
-  EXPECT_TRUE(second.point.array().isNaN().all());
+  EXPECT_FALSE(told.has_stamp);
 }
 
 /// The number of NaN among a target's numbers, without its pose.
@@ -78,39 +61,133 @@ TEST(RosTargets, OnlyWhatIsNotKnownIsNaN) {
   EXPECT_TRUE(std::isnan(sent().pose.position.x())) << "it is lost";
 }
 
-TEST(RosTargets, EachValueHasItsOwn) {
-  using T = TargetMessage;
+TEST(RosTargets, EachValueIsAConstantOfTheDefinition) {
+  const std::string definition(definition_of("penumbra_msgs/Target"));
+  const auto expect_constant = [&](std::string name, int value) {
+    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::toupper(c); });
+    EXPECT_TRUE(test::holds(definition, "\nuint8 " + name + "=" + std::to_string(value) + "\n"));
+  };
   TargetReport target{};
-  target.name = "t";
   FrameReport report;
   report.targets = std::span(&target, 1);
   const auto sent = [&] { return targets_message(report, "c", "r").targets[0]; };
-  for (const auto& [verdict, value] : {std::pair(Verdict::visible, T::visible),
-                                       {Verdict::partial, T::partial},
-                                       {Verdict::hidden, T::hidden},
-                                       {Verdict::unknown, T::unknown},
-                                       {Verdict::out_of_view, T::out_of_view},
-                                       {Verdict::held, T::held_by_link}}) {
+  expect_constant("not_handled", sent().source);
+  expect_constant("no_estimate", sent().estimate);
+  for (const Verdict verdict : {Verdict::visible, Verdict::partial, Verdict::hidden,
+                                Verdict::unknown, Verdict::out_of_view, Verdict::held}) {
     target.verdict = verdict;
-    EXPECT_EQ(sent().verdict, value);
-    EXPECT_EQ(sent().verdict_name, to_string(verdict));
+    const std::string name(to_string(verdict));
+    EXPECT_EQ(sent().verdict_name, name);
+    expect_constant(verdict == Verdict::held ? "held_by_link" : name, sent().verdict);
   }
   target.handled = HandledTarget{};
-  for (const auto& [source, value] : {std::pair(Source::measured, T::measured),
-                                      {Source::predicted, T::predicted},
-                                      {Source::held, T::held},
-                                      {Source::lost, T::lost}}) {
+  for (const Source source : {Source::measured, Source::predicted, Source::held, Source::lost}) {
     target.handled->source = source;
-    EXPECT_EQ(sent().source, value);
+    expect_constant(std::string(to_string(source)), sent().source);
   }
-  for (const auto& [outcome, value] : {std::pair(Outcome::accepted, T::accepted),
-                                       {Outcome::refused_verdict, T::refused_verdict},
-                                       {Outcome::refused_gate, T::refused_gate},
-                                       {Outcome::refused_late, T::refused_late},
-                                       {Outcome::refused_invalid, T::refused_invalid}}) {
+  for (const Outcome outcome : {Outcome::accepted, Outcome::refused_verdict, Outcome::refused_gate,
+                                Outcome::refused_late, Outcome::refused_invalid}) {
     target.estimate = outcome;
-    EXPECT_EQ(sent().estimate, value);
+    expect_constant(std::string(to_string(outcome)), sent().estimate);
   }
+}
+
+// Which targets messages become, and under which names.
+
+class TargetInboxTest : public testing::Test {
+ protected:
+  /// Identities by names.
+  std::map<std::string, bool> taken() {
+    std::map<std::string, bool> all;
+    for (const Target& target : inbox_.take(last)) all[target.name] = target.has_identity;
+    return all;
+  }
+  template <typename Detection>
+  static Detection detection(const std::string& id, const std::string& class_id) {
+    Detection one;
+    one.id = id;
+    one.results = {{{"other", 0.1}}, {{class_id, 0.9}}};
+    return one;
+  }
+
+  /// Key points that are each seen once.
+  KeypointsMessage tracked(std::int64_t stamp, int first, int count) {
+    KeypointsMessage message{{stamp, "optical"}, {}};
+    names_.clear();
+    for (int i = 0; i < count; ++i) names_.push_back(std::to_string(first + i));
+    for (const std::string& name : names_) message.keypoints.push_back({.name = name});
+    return message;
+  }
+
+  static constexpr std::int64_t last = std::numeric_limits<std::int64_t>::max();  // of frames
+  std::vector<std::string> names_;  // of the last of these
+  const Robot robot_ = test::arm();
+  TargetInbox inbox_{robot_, "optical"};
+  const MessageHeader header_{7, "optical"};
+};
+
+using Names = std::map<std::string, bool>;
+
+TEST_F(TargetInboxTest, NamesMadeOfAPlaceAreNoIdentity) {
+  const auto cup = [](const std::string& id) { return detection<Detection2DMessage>(id, "cup"); };
+  inbox_.add("/d", Detection2DArrayMessage{header_, {cup(""), cup("7"), cup("")}});
+  EXPECT_EQ(taken(), (Names{{"/d/cup", false}, {"/d/7", true}, {"/d/cup 2", false}}));
+  inbox_.add("/d", Detection2DArrayMessage{header_, {cup("")}});
+  EXPECT_EQ(taken(), (Names{{"/d/cup", false}})) << "the other may be the one that is hidden";
+}
+
+TEST_F(TargetInboxTest, IdsThatStandTwiceAreNone) {
+  const auto cup = [](const std::string& id) { return detection<Detection3DMessage>(id, "cup"); };
+  inbox_.add("/d", Detection3DArrayMessage{header_, {cup("7"), cup("8"), cup("7")}});
+  EXPECT_EQ(taken(), (Names{{"/d/7", false}, {"/d/8", true}, {"/d/7 2", false}}));
+  inbox_.add("/d", Detection3DArrayMessage{header_, {cup(""), cup("cup")}});
+  EXPECT_EQ(taken(), (Names{{"/d/cup", false}, {"/d/cup 2", false}})) << "an id as a class is";
+  inbox_.add("/d", Detection3DArrayMessage{header_, {cup("7"), cup("7"), cup("7 2")}});
+  EXPECT_EQ(taken(), (Names{{"/d/7", false}, {"/d/7 2", false}, {"/d/7 2 2", false}}));
+}
+
+/// Tracking ids that are always new, and no image that they could be judged on.
+TEST_F(TargetInboxTest, WhatIsNotTakenDoesNotPileUp) {
+  constexpr std::int64_t frame = 33'000'000, start = 1'000'000'000'000;
+  constexpr int each = 5, messages = 20'000;
+  std::size_t most = 0;
+  for (int m = 0; m < messages; ++m) {
+    inbox_.add("/k", tracked(start + m * frame, m * each, each));
+    most = std::max(most, inbox_.waiting());
+  }
+  EXPECT_LE(most, each * (TargetInbox::longest_lag / frame + 2));
+  EXPECT_EQ(inbox_.discarded() + inbox_.waiting(), std::size_t{each * messages});
+  EXPECT_EQ(inbox_.replaced(), 0U);
+  const std::size_t waiting = inbox_.waiting();
+  const std::vector<Target> all = inbox_.take(last);
+  ASSERT_EQ(all.size(), waiting);
+  EXPECT_EQ(all.back().name, "/k/" + names_.back());
+  for (const Target& one : all)
+    EXPECT_GE(*one.stamp, start + (messages - 1) * frame - TargetInbox::longest_lag);
+}
+
+TEST_F(TargetInboxTest, WhatIsEarlierThanItsFrameWaitsForIt) {
+  constexpr std::int64_t ms = 1'000'000, start = 1'000'000'000'000;
+  const auto say = [&](std::int64_t stamp) {
+    inbox_.add("/k", PoseStampedMessage{{stamp, "optical"}, {}});
+  };
+  const auto stamps = [&](std::int64_t frame) {
+    std::vector<std::int64_t> all;
+    for (const Target& target : inbox_.take(frame)) all.push_back(*target.stamp - start);
+    return all;
+  };
+  using Stamps = std::vector<std::int64_t>;
+  say(start + 100 * ms);
+  say(start + 200 * ms);
+  EXPECT_EQ(stamps(start), Stamps{});
+  EXPECT_EQ(stamps(start + 100 * ms), Stamps{100 * ms});
+  EXPECT_EQ(stamps(start + 300 * ms), Stamps{200 * ms}) << "its frame never came";
+  say(start + 400 * ms);
+  say(start + 500 * ms);
+  EXPECT_EQ(stamps(start + 500 * ms), Stamps{500 * ms}) << "the newest of the name";
+  EXPECT_EQ(inbox_.replaced(), 1U);
+  say(start + 10'000 * ms);
+  EXPECT_EQ(stamps(start + 600 * ms), Stamps{10'000 * ms}) << "of another clock";
 }
 
 }  // namespace

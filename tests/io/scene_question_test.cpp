@@ -2,8 +2,6 @@
 // What MoveIt attached before it was asked, and what it publishes meanwhile.
 #include "live_scene.hpp"
 
-#include <gtest/gtest.h>
-
 #include <io/live/scene_question.hpp>
 #include <io/ros/moveit_messages.hpp>
 

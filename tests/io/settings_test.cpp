@@ -2,11 +2,7 @@
 // Settings: the tables of the documents are those of the descriptions; files and options agree with
 // check().
 
-#include "../support/errors.hpp"
-
-#include <sstream>
-
-#include <gtest/gtest.h>
+#include "../support/test.hpp"
 
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/targets/target_judge.hpp>

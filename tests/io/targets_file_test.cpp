@@ -2,8 +2,6 @@
 #include "files.hpp"
 #include "robots.hpp"
 
-#include <gtest/gtest.h>
-
 #include <io/files/png.hpp>
 #include <io/files/targets_file.hpp>
 

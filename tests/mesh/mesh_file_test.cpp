@@ -265,15 +265,5 @@ TEST(Polygon, CombsAndCornersOnALineAreCoveredOnce) {
   expect_covered({{0, 0}, {1, 0}, {1, 0}, {1, 1}, {0, 1}}, Isometry3d::Identity());
 }
 
-TEST(Polygon, ALargeOneIsCutQuickly) {
-  Points circle;
-  for (int i = 0; i < 4000; ++i)
-    circle.emplace_back(std::cos(i * std::numbers::pi / 2000),
-                        std::sin(i * std::numbers::pi / 2000));
-  expect_covered(circle, Isometry3d::Identity());
-  circle.emplace_back(1.0, -1e-4);
-  EXPECT_THROW(cut(circle, Isometry3d::Identity()), mesh_formats::FormatError);
-}
-
 }  // namespace
 }  // namespace penumbra::test

@@ -8,7 +8,6 @@ namespace penumbra::test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double silhouette_limit = 1e-4;  // metres
 constexpr double radii[] = {1e-6, 1e-4, 0.001, 0.02, 0.05, 0.3, 2.0};
 
 using Distance = std::function<double(const Vector3d&)>;
@@ -41,7 +40,6 @@ double surface_error(const TriangleMesh& mesh, const Distance& distance) {
 void expect_solid(const TriangleMesh& mesh, double volume, double area, const Distance& distance) {
   const double rounding = 1e-6 * std::cbrt(volume);
   EXPECT_LE(surface_error(mesh, distance), primitive_error + rounding);
-  EXPECT_LT(primitive_error, silhouette_limit);
   const PreparedMesh prepared(mesh);
   EXPECT_EQ(prepared.vertices.size(), mesh.vertices.size()) << "vertices shared already";
   EXPECT_EQ(prepared.triangles.size(), mesh.triangles.size()) << "no degenerate triangle";
@@ -59,30 +57,18 @@ TEST(MeshPrimitives, Box) {
                [&](const Vector3d& p) { return (p.cwiseAbs() - size / 2.0).maxCoeff(); });
 }
 
-TEST(MeshPrimitives, Sphere) {
+TEST(MeshPrimitives, RoundOnes) {
   for (const double r : radii) {
-    const TriangleMesh sphere = make_sphere(r);
-    expect_solid(sphere, 4.0 / 3.0 * pi * r * r * r, 4.0 * pi * r * r,
+    SCOPED_TRACE(r);
+    expect_solid(make_sphere(r), 4.0 / 3.0 * pi * r * r * r, 4.0 * pi * r * r,
                  [=](const Vector3d& p) { return capsule_distance(p, r, 0.0); });
-  }
-}
-
-TEST(MeshPrimitives, Cylinder) {
-  for (const double r : radii) {
-    const TriangleMesh cylinder = make_cylinder(r, 0.4);
-    expect_solid(cylinder, pi * r * r * 0.4, 2.0 * pi * r * 0.4,
+    expect_solid(make_cylinder(r, 0.4), pi * r * r * 0.4, 2.0 * pi * r * 0.4,
                  [=](const Vector3d& p) { return cylinder_distance(p, r, 0.4); });
-  }
-}
-
-TEST(MeshPrimitives, Capsule) {
-  for (const double r : radii)
-    for (const double length : {0.0, 0.001, 0.4}) {
-      const TriangleMesh capsule = make_capsule(r, length);
-      const double volume = pi * r * r * (4.0 / 3.0 * r + length);
-      expect_solid(capsule, volume, 2.0 * pi * r * (2.0 * r + length),
+    for (const double length : {0.0, 0.001, 0.4})
+      expect_solid(make_capsule(r, length), pi * r * r * (4.0 / 3.0 * r + length),
+                   2.0 * pi * r * (2.0 * r + length),
                    [=](const Vector3d& p) { return capsule_distance(p, r, length); });
-    }
+  }
 }
 
 TEST(MeshPrimitives, SizesThatAreNoneAreRefused) {

@@ -2,17 +2,12 @@
 #include "../support/allocations.hpp"
 #include "slab_scene.hpp"
 
-#include <penumbra/pipeline/frame_queue.hpp>
-
 namespace penumbra::test {
 namespace {
 
 /// Frames in which memory grows: both kinds of depth, in every frame that is kept, and as many
 /// estimates as are remembered.
 constexpr int warm_up = 40;
-
-/// Two frames, the joint positions and the links' poses.
-constexpr std::size_t two_frames_and_a_pose = 4;
 
 /// A target's report has names and a reason of its own.
 constexpr std::size_t strings_of_a_target = 4;
@@ -67,38 +62,6 @@ TEST_P(AllocationTest, OnlyStringsOfTargetsAreAllocated) {
     ASSERT_EQ(report.status, FrameStatus::ok);
     if (i < warm_up) continue;
     ASSERT_LE(after - before, strings_of_a_target * frame.targets.size()) << "frame " << i;
-  }
-}
-
-TEST(QueueAllocations, OnlyFramesAndTheirPosesAreAllocated) {
-  const Robot robot = slab_robot();
-  PoseHistory history(robot, {.joints = {.history = 0.1}, .transforms = {.history = 0.1}});
-  history.add_static_transform("base", "a_camera_with_a_long_name", Isometry3d::Identity());
-  FrameQueue queue(
-      robot, history,
-      {.poses = {.source = PoseSource::both, .camera_frame = "a_camera_with_a_long_name"}},
-      [](const auto&, DropReason) {});
-  const std::vector<std::string> names{"slide"};
-  for (int i = 1; i < 400; ++i) {
-    const std::int64_t stamp = std::int64_t{10'000'000} * i;
-    const std::vector<double> positions{0.001 * i};
-    const Isometry3d T = at(0, 0, 1 + positions[0]);
-    const std::size_t before = allocations();
-    history.add_joints(stamp, names, positions);
-    history.add_joints(stamp, names, positions, "another publisher of the joint states");
-    history.add_transform(stamp, "base", "slab", T);
-    history.add_transform(stamp, "base", "slab", T, "another publisher of the transforms");
-    queue.push({.stamp = stamp - 5'000'000}, stamp);
-    queue.push({.stamp = stamp - 3'000'000}, stamp);
-    const auto queued = queue.next(stamp);
-    const std::size_t after = allocations();
-    if (i > 1) {
-      ASSERT_TRUE(queued);
-      ASSERT_EQ(queued->pose.status, FrameStatus::ok) << queued->pose.message;
-    }
-    if (i > 100) {
-      ASSERT_LE(after - before, two_frames_and_a_pose) << "frame " << i;
-    }
   }
 }
 

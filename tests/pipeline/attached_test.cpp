@@ -3,26 +3,11 @@
 #include "../support/opengl.hpp"
 #include "slab_scene.hpp"
 
-#include <penumbra/mesh/primitives.hpp>
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 
 namespace penumbra::test {
 namespace {
-
-const Vector3d part_size(0.13, 0.11, 0.09);
-
-AttachedBody body(const std::string& name, const std::string& link, const Vector3d& at) {
-  return {name, link, std::make_shared<PreparedMesh>(make_box(part_size)), test::at(at)};
-}
-
-/// Beside the slab, and partly before it.
-AttachedBody part() { return body("part", "slab", {0.19, 0.06, -0.08}); }
-
-/// Where part() is.
-SlabBox part_box(double slide = 0.0) { return {Vector3d(0.19, 0.06, 0.92 + slide), part_size, 4}; }
-
-const PixelBox behind_part{101, 61, 4, 6};
 
 PENUMBRA_BACKEND_TEST(AttachedTo);
 
@@ -137,7 +122,7 @@ TEST(Attached, StampsDecideInAnyOrderOfMessages) {
     Attachments attachments;
     std::map<std::int64_t, std::pair<std::string, bool>> changes;  // by stamp
     std::vector<AttachedBody> now;
-    for (int step = 0; step < 400; ++step) {
+    for (int step = 0; step < (trial == 0 ? 2500 : 400); ++step) {  // from 1000 on, some are merged
       const std::int64_t stamp = 10 * step - below(200);
       const std::string name(1, char('a' + below(4)));
       if (changes.contains(stamp)) continue;
@@ -156,20 +141,6 @@ TEST(Attached, StampsDecideInAnyOrderOfMessages) {
       ASSERT_EQ(now.size(), wanted.size());
       for (const AttachedBody& each : now) ASSERT_TRUE(wanted.contains(each.name));
     }
-  }
-}
-
-TEST(Attached, ChangesAreMergedWithoutEnd) {
-  Attachments attachments;
-  std::vector<AttachedBody> now;
-  attachments.attach(1, {.name = "tool", .link = "slab", .mesh = {}});
-  for (std::int64_t i = 0; i < 5000; ++i) {
-    attachments.attach(10 + 2 * i, {.name = "part", .link = "slab", .mesh = {}});
-    attachments.at(10 + 2 * i, now);
-    ASSERT_EQ(now.size(), 2U);
-    attachments.detach(11 + 2 * i, "part");
-    attachments.at(11 + 2 * i, now);
-    ASSERT_EQ(now.size(), 1U);
   }
 }
 

@@ -35,19 +35,6 @@ class QueueTest : public testing::Test {
   std::shared_ptr<Frame> frame_;
 };
 
-TEST_F(QueueTest, DisagreementIsKnownAtOnce) {
-  joint(1000);
-  history_.add_transform(1000 * ms, "base", "slab", Isometry3d::Identity());
-  for (const DropPolicy policy : {DropPolicy::newest, DropPolicy::every}) {
-    make({.policy = policy, .poses = {.source = PoseSource::both}});
-    image(1000, 1001);
-    ASSERT_EQ(next(1001), 1000);
-    EXPECT_EQ(frame_->pose.status, FrameStatus::poses_disagree);
-    EXPECT_TRUE(frame_->pose.positions.empty());
-    EXPECT_TRUE(frame_->pose.T_root_link.empty());
-  }
-}
-
 TEST_F(QueueTest, TwoCamerasShareAHistory) {
   make({.policy = DropPolicy::newest});
   std::vector<DropReason> dropped;

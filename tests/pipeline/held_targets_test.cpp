@@ -2,12 +2,9 @@
 // Targets that a link picks up and puts down, against boxes that a formula intersects.
 #include "slab_scene.hpp"
 
-#include <penumbra/mesh/primitives.hpp>
-
 namespace penumbra::test {
 namespace {
 
-const Vector3d cup_size(0.13, 0.11, 0.09);
 const Vector3d picked(0.19, 0.06, 0.92);  // of its centre, where the slab takes it
 constexpr std::int64_t period = 33 * ms;
 constexpr double exact = 1e-9;  // metres: a chain of a few rotations in double
@@ -15,7 +12,7 @@ constexpr double exact = 1e-9;  // metres: a chain of a few rotations in double
 Target cup(const Vector3d& at, TargetHandling handling = {}) {
   return {
       .name = "cup",
-      .shape = BoxTarget{.pose = test::at(at), .size = cup_size, .frame = ReferenceFrame::root()},
+      .shape = BoxTarget{.pose = test::at(at), .size = part_size, .frame = ReferenceFrame::root()},
       .handling = std::move(handling)};
 }
 
@@ -24,7 +21,7 @@ class Carrying : public testing::Test {
  protected:
   /// Judges a frame of the scene with the cup at `at` and the slab at `slide`.
   const FrameReport& see(const Target& target, double slide, const Vector3d& at) {
-    const SlabBox box{at, cup_size, attached_.empty() ? 0 : 4};
+    const SlabBox box{at, part_size, attached_.empty() ? 0 : 4};
     depth_ = scene_depth(slab_camera(), slide, {box});
     Frame frame = frame_of(depth_, slide, {target}, attached_);
     frame.stamp = stamp_ += period;
@@ -112,10 +109,10 @@ TEST(AttachTarget, TurnsWithTheLink) {
       Translation3d(pivot) * turned(after - before) * Translation3d(-pivot) * start;
   const Isometry3d in_arm = turned(-before) * Translation3d(-pivot) * start;  // T_arm_root * start
   const Image<float> depth = scene_depth(slab_camera(), 0.9);
-  const auto mesh = std::make_shared<const PreparedMesh>(make_box(cup_size));
+  const auto mesh = std::make_shared<const PreparedMesh>(make_box(part_size));
   const TargetShape shapes[] = {
-      BoxTarget{.pose = start, .size = cup_size, .frame = ReferenceFrame::root()},
-      BoxTarget{.pose = start, .size = cup_size},  // the camera is at the root
+      BoxTarget{.pose = start, .size = part_size, .frame = ReferenceFrame::root()},
+      BoxTarget{.pose = start, .size = part_size},  // the camera is at the root
       MeshTarget{.mesh = mesh, .pose = in_arm, .frame = ReferenceFrame::of_link("arm")}};
   for (const TargetShape& shape : shapes)
     for (const bool is_handled : {false, true}) {
@@ -182,23 +179,18 @@ TEST_F(Carrying, WhatIsNotKnownIsNotAttached) {
   refuses(target, "pose");
 }
 
-AttachedBody attached_cup(const Isometry3d& T_link_body = Isometry3d::Identity()) {
-  return {"cup", "slab", std::make_shared<PreparedMesh>(make_box(cup_size)), T_link_body};
-}
-
 /// A target's verdict and what hides it are those of its stamp.
 TEST(HeldTargets, LateOnesAreHeldIfTheyWereAtTheirStamp) {
   PipelineConfig config = plain_config();
   config.target_history = 1.0;
   Pipeline pipeline(slab_robot(), slab_camera(), config);
-  const Image<float> with = scene_depth(slab_camera(), 0.0, {{picked, cup_size, 4}});
+  const Image<float> with = scene_depth(slab_camera(), 0.0, {part_box()});
   const Image<float> without = scene_depth(slab_camera(), 0.0);
   const auto expect = [&](std::int64_t stamp, bool is_carried, std::int64_t asked, Verdict of_cup,
                           Verdict behind_it) {
-    Frame frame =
-        frame_of(is_carried ? with : without, 0.0,
-                 {region("cup", PixelBox{5, 5, 6, 6}), region("behind", PixelBox{101, 61, 4, 6})});
-    if (is_carried) frame.pose.attached = {attached_cup(at(0.19, 0.06, -0.08))};
+    Frame frame = frame_of(is_carried ? with : without, 0.0,
+                           {region("cup", PixelBox{5, 5, 6, 6}), region("behind", behind_part)});
+    if (is_carried) frame.pose.attached = {part("cup")};
     frame.stamp = stamp * ms;
     for (Target& target : frame.targets) target.stamp = asked * ms;
     expect_verdicts(pipeline.process(frame), {of_cup, behind_it});
@@ -214,7 +206,7 @@ TEST(HeldTargets, LateOnesAreHeldIfTheyWereAtTheirStamp) {
 /// Without a depth image the carrier's pose is known; without joints nothing is.
 TEST(HeldTargets, NeedThePoseOnly) {
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
-  Frame frame{.pose = {.attached = {attached_cup()}}, .targets = {cup(picked)}};
+  Frame frame{.pose = {.attached = {part("cup")}}, .targets = {cup(picked)}};
   const TargetReport& without_pose = pipeline.process(frame).targets[0];
   EXPECT_EQ(without_pose.verdict, Verdict::unknown);
   EXPECT_TRUE(holds(without_pose.reason, to_string(FrameStatus::missing_joints)));

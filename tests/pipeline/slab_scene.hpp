@@ -6,6 +6,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/camera/camera.hpp>
+#include <penumbra/mesh/primitives.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/robot/robot.hpp>
 
@@ -116,6 +117,20 @@ void expect_drawn(const VirtualDepthView& drawn, Cast&& cast_ray) {
     ASSERT_EQ(drawn.links(u, v), seen.link) << u << ',' << v;
   }
 }
+
+/// What the slab carries beside itself, and partly before it.
+inline const Vector3d part_size(0.13, 0.11, 0.09);
+inline AttachedBody body(const std::string& name, const std::string& link, const Vector3d& at) {
+  return {name, link, std::make_shared<PreparedMesh>(make_box(part_size)), test::at(at)};
+}
+inline AttachedBody part(const std::string& name = "part") {
+  return body(name, "slab", {0.19, 0.06, -0.08});
+}
+/// Where part() is.
+inline SlabBox part_box(double slide = 0.0) {
+  return {Vector3d(0.19, 0.06, 0.92 + slide), part_size, 4};
+}
+inline const PixelBox behind_part{101, 61, 4, 6};
 
 inline Target region(const char* name, const Region& shape) {
   return {.name = name, .shape = RegionTarget{shape}};

@@ -160,7 +160,7 @@ TEST_F(TargetsTest, NamesUsedTwiceAreBothUnknown) {
   EXPECT_EQ(judge(3, same).verdict, Verdict::visible);
 }
 
-TEST_F(TargetsTest, KeypointsInMetresTakeTheDepthAtTheirPixel) {
+TEST_F(TargetsTest, KeypointsInMetresTakeTheDepthAtTheirPixelUnlessItIsTheRobots) {
   const KeypointTarget shape{.pixel = {20, 85}, .semi_axes = {0.3, 0.3}, .in_metres = true};
   const TargetReport& report = judge(1, {.name = "k", .shape = shape});
   const double radius = 0.3 * 120.3 / wall_depth;
@@ -168,6 +168,14 @@ TEST_F(TargetsTest, KeypointsInMetresTakeTheDepthAtTheirPixel) {
               2.0 * std::numbers::pi * radius * 0.5);
   depth_(20, 85) = 0.0F;
   EXPECT_TRUE(holds(judge(2, {.name = "k", .shape = shape}).reason, "no depth"));
+
+  // The robot's depth would make the ellipse larger, and what is hidden a smaller share of it.
+  KeypointTarget behind{.pixel = {70, 56}, .semi_axes = {0.05, 0.05}, .in_metres = true};
+  const TargetReport& unknown = judge(3, {.name = "k", .shape = behind});
+  EXPECT_EQ(unknown.verdict, Verdict::unknown);
+  EXPECT_TRUE(holds(unknown.reason, "the robot's"));
+  behind.expected_depth = 2.0;
+  EXPECT_EQ(judge(4, {.name = "k", .shape = behind}).verdict, Verdict::hidden);
 }
 
 /// A detector's two cups, named by their place in its message, which goes by score. A large one
@@ -218,16 +226,6 @@ TEST_F(TargetsTest, ABallCoversThePixelsWhoseRaysMeetIt) {
       EXPECT_NEAR(double(report.judgement->covered), double(pixels), edge * double(pixels))
           << x << ' ' << y;
     }
-}
-
-/// The robot's depth would make the ellipse larger, and what is hidden a smaller share of it.
-TEST_F(TargetsTest, KeypointsInMetresDoNotTakeTheRobotsDepth) {
-  KeypointTarget shape{.pixel = {70, 56}, .semi_axes = {0.05, 0.05}, .in_metres = true};
-  const TargetReport& report = judge(1, {.name = "k", .shape = shape});
-  EXPECT_EQ(report.verdict, Verdict::unknown);
-  EXPECT_TRUE(holds(report.reason, "the robot's"));
-  shape.expected_depth = 2.0;
-  EXPECT_EQ(judge(2, {.name = "k", .shape = shape}).verdict, Verdict::hidden);
 }
 
 }  // namespace

@@ -3,10 +3,13 @@
 #pragma once
 
 #include "../support/data.hpp"
-#include "link_rays.hpp"
+#include "../support/test.hpp"
+
+#include <embree3/rtcore.h>
 
 #include <penumbra/camera/camera.hpp>
 #include <penumbra/labels/labels.hpp>
+#include <penumbra/robot/robot.hpp>
 #include <penumbra/targets/target.hpp>
 
 namespace penumbra::test {
@@ -54,6 +57,99 @@ inline std::vector<Robot> arms() {
       robots.push_back(Robot::load(data_folder() / "robots" / name / (name + ".urdf")));
   return robots;
 }
+
+/// Casts rays at a robot that moves, with Embree: each link is an instance.
+class LinkRays {
+ public:
+  explicit LinkRays(const Robot& robot) {
+    if (device_ == nullptr) throw std::runtime_error("Embree makes no device");
+    world_ = rtcNewScene(device_);
+    rtcSetSceneFlags(world_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
+    for (std::size_t link = 0; link < robot.links().size(); ++link)
+      if (!robot.meshes(link).empty()) add(robot, link);
+  }
+  ~LinkRays() {
+    for (const RTCScene each : meshes_) rtcReleaseScene(each);
+    for (const RTCGeometry each : instances_) rtcReleaseGeometry(each);
+    rtcReleaseScene(world_);
+    rtcReleaseDevice(device_);
+  }
+  LinkRays(const LinkRays&) = delete;
+  LinkRays& operator=(const LinkRays&) = delete;
+
+  void place(std::span<const Isometry3d> T_root_link) {
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+      const Eigen::Matrix4f T = T_root_link[links_[i]].matrix().cast<float>();
+      rtcSetGeometryTransform(instances_[i], 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR, T.data());
+      rtcCommitGeometry(instances_[i]);
+    }
+    rtcCommitScene(world_);
+  }
+
+  /// The first surface on a ray from `from` before `most` lengths of `direction`.
+  struct Hit {
+    double at;         ///< in lengths of the direction
+    std::size_t link;  ///< index
+  };
+  [[nodiscard]] std::optional<Hit> cast(const Vector3d& from, const Vector3d& direction,
+                                        double most) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit ray{};
+    const Vector3f o = from.cast<float>(), d = direction.cast<float>();
+    ray.ray = {.org_x = o.x(),
+               .org_y = o.y(),
+               .org_z = o.z(),
+               .tnear = 0.01F,  // the near plane
+               .dir_x = d.x(),
+               .dir_y = d.y(),
+               .dir_z = d.z(),
+               .time = 0.0F,
+               .tfar = float(most),
+               .mask = ~0U,
+               .id = 0,
+               .flags = 0};
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(world_, &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return Hit{ray.ray.tfar, links_[ray.hit.instID[0]]};
+  }
+
+ private:
+  void add(const Robot& robot, std::size_t link) {
+    const RTCScene scene = meshes_.emplace_back(rtcNewScene(device_));
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    for (const TriangleMesh& mesh : robot.meshes(link)) {
+      const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+      auto* const vertices = static_cast<float*>(
+          rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                  3 * sizeof(float), mesh.vertices.size()));
+      for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        Eigen::Map<Vector3f>(vertices + 3 * i) = mesh.vertices[i];
+      auto* const indices = static_cast<unsigned*>(
+          rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                  3 * sizeof(unsigned), mesh.triangles.size()));
+      for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) indices[3 * i + k] = mesh.triangles[i][k];
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometry(scene, geometry);
+      rtcReleaseGeometry(geometry);
+    }
+    rtcCommitScene(scene);
+    const RTCGeometry instance =
+        instances_.emplace_back(rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE));
+    rtcSetGeometryInstancedScene(instance, scene);
+    rtcAttachGeometryByID(world_, instance, static_cast<unsigned>(links_.size()));
+    links_.push_back(link);
+  }
+
+  RTCDevice device_ = rtcNewDevice("threads=1");
+  RTCScene world_ = nullptr;
+  std::vector<RTCScene> meshes_;
+  std::vector<RTCGeometry> instances_;
+  std::vector<std::size_t> links_;  // of the instances
+};
 
 /// A ray of the camera that meets a target, and the depth where it does.
 struct TargetRay {

@@ -165,12 +165,13 @@ Target point_at(const Vector3d& position, const ReferenceFrame& frame, const cha
   return {.name = name, .shape = PointTarget{position, 0.03, frame}};
 }
 
+const ForecastCamera at_root = candidate("root", "", at(0.0, 0.0, 0.0));
+
 TEST(ViewPlanning, CamerasAndTargetsMoveWithTheirLinks) {
   const ForecastCamera on_slab = candidate("on slab", "slab", at(0.0, 0.0, 0.2));
   const Target ahead = point_at({0.0, 0.0, 1.5}, ReferenceFrame::of_link("slab"));
   for (const double slide : {0.0, 0.5, -0.5})
     EXPECT_EQ(judged(on_slab, {ahead}, slide).front(), Verdict::visible) << slide;
-  const ForecastCamera at_root = candidate("root", "", at(0.0, 0.0, 0.0));
   EXPECT_EQ(judged(at_root, {ahead}).front(), Verdict::hidden) << "by the slab itself";
   const Target box{.name = "box",
                    .shape = BoxTarget{at(0.0, 0.0, 2.0), {0.1, 0.1, 0.1}, ReferenceFrame::root()}};
@@ -179,7 +180,6 @@ TEST(ViewPlanning, CamerasAndTargetsMoveWithTheirLinks) {
 }
 
 TEST(ViewPlanning, WhatIsNotKnownIsNeverVisible) {
-  const ForecastCamera at_root = candidate("root", "", at(0.0, 0.0, 0.0));
   const Target beside = point_at({-0.6, 0.0, 1.4}, ReferenceFrame::root());
   EXPECT_EQ(judged(at_root, {beside}).front(), Verdict::visible);
   for (const DepthRange& range : {DepthRange{0.3, 1.3}, {1.5, 9.0}})
@@ -222,7 +222,6 @@ TEST(ViewPlanning, WhatIsTooNearToBeDrawnMakesUnknown) {
   const Robot robot =
       parse(slab_urdf(link_xml("foil", box_xml("0.4 0.4 0.001")) +
                       joint_xml("wrap", "fixed", "base", "foil", "<origin xyz=\"0 0 0.005\"/>")));
-  const ForecastCamera at_root = candidate("root", "", at(0.0, 0.0, 0.0));
   const std::vector<Frame> motion{
       frame_at(robot, 0.0,
                {point_at({-0.6, 0.0, 1.4}, ReferenceFrame::root()),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Several cameras: their frames, and one verdict over them."""
+"""Several cameras: their frames, and one verdict over them. Several robots as one."""
 
 import shutil
 
@@ -8,7 +8,8 @@ import pytest
 import yaml
 
 import penumbra
-from conftest import refuses, SHIPPED
+from conftest import Opened, refuses, SHIPPED
+from test_stages import pose
 
 
 @pytest.fixture
@@ -24,12 +25,8 @@ def folder(tmp_path):
     return folder
 
 
-def test_a_recording_of_several_cameras_wants_a_name(folder):
-    refuses("left, right", lambda: penumbra.open(folder))
-    assert len(penumbra.open(folder, camera="right")) == 12
-
-
 def test_targets_are_fused(folder):
+    refuses("left, right", lambda: penumbra.open(folder))
     given = [penumbra.open(folder, camera=name) for name in ("left", "right")]
     sessions = [penumbra.Session(one.robot, one.camera, one.config) for one in given]
     fusion = penumbra.TargetFusion([
@@ -50,3 +47,25 @@ def test_targets_are_fused(folder):
     np.testing.assert_allclose(fused.point, fused.views[0].point)
     np.testing.assert_allclose(fused.covariance, fused.views[0].covariance / 2)
     refuses("no camera 2", lambda: fusion.add(2, reports[0]))
+
+
+def test_robots_are_joined_and_fail_alone():
+    opened = Opened(SHIPPED)
+    aside = pose(0, 0.6, 0)
+    both = penumbra.Robot.join([("a", opened.robot, np.eye(4)), ("b", opened.robot, aside)])
+    assert both.links[0] == "world" and both.links[1] == "a/base_link"
+    config = opened.config.replace(camera_parent="a/base_link")
+    session = penumbra.Session(both, opened.camera, config)
+    frame = opened.frames[0]
+    joints = list(frame.pose.positions)
+    poses = both.forward_kinematics(joints + joints)
+    alone = opened.robot.forward_kinematics(joints)
+    assert np.allclose(poses[1 + len(alone):], aside @ alone, atol=1e-12)
+
+    report = session.process(frame.replace(pose=joints + joints))
+    assert report.status == penumbra.FrameStatus.ok
+    of_b = [i for i, link in enumerate(both.links) if link.startswith("b/")]
+    report = session.process(frame.replace(pose=penumbra.RobotPose(
+        positions=joints + joints, uncertain_links=of_b, uncertain_reason="stale")))
+    assert report.status == penumbra.FrameStatus.missing_link and "b/base_link" in report.message
+    refuses("name", lambda: penumbra.Robot.join([("a", opened.robot, np.eye(4)), ("a", opened.robot, aside)]))

@@ -483,7 +483,10 @@ def test_clouds_are_the_pipelines_without_the_robot(kind, arm, joints, tmp_path)
         assert seen.sum() > 60 and near.all()
 
 
-def test_few_points_are_repeated_and_none_are_zeros(arm, joints, tmp_path):
+def test_points_are_spread_and_few_are_repeated_and_none_are_zeros(arm, joints, tmp_path):
+    line = np.zeros((101, 3), np.float32)
+    line[:, 0] = np.arange(101)
+    assert line[mask_files.farthest_points(line, 5), 0].tolist() == [0, 100, 50, 25, 75]
     frame = arm.frames[0]
     report = arm.session.process(frame)
     options = datasets.CloudOptions(crop=((-9, -9, 0), (9, 9, 9)), voxel=0.5, points=500)
@@ -493,9 +496,3 @@ def test_few_points_are_repeated_and_none_are_zeros(arm, joints, tmp_path):
     assert mask_files.cloud(report, options._replace(crop=((0, 0, -2), (1, 1, -1))))["counts"] == 0
     dataset = datasets.Dataset(arm.robot, arm.camera, arm.config)
     refuses("no depth", lambda: datasets.write(dataset, dataset.episode("it", joints), tmp_path, ["clouds"]))
-
-
-def test_farthest_points_are_spread():
-    line = np.zeros((101, 3), np.float32)
-    line[:, 0] = np.arange(101)
-    assert line[mask_files.farthest_points(line, 5), 0].tolist() == [0, 100, 50, 25, 75]

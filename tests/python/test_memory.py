@@ -25,8 +25,6 @@ def test_nothing_is_copied_on_the_way_in(opened):
     assert report.status is penumbra.FrameStatus.bad_depth
     assert report.pixels.unknown == depth.size > report.pixels.robot > before
 
-
-def test_masks_are_not_copied(opened):
     mask = np.zeros((480, 640), bool)
     target = penumbra.Target("t", penumbra.RegionTarget(penumbra.PixelMask(mask)))
     mask[100:120, 100:120] = True

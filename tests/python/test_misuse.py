@@ -40,18 +40,13 @@ BAD_DEPTHS = [
 
 
 @pytest.mark.parametrize("depth, error, says", BAD_DEPTHS)
-def test_classifiers_refuse_images(depth, error, says):
+def test_classifiers_and_frames_refuse_images(depth, error, says):
     classifier = penumbra.Classifier(640, 480, penumbra.LabelRule())
-    with pytest.raises(error) as raised:
-        classifier.classify(np.zeros((480, 640), np.float32), depth)
-    assert says in str(raised.value) and "measured: expected" in str(raised.value)
-
-
-@pytest.mark.parametrize("depth, error, says", BAD_DEPTHS[1:-2])
-def test_frames_refuse_images(depth, error, says):
-    with pytest.raises(error) as raised:
-        penumbra.Frame(depth, None)
-    assert says in str(raised.value) and "depth: expected" in str(raised.value)
+    calls = {"measured": lambda: classifier.classify(np.zeros((480, 640), np.float32), depth)}
+    if depth is not None and says != "(480, 640)":
+        calls["depth"] = lambda: penumbra.Frame(depth, None)
+    for name, call in calls.items():
+        refuses(f"{name}: expected.*{re.escape(says)}|{re.escape(says)}.*{name}: expected", call, error)
 
 
 def test_arrays_that_were_pickled_are_taken():
@@ -95,7 +90,7 @@ def test_other_arrays_are_taken():
     assert np.array_equal(penumbra.RobotPose(T_root_link=poses).T_root_link, [POSE, POSE])
 
 
-def test_enumerations_have_all_values_of_the_headers():
+def test_enumerations_have_all_values_of_the_headers_and_errors_their_classes():
     found = {}
     for folder in ("penumbra", "io", "sim"):
         for header in (ROOT / folder).rglob("*.hpp"):
@@ -110,6 +105,7 @@ def test_enumerations_have_all_values_of_the_headers():
             assert values in found.get(name, [values]), name
             compared += name in found
     assert compared > 10
+    assert issubclass(penumbra.InputError, ValueError) and issubclass(penumbra.DeviceError, RuntimeError)
 
 
 def test_rows_may_lie_apart_and_run_upwards(opened):
@@ -192,9 +188,7 @@ BAD_CALLS = [
 
 @pytest.mark.parametrize("call, error, says", BAD_CALLS)
 def test_wrong_calls_say_what_is_expected(shipped, call, error, says):
-    with pytest.raises(error) as raised:
-        call(shipped)
-    assert says in str(raised.value)
+    refuses(re.escape(says), lambda: call(shipped), error)
 
 
 def test_renderers_refuse_poses(opened):
@@ -209,11 +203,6 @@ def test_renderers_refuse_poses(opened):
     refuses("pending", lambda: renderer.render(good), ValueError)
     assert renderer.collect().depth.shape == (480, 640)
     refuses("no frame is pending", lambda: renderer.collect(), ValueError)
-
-
-def test_errors_are_of_the_named_classes():
-    assert issubclass(penumbra.InputError, ValueError)
-    assert issubclass(penumbra.DeviceError, RuntimeError)
 
 
 def test_an_inverted_camera_pose_is_diagnosed(opened):

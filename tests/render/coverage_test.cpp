@@ -100,25 +100,5 @@ TEST_P(Coverage, EveryImageSize) {
   }
 }
 
-TEST_P(Coverage, LargestImageSize) {
-  const Intrinsics camera(Intrinsics::max_size, 2, 20000.0, 20000.0, 16000.0, 0.5);
-  Scene scene;
-  scene.add(image_rectangle(camera, -5.0, -5.0, 32766.5, 5.0, 1.25));
-  scene.add(image_rectangle(camera, 20000.5, -5.0, 20001.5, 5.0, 1.0));
-  if (GetParam().backend == Backend::gl) {
-    const std::string why = refusal([&] { (void)make(GetParam(), camera, {}); });
-    if (!why.empty()) {
-      EXPECT_TRUE(holds(why, "32767 x 2"));
-      GTEST_SKIP() << why;
-    }
-  }
-  const Frame frame = render(camera, scene);
-  EXPECT_EQ(frame.covered(), frame.depth.size());
-  EXPECT_EQ(frame.links(20001, 1), 2);
-  EXPECT_EQ(frame.links(20000, 1), 1);
-  EXPECT_EQ(frame.links(20002, 0), 1);
-  EXPECT_NEAR(frame.depth(Intrinsics::max_size - 1, 1), 1.25, 1.25 * interior_tolerance);
-}
-
 }  // namespace
 }  // namespace penumbra::test

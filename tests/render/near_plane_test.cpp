@@ -51,38 +51,6 @@ TEST_P(NearPlane, RandomScenesAllAroundTheCamera) {
   }
 }
 
-using Found = std::vector<std::size_t>;
-
-/// `side` metres wide and high.
-TriangleMesh plate(float side) {
-  const float h = side / 2;
-  return quad({-h, -h, 0}, {-h, h, 0}, {h, h, 0}, {h, -h, 0});
-}
-
-Found found(NearPlaneCheck& check, const Scene& scene) {
-  const auto links = check.find(scene.poses);
-  return {links.begin(), links.end()};
-}
-
-TEST(NearPlaneCheck, FindsWhatLiesBetweenTheCameraAndTheNearPlane) {
-  Scene scene;
-  scene.add(plate(1.0F), at(0, 0, 0.005));
-  scene.add(plate(1.0F), at(0, 0, 2.0));
-  scene.add(plate(1.0F), at(0, 0, -0.005));
-  scene.add(plate(0.001F), at(0.001, 0.001, 0.005));
-  scene.add(plate(0.001F), at(0.02, 0.0, 0.005));  // beside the image
-  scene.add(TriangleMesh{});
-  const auto bodies = scene.bodies();
-  NearPlaneCheck check(near_camera, bodies);
-  EXPECT_EQ(found(check, scene), (Found{0, 3}));
-  scene.poses[0] = at(0, 0, 0.01);  // drawn
-  scene.poses[1] = at(0, 0, 0.0099);
-  scene.poses[3] = at(0, 0, 0.5);
-  EXPECT_EQ(found(check, scene), Found{1});
-  scene.poses[1] = at(0, 0, 2.0);
-  EXPECT_EQ(found(check, scene), Found{});
-}
-
 /// How far a point is inside of the pyramid between camera and near plane; negative: outside.
 double depth_in_pyramid(const Vector3d& p) {
   const double u_low = p.x() * near_camera.fx() + (near_camera.cx() + 0.5) * p.z();
@@ -104,6 +72,8 @@ TEST(NearPlaneCheck, AgreesWithPointsOfRandomTriangles) {
   int reached = 0;
   for (int round = 0; round < samples(1000); ++round) {
     Scene scene;
+    scene.add(TriangleMesh{});
+    scene.add(quad({-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}), at(0, 0, 2));
     const TriangleMesh mesh = triangle_soup(random, 1, 0.02F);
     scene.add(mesh, random_pose(random, {-0.01, -0.01, -0.01}, {0.01, 0.01, 0.03}));
     double deepest = -1.0;
@@ -114,11 +84,13 @@ TEST(NearPlaneCheck, AgreesWithPointsOfRandomTriangles) {
             (mesh.vertices[t[0]].cast<double>() * i + mesh.vertices[t[1]].cast<double>() * j +
              mesh.vertices[t[2]].cast<double>() * (steps - i - j)) /
             steps;
-        deepest = std::max(deepest, depth_in_pyramid(scene.poses[0] * p));
+        deepest = std::max(deepest, depth_in_pyramid(scene.poses[2] * p));
       }
     const auto bodies = scene.bodies();
     NearPlaneCheck check(near_camera, bodies);
-    const bool answer = !check.find(scene.poses).empty();
+    const auto found = check.find(scene.poses);
+    const bool answer = !found.empty();
+    EXPECT_TRUE(!answer || (found.size() == 1 && found[0] == 2)) << round;
     if (deepest > 1e-7) {
       EXPECT_TRUE(answer) << round << ' ' << deepest;
     } else if (deepest < -spacing) {
@@ -128,21 +100,6 @@ TEST(NearPlaneCheck, AgreesWithPointsOfRandomTriangles) {
   }
   EXPECT_GT(reached, samples(100));
   EXPECT_LT(reached, samples(900));
-}
-
-TEST(CameraInside, TellsTheFirstBodyThatHoldsTheCamera) {
-  Scene scene;
-  scene.add(box({0.1F, 0.1F, 0.1F}), at(0, 0, 1));
-  scene.add(sphere(0.3F, 10), at(0, 0, 0.2));
-  scene.add(box({1.0F, 1.0F, 1.0F}));
-  CameraInsideCheck check(scene.bodies());
-  EXPECT_EQ(check.find(scene.poses), 1U);
-  scene.poses[1] = at(0, 0, 0.5);
-  EXPECT_EQ(check.find(scene.poses), 2U);
-  scene.poses[2] = at(3, 0, 0);
-  EXPECT_EQ(check.find(scene.poses), std::nullopt);
-  scene.poses[1] = at(0, 0, 0.2);
-  EXPECT_EQ(check.find(scene.poses), 1U);
 }
 
 TEST(CameraInside, AnOpenPieceHoldsWhatItClosesAroundForMoreThanHalf) {

@@ -94,17 +94,5 @@ TEST_F(Packages, ANameThatNoPackageHasIsTheOnlyFolderOfThatNameInMeshes) {
                  {"package \"collision\" was not found", "--package collision=DIR"});
 }
 
-TEST_F(Packages, UnknownPackageAndMissingFileAreSaid) {
-  const std::string unknown = message_of([&] { (void)load("package://p/t.stl"); });
-  EXPECT_TRUE(holds(unknown, "package \"p\" was not found"));
-  EXPECT_TRUE(holds(unknown, "--package p=DIR"));
-  add_mesh("given/t.stl", 1);
-  expect_refused(
-      [&] {
-        (void)load("package://p/u.stl", {.packages = {{"p", in("given")}}});
-      },
-      {"no file at " + in("given/u.stl")});
-}
-
 }  // namespace
 }  // namespace penumbra::test

@@ -46,7 +46,7 @@ Leftover measure_leftover(const std::vector<RealFrame>& frames,
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const RealFrame& frame = frames[i];
     const LabelView labels = classifier.classify(frame.view(), frame.measured.view());
-    sum.add(frame.robot.view(), frame.measured.view(), labels.labels, nearest[i], Paster::air_rows);
+    sum.add(frame.robot.view(), frame.measured.view(), labels.labels, nearest[i], frame.air_rows());
   }
   return sum;
 }

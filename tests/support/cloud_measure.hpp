@@ -30,8 +30,7 @@ struct Leftover {
            int air_rows);
 };
 
-/// Measures the shared recording above Paster::air_rows.
-
+/// Measures a shared recording above its RealFrame::air_rows().
 [[nodiscard]] Leftover measure_leftover(const std::vector<RealFrame>& frames,
                                         const std::vector<tuning::NearestPixels>& nearest,
                                         const LabelRule& rule);

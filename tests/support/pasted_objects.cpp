@@ -150,7 +150,7 @@ bool Paster::slide_off(const RealFrame& frame, const tuning::NearestPixels& near
     for (const Offset& pixel : pixels) {
       const int u = int(place_.u) + pixel.du;
       const int v = int(place_.v) + pixel.dv;
-      if (u < 0 || v < 0 || u >= frame.robot.width() || v >= air_rows) return false;
+      if (u < 0 || v < 0 || u >= frame.robot.width() || v >= frame.air_rows()) return false;
       const double distance = nearest.distance(u, v);
       if (distance >= closest) continue;
       closest = distance;
@@ -168,7 +168,7 @@ bool Paster::find_place(const RealFrame& frame, const tuning::NearestPixels& nea
   constexpr double close = 0.003;  // metres
   const int pixel = frame.robot_indices[random_() % frame.robot_indices.size()];
   const int u = pixel % frame.intrinsics.width(), v = pixel / frame.intrinsics.width();
-  if (v >= air_rows) return false;
+  if (v >= frame.air_rows()) return false;
   place_.turn = uniform(0.0, 2 * std::numbers::pi);
   const double angle = uniform(0.0, 2 * std::numbers::pi);
   place_.z = double(frame.robot(u, v)) + offset;

@@ -25,15 +25,13 @@ struct PastedObject {
 /// out again.
 class Paster {
  public:
-  static constexpr int air_rows = 420;  ///< the recording has only air around the arm in these
-
   explicit Paster(std::mt19937_64::result_type seed);
 
   /// Puts an object over a random pixel of the robot, turned at random, so that its farthest point
   /// is `gap` metres before the nearest virtual depth under it.
   void paste_before(RealFrame& frame, const PastedObject& object, double gap);
 
-  /// Puts an object at a random place beside the arm, turned at random, all of it in the air rows,
+  /// Puts an object at a random place beside the arm, turned at random, all of it in the air,
   /// so that its nearest point is `offset` metres behind the virtual depth of the robot's pixel
   /// nearest to it. Its near edge is `gap` metres from that pixel, or up to 1.5 pixels more; a gap
   /// of 0 is the next pixel. `nearest`: of the frame's robot.

@@ -51,9 +51,11 @@ std::vector<RealFrame> load_real_frames(const std::filesystem::path& folder) {
     frames.push_back(
         real_frame(intrinsics, renderer->render(poses),
                    io::copy_of(std::get<ImageView<const std::uint16_t>>(frame.depth.view))));
+    const std::filesystem::path name =
+        recording.file.parent_path() / ("robot_mask_" + std::to_string(*frame.index) + ".png");
+    if (!exists(name)) continue;
     Image<std::uint8_t> mask;
-    const auto name = "robot_mask_" + std::to_string(*frame.index) + ".png";
-    io::read_png(recording.file.parent_path() / name, mask).require();
+    io::read_png(name, mask).require();
     frames.back().mask_pixels = std::size_t(
         std::count_if(mask.data(), mask.data() + mask.size(), [](auto m) { return m != 0; }));
   }

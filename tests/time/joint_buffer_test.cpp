@@ -51,6 +51,21 @@ TEST_F(Buffer, HistoryIsBoundedInTimeButTheLastStateIsRemembered) {
   EXPECT_EQ(at(2000).gaps.size(), 2u);
 }
 
+TEST_F(Buffer, ANameTwiceInOneStateIsDisputedIfItsValuesDiffer) {
+  insert(0, {"p", "p"}, {0.1, 0.1});
+  EXPECT_TRUE(at(0).disputes.empty());
+  insert(1, {"p", "p"}, {0.1, 0.5});
+  EXPECT_EQ(at(1).disputes.size(), 1U);
+}
+
+TEST_F(Buffer, SaysWhatWasSeenInPlaceOfAJoint) {
+  insert(1, {"left/p", "q"}, {0.1, nan});
+  EXPECT_EQ(at(1).other_names, std::vector<std::string>{"left/p"});
+  ASSERT_EQ(answer_.gaps.size(), 2U);
+  EXPECT_FALSE(answer_.gaps[0].is_refused);
+  EXPECT_TRUE(answer_.gaps[1].is_refused);
+}
+
 const std::vector<std::string> kPose = {"p", "q/x", "q/y", "q/z", "q/qx", "q/qy", "q/qz", "q/qw"};
 
 TEST(BufferKinds, PartsOfAQuaternionBelongToOneStamp) {
@@ -311,33 +326,6 @@ class Fuzz {
   Oracle oracle_;
   std::size_t& answered_;
 };
-
-TEST(JointBuffer, ANameTwiceInOneStateIsDisputed) {
-  const Robot robot = every_kind();
-  for (const double second : {0.1, 0.5}) {
-    JointBuffer buffer(robot);
-    const std::vector<std::string> names{"j0", "j0"};
-    const std::vector<double> positions{0.1, second};
-    buffer.insert(kMaxGap, names, positions);
-    JointAnswer answer;
-    buffer.at(kMaxGap, answer);
-    EXPECT_EQ(answer.disputes.size(), second == 0.1 ? 0U : 1U);
-  }
-}
-
-TEST(JointBuffer, SaysWhatWasSeenInPlaceOfAJoint) {
-  const Robot robot = every_kind();
-  JointBuffer buffer(robot);
-  const std::vector<std::string> names{"left/j0", "j1"};
-  const std::vector<double> positions{0.1, std::nan("")};
-  buffer.insert(kMaxGap, names, positions);
-  JointAnswer answer;
-  buffer.at(kMaxGap, answer);
-  ASSERT_EQ(answer.other_names.size(), 1U);
-  EXPECT_EQ(answer.other_names[0], "left/j0");
-  for (const JointGap& gap : answer.gaps)
-    EXPECT_EQ(gap.is_refused, robot.variables()[gap.variable] == "j1");
-}
 
 TEST(JointBufferOracle, AgreesOnRandomStates) {
   Random random = seeded_random(7);

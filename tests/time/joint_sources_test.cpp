@@ -197,22 +197,21 @@ TEST(JointSources, MessagesNameThePublishers) {
   EXPECT_EQ(silent.gaps[0].last_seen, 1990 * ms);
 }
 
-TEST(JointSources, ASilentOneComesBack) {
-  // Alone, with a successor that agrees, and with one that does not.
+TEST(JointSources, ASuccessorIsComparedSinceItBeganAndASilentOneComesBack) {
   const Publisher before{"driver", swing, 10, 0, 1000}, back{"driver", swing, 10, 2500};
-  const Publisher second{"second", swing, 10, 1500}, other{"other", rest(3.0), 10, 1500};
-  EXPECT_EQ(answer_at(2000, {before, back}).status, JointStatus::stale);
-  EXPECT_EQ(answer_at(3001, {before, back}).status, JointStatus::ok);
-  EXPECT_EQ(answer_at(2000, {before, second, back}).status, JointStatus::ok);
-  EXPECT_EQ(answer_at(3001, {before, second, back}).status, JointStatus::ok);
-  EXPECT_EQ(answer_at(3001, {before, other, back}).status, JointStatus::disputed);
-}
-
-TEST(JointSources, ASuccessorIsComparedSinceItBegan) {
-  const Publisher driver{"driver", swing, 10, 0, 1200}, again{"driver 2", swing, 10, 1300};
-  const Publisher second{"second", swing, 10, 3}, elsewhere{"driver 2", rest(3.0), 10, 1300};
-  EXPECT_EQ(answer_at(1400, {driver, second, again}).status, JointStatus::ok);
-  EXPECT_EQ(answer_at(1400, {driver, second, elsewhere}).status, JointStatus::disputed);
+  const Publisher next{"second", swing, 10, 1500}, other{"other", rest(3.0), 10, 1500};
+  const Publisher driver{"driver", swing, 10, 0, 1200}, second{"second", swing, 10, 3};
+  const Publisher again{"driver 2", swing, 10, 1300}, elsewhere{"driver 2", rest(3.0), 10, 1300};
+  const std::tuple<std::int64_t, std::vector<Publisher>, JointStatus> asked[] = {
+      {2000, {before, back}, JointStatus::stale},
+      {3001, {before, back}, JointStatus::ok},
+      {2000, {before, next, back}, JointStatus::ok},
+      {3001, {before, next, back}, JointStatus::ok},
+      {3001, {before, other, back}, JointStatus::disputed},
+      {1400, {driver, second, again}, JointStatus::ok},
+      {1400, {driver, second, elsewhere}, JointStatus::disputed}};
+  for (const auto& [time, publishers, status] : asked)
+    EXPECT_EQ(answer_at(time, publishers).status, status) << time << ' ' << publishers[1].name;
 }
 
 TEST(JointSources, WheelsAgreeWhetherTurnsAreCountedOrNot) {

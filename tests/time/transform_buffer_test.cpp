@@ -74,34 +74,6 @@ TEST_F(Transforms, WhatIsNoTransformIsRefused) {
   EXPECT_EQ(buffer_.refused(), 9U);
 }
 
-TEST(TransformLimits, StatesAreBoundedInNumberAndTime) {
-  TransformBuffer buffer({.max_gap = 1.0, .history = 1e-6, .max_states = 10});
-  for (std::int64_t stamp = 1; stamp <= 1000; ++stamp)
-    buffer.insert(stamp, "a", "b", shift(double(stamp)));
-  const auto status_at = [&](std::int64_t stamp) {
-    TransformAnswer answer;
-    buffer.at(stamp, "a", "b", answer);
-    return answer.status;
-  };
-  EXPECT_EQ(status_at(991), TransformStatus::ok);
-  EXPECT_EQ(status_at(990), TransformStatus::stale);
-  buffer.insert(9000, "a", "b", shift(0));
-  buffer.insert(9001, "c", "d", shift(0));
-  EXPECT_EQ(status_at(999), TransformStatus::stale) << "older than the history";
-  EXPECT_EQ(status_at(9000), TransformStatus::ok);
-}
-
-TEST_F(Transforms, ClearForgetsWhatMovesAndKeepsWhatIsStatic) {
-  buffer_.insert(5, "a", "b", shift(1));
-  buffer_.insert_static("b", "c", shift(1));
-  buffer_.insert(5, "b", "b", shift(1));
-  buffer_.clear();
-  EXPECT_EQ(at(5, "a", "b").status, TransformStatus::missing);
-  EXPECT_EQ(at(5, "b", "c").status, TransformStatus::ok);
-  EXPECT_EQ(buffer_.refused(), 1U);
-  EXPECT_EQ(buffer_.insert(5, "z", "b", shift(1)), TransformInsert::taken) << "another parent";
-}
-
 TEST_F(Transforms, TwoPublishersOfOneFrameThatDifferAreDisputed) {
   for (std::int64_t t = 100; t < 500; t += 10) {
     buffer_.insert(t * ms, "base", "arm", shift(0.5), "publisher 1 of /tf");

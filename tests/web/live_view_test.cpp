@@ -7,11 +7,6 @@
 #include "viewer_process.hpp"
 
 #include <atomic>
-#include <chrono>
-#include <cstring>
-#include <thread>
-
-#include <gtest/gtest.h>
 
 #include <io/dds/participant.hpp>
 

@@ -72,14 +72,9 @@ TEST(KeyFrames, AreFirstLastAndChanges) {
 
 // RFC 4648, section 10.
 TEST(Base64, IsThatOfTheStandard) {
-  const auto encoded = [](const std::string& text) {
-    return io::base64(std::as_bytes(std::span(text)));
-  };
-  EXPECT_EQ(encoded(""), "");
-  EXPECT_EQ(encoded("f"), "Zg==");
-  EXPECT_EQ(encoded("fo"), "Zm8=");
-  EXPECT_EQ(encoded("foo"), "Zm9v");
-  EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+  for (const auto& [text, encoded] : std::map<std::string, std::string>{
+           {"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}})
+    EXPECT_EQ(io::base64(std::as_bytes(std::span(text))), encoded);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The server alone: what it refuses, and what clients that behave badly cost the others.
+#include "../support/errors.hpp"
 #include "../support/process_memory.hpp"
 #include "../support/run_length.hpp"
 #include "web_client.hpp"
@@ -7,12 +8,6 @@
 #include <atomic>
 #include <chrono>
 #include <thread>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
-#include <penumbra/base/error.hpp>
 
 #include <io/web/web_server.hpp>
 
@@ -154,20 +149,15 @@ TEST_F(ServerTest, OversizedAndMalformedRequestsAreRefused) {
     EXPECT_EQ(client().get(target).status, 400) << target;
 }
 
-/// The status of a close message, or 0.
-int close_status(WebClient& one) {
-  const auto message = one.message();
-  if (!message || message->opcode != 8 || message->payload.size() < 2) return 0;
-  return static_cast<unsigned char>(message->payload[0]) << 8 |
-         static_cast<unsigned char>(message->payload[1]);
-}
-
 TEST_F(ServerTest, BadWebSocketFramesCloseTheirConnectionAlone) {
   WebClient good = talker();
   const auto status_of = [&](auto send) {
     WebClient one = talker();
     send(one);
-    return close_status(one);
+    const auto message = one.message();
+    if (!message || message->opcode != 8 || message->payload.size() < 2) return 0;
+    return static_cast<unsigned char>(message->payload[0]) << 8 |
+           static_cast<unsigned char>(message->payload[1]);
   };
   EXPECT_EQ(status_of([](WebClient& c) { c.send_text("bad"); }), 1008);
   EXPECT_EQ(status_of([](WebClient& c) { c.send_frame(2, "binary"); }), 1003);
@@ -334,17 +324,14 @@ TEST_F(FewConnectionsTest, ThatGiveWayWhileTheyOpenHarmNobody) {
   EXPECT_EQ(client().get("/a").status, 200);
 }
 
-class HurriedTest : public ServerTest {
- protected:
-  HurriedTest() : ServerTest({.max_connections = 4, .request_time = 1s}) {}
-};
-
-TEST_F(HurriedTest, ThoseThatDoNotAskLoseTheirPlace) {
+TEST(ServerHurry, ThoseThatDoNotAskLoseTheirPlace) {
+  Echo echo;
+  const io::WebServer server({.max_connections = 4, .request_time = 1s}, echo);
   std::vector<WebClient> idle;
-  for (int i = 0; i < 4; ++i) idle.push_back(client());
+  for (int i = 0; i < 4; ++i) idle.emplace_back(server.port());
   idle.front().send("GET / HTTP/1.1\r\nHost: 127.");
   for (WebClient& one : idle) EXPECT_TRUE(one.is_closed());
-  EXPECT_EQ(client().get("/a").status, 200);
+  EXPECT_EQ(WebClient(server.port()).get("/a").status, 200);
 }
 
 TEST_F(ServerTest, ManyClientsAtATimeAreServed) {

@@ -4,9 +4,6 @@
 #include "viewer_process.hpp"
 
 #include <cmath>
-#include <cstring>
-
-#include <Eigen/Geometry>
 
 #include <io/files/jpeg.hpp>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer_process.hpp"
 
-#include <gtest/gtest.h>
-
 namespace penumbra::test {
 namespace {
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+// Images in PNG and NPY.
 #include "../support/run_length.hpp"
-#include "files.hpp"
+#include "cloud_samples.hpp"
 #include "memory_file.hpp"
 #include "mini_png.hpp"
 
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <io/files/npy.hpp>
 #include <io/files/png.hpp>
 #include <io/files/png_depth.hpp>
 
@@ -55,45 +56,6 @@ TEST_F(Png, ReadsGrey16OfAnotherWriter) {
           << width << " x " << height << " " << interlaced;
     }
   }
-}
-
-TEST_F(Png, WritesWhatAnotherReaderReads) {
-  std::mt19937_64 random = test::seeded_random(2);
-  const auto image = random_image<std::uint16_t>(37, 21, random);
-  write_png(file_, image.view());
-  Format format;
-  EXPECT_EQ(test::mini_png::decode(test::read_bytes(file_), format), samples(image));
-  EXPECT_EQ(format.bits, 16);
-  EXPECT_EQ(format.color_type, 0);
-
-  const auto grey = random_image<std::uint8_t>(37, 21, random);
-  write_png(file_, grey.view());
-  EXPECT_EQ(test::mini_png::decode(test::read_bytes(file_), format),
-            std::string(grey.data(), grey.data() + grey.size()));
-  EXPECT_EQ(format.bits, 8);
-
-  Image<Rgb8> color(37, 21);
-  std::string bytes;
-  for (std::size_t i = 0; i < color.size(); ++i) {
-    const std::uint64_t r = random();
-    color.data()[i] = {static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(r >> 8),
-                       static_cast<std::uint8_t>(r >> 16)};
-    for (int shift = 0; shift < 24; shift += 8) bytes += static_cast<char>(r >> shift);
-  }
-  write_png(file_, std::as_const(color).view());
-  EXPECT_EQ(test::mini_png::decode(test::read_bytes(file_), format), bytes);
-  EXPECT_EQ(format.color_type, 2);
-}
-
-TEST_F(Png, ReturnsWhatWasWrittenWithAnyStride) {
-  std::mt19937_64 random = test::seeded_random(3);
-  const auto image = random_image<std::uint16_t>(40, 30, random);
-  // The lower right part, upside down.
-  const ImageView<const std::uint16_t> part{&image(7, 29), 33, 25, -40};
-  write_png(file_, part);
-  Image<std::uint16_t> read;
-  ASSERT_EQ(read_png(file_, read).message, "");
-  EXPECT_TRUE(test::same_pixels(part, read.view()));
 }
 
 TEST_F(Png, BringsAnyFormatToRgb) {
@@ -214,24 +176,104 @@ TEST_F(Png, FindsEveryTruncationAndFlippedBit) {
 
 // With right checksums the damage reaches the decoder: anything may come back, but no crash.
 TEST_F(Png, SurvivesDamageUnderRightChecksums) {
-  const int rounds = test::is_full_run() ? 20'000 : 1000;
   std::mt19937_64 random = test::seeded_random(6);
   const auto image = random_image<std::uint16_t>(16, 16, random);
-  for (int i = 0; i < rounds; ++i) {
-    const Format format{16, 16, 16, 0, i % 2 == 0};
-    const std::string good = test::mini_png::encode(format, samples(image));
+  for (const bool interlaced : {false, true}) {
+    const std::string good = test::mini_png::encode({16, 16, 16, 0, interlaced}, samples(image));
     const std::size_t start = test::mini_png::signature().size() + 25;
-    const std::uint32_t length = test::mini_png::big_endian(good, start);
-    std::string data = good.substr(start + 8, length);
-    for (int n = 0; n < 1 + i % 4; ++n) data[random() % data.size()] = static_cast<char>(random());
-    if (i % 3 == 0) data.resize(random() % data.size());
-    const test::MemoryFile file(good.substr(0, start) + test::mini_png::chunk("IDAT", data) +
-                                test::mini_png::chunk("IEND", ""));
-    Image<std::uint16_t> read;
-    static_cast<void>(read_png(file.path(), read));
-    Image<Rgb8> color;
-    static_cast<void>(read_png(file.path(), color));
+    const std::string data = good.substr(start + 8, test::mini_png::big_endian(good, start));
+    test::read_damaged(data, test::is_full_run() ? 10'000 : 500, [&](const std::string& damaged) {
+      const test::MemoryFile file(good.substr(0, start) + test::mini_png::chunk("IDAT", damaged) +
+                                  test::mini_png::chunk("IEND", ""));
+      Image<std::uint16_t> read;
+      static_cast<void>(read_png(file.path(), read));
+      Image<Rgb8> color;
+      static_cast<void>(read_png(file.path(), color));
+    });
   }
+}
+
+const std::string npy_header = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }\n";
+const std::string six_bytes = test::raw(1.5F, -2.0F, 0.0F, 4.25F, 5.0F, 6.0F);
+
+std::string npy_file(int version, const std::string& header,
+                     const std::string& values = six_bytes) {
+  return test::npy(header, values, static_cast<char>(version));
+}
+
+class Npy : public testing::Test {
+ protected:
+  FileResult read(const std::string& bytes) {
+    return read_npy(test::MemoryFile(bytes).path(), image_);
+  }
+
+  test::TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "depth.npy";
+  Image<float> image_;
+};
+
+TEST_F(Npy, ReadsEveryVersionAndSpelling) {
+  const std::string headers[] = {
+      npy_header,
+      "{\"shape\":(2,3),\"fortran_order\":False,\"descr\":\"<f4\"}",
+      "{'fortran_order': False, 'descr': '<f4', 'shape': (2, 3,)}            \n",
+  };
+  for (const int version : {1, 2, 3}) {
+    for (const std::string& header : headers) {
+      image_ = {};
+      ASSERT_EQ(read(npy_file(version, header)).message, "");
+      ASSERT_EQ(image_.width(), 3);
+      ASSERT_EQ(image_.height(), 2);
+      EXPECT_EQ(std::memcmp(image_.data(), six_bytes.data(), six_bytes.size()), 0);
+    }
+  }
+}
+
+TEST_F(Npy, NamesWhatItDoesNotRead) {
+  const auto header = [](const std::string& type, const std::string& order,
+                         const std::string& shape) {
+    return npy_file(
+        1, "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': " + shape + ", }\n");
+  };
+  const std::string two = npy_file(1, "{'descr': '<f4', 'shape': (2, 3), }");
+  const test::BadInputs cases = {{header("<f8", "False", "(2, 3)"), "'<f8'"},
+                                 {header("<f4", "True", "(2, 3)"), "Fortran"},
+                                 {header("<f4", "False", "(6,)"), "1 dimensions"},
+                                 {header("<f4", "False", "(0, 3)"), "a side of 0"},
+                                 {header("<f4", "False", "(40000, 3)"), "a side of 40000"},
+                                 {header("<f4", "False", "(30000, 30000)"), "ends before"},
+                                 {two, "header"},
+                                 {npy_file(4, npy_header), "version 4.0"},
+                                 {npy_file(2, std::string(70000, ' '), ""), "70000"},
+                                 {"frame,joint1\n0,1", "NumPy"},
+                                 {npy_file(1, npy_header, six_bytes + "x"), "after"}};
+  for (const auto& [bytes, named] : cases) {
+    const FileResult result = read_npy(folder_.write("depth.npy", bytes), image_);
+    EXPECT_EQ(result.status, FileStatus::bad);
+    EXPECT_HAS(result.message, "depth.npy: ");
+    EXPECT_HAS(result.message, named);
+  }
+  EXPECT_EQ(read_npy(folder_.path() / "none.npy", image_).status, FileStatus::missing);
+  folder_.write("depth.npy", npy_file(1, npy_header));
+  EXPECT_TRUE(read_npy(file_, image_, ImageSize{3, 2}).ok());
+  EXPECT_HAS(read_npy(file_, image_, ImageSize{2, 3}).message, "3 x 2");
+}
+
+TEST_F(Npy, FindsEveryTruncation) {
+  const std::string whole = npy_file(1, npy_header);
+  for (std::size_t length = 0; length < whole.size(); ++length)
+    ASSERT_EQ(read(whole.substr(0, length)).status, FileStatus::bad) << length;
+}
+
+TEST_F(Npy, SurvivesDamage) {
+  for (const int version : {1, 2, 3})  // which differ in the length's size alone
+    test::read_damaged(npy_file(version, npy_header),
+                       version == 1 || test::is_full_run() ? 2000 : 200,
+                       [&](const std::string& bytes) {
+                         image_ = {};
+                         static_cast<void>(read(bytes));
+                         ASSERT_LE(image_.size() * sizeof(float), bytes.size());
+                       });
 }
 
 }  // namespace

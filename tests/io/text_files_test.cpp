@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "files.hpp"
-
-#include <Eigen/Geometry>
-#include <gtest/gtest.h>
+// CSV, YAML and the files of poses and motions.
+#include "../support/run_length.hpp"
+#include "cloud_samples.hpp"
 
 #include <io/files/csv.hpp>
 #include <io/files/numbers.hpp>
 #include <io/files/pose_file.hpp>
 #include <io/files/trajectory_file.hpp>
+#include <io/files/yaml.hpp>
 
 namespace penumbra::io {
 namespace {
+
+using test::refusal;
 
 using Cells = std::vector<std::string_view>;
 
@@ -91,13 +93,8 @@ TEST_F(PoseFile, RefusesWhatIsNoPose) {
                        [&](const std::string& text) { read(text); });
 }
 
-std::string npy(const char* type, bool is_fortran, const std::string& shape,
-                const std::string& numbers) {
-  const std::string header = std::string("{'descr': '") + type +
-                             "', 'fortran_order': " + (is_fortran ? "True" : "False") +
-                             ", 'shape': (" + shape + "), }\n";
-  return "\x93NUMPY" + test::raw('\x01', '\0', static_cast<std::uint16_t>(header.size())) + header +
-         numbers;
+std::string npy(const std::string& header, const std::string& numbers) {
+  return test::npy("{'descr': " + header + ", }\n", numbers);
 }
 
 // A quarter turn about z and (1, 2, 3) in the forms of other programs.
@@ -115,11 +112,12 @@ const std::vector<std::string> quarter_turns{
     "  rotation: {x: 0, y: 0, z: 0.70710678118654757, w: 0.70710678118654757}\n",
     "pose:\n  position: {x: 1, y: 2, z: 3}\n"
     "  orientation: {x: 0, y: 0, z: 0.70710678118654757, w: 0.70710678118654757}\n",
-    npy("<f8", false, "4, 4",
+    npy("'<f8', 'fortran_order': False, 'shape': (4, 4)",
         test::raw(0., -1., 0., 1., 1., 0., 0., 2., 0., 0., 1., 3.) + test::raw(0., 0., 0., 1.)),
-    npy("<f4", false, "3, 4",
+    npy("'<f4', 'fortran_order': False, 'shape': (3, 4)",
         test::raw(0.F, -1.F, 0.F, 1.F, 1.F, 0.F, 0.F, 2.F, 0.F, 0.F, 1.F, 3.F)),
-    npy("<f8", true, "3, 4", test::raw(0., 1., 0., -1., 0., 0., 0., 0., 1., 1., 2., 3.))};
+    npy("'<f8', 'fortran_order': True, 'shape': (3, 4)",
+        test::raw(0., 1., 0., -1., 0., 0., 0., 0., 1., 1., 2., 3.))};
 
 TEST_F(PoseFile, ReadsTheFormsOfOtherPrograms) {
   constexpr double rounding = 1e-15;
@@ -151,6 +149,65 @@ TEST(TrajectoryFile, SurvivesDamage) {
     EXPECT_EQ(read(text).points.at(1).time, 2.0);
     test::read_damaged(text, 100, [&](const std::string& damaged) { (void)read(damaged); });
   }
+}
+
+YamlNode parse_yaml(const std::string& text) { return YamlNode::parse(text, "f.yaml"); }
+
+TEST(Yaml, WhatIsNoNumberIsNamedWithFileLineAndKey) {
+  for (const char* value : {"text", "12x", "'1'", "", "1.5", "[1]"}) {
+    const YamlNode root = parse_yaml(std::string("a:\n  n: ") + value);
+    const std::string message = refusal([&] { return root.at("a").at("n").integer(); });
+    EXPECT_TRUE(message.starts_with("f.yaml:2: a.n: ")) << message;
+  }
+}
+
+TEST(Yaml, RefusesWhatItCannotBeSureOf) {
+  test::expect_refused({{"a: 1\nb: 2\na: 3\n", "f.yaml:3: key 'a' is there already, in line 1"},
+                        {"a: &x 1\nb: *x\n", "f.yaml:2: aliases"},
+                        {"a: 1\n---\nb: 1\n", "one document"},
+                        {"", "is empty"},
+                        {"# only a comment\n", "is empty"},
+                        {"]", "is not YAML"},
+                        {"a: 1\n---\n}\n", "is not YAML"},
+                        {"a: [1, 2\nb: 3\n", "f.yaml:"},
+                        {"a: b: c\n", "is not YAML"},
+                        {"? [1, 2]\n: 3\n", "a key"},
+                        {"a: " + std::string(17, '[') + std::string(17, ']'), "16 deep"}},
+                       parse_yaml);
+  const YamlNode zero = parse_yaml("a: \"x\\0y\"\n");
+  EXPECT_HAS(refusal([&] { return zero.at("a").text(); }), "character 0");
+}
+
+/// Without a bound each of these takes gigabytes or minutes.
+TEST(Yaml, BoundsItsWork) {
+  const test::TemporaryFolder folder;
+  const auto big = folder.write("big.yaml", std::string(20'000'000, '#'));
+  EXPECT_HAS(refusal([&] { return YamlNode::read(big); }), "big.yaml: has 20000000 bytes");
+  for (const char* part : {"[", "{", "- ", "? ", "a: [", "{a: ", "[],", "{a: 1},", "a:\n"}) {
+    std::string many;
+    for (int i = 0; i < 1'000'001; ++i) many += part;
+    EXPECT_HAS(refusal([&] { return parse_yaml(many); }), "f.yaml: has more than 1000000 lines");
+  }
+  std::string keys;
+  for (int i = 0; i < 100'000; ++i) keys += std::to_string(i) + ": 1\n";
+  EXPECT_EQ(parse_yaml(keys).entries().size(), 100'000U);
+  EXPECT_HAS(refusal([&] { return parse_yaml(keys + "5: 1\n"); }), "f.yaml:100001: key '5'");
+}
+
+TEST(Yaml, SurvivesDamage) {
+  const std::string sample =
+      "robot:\n"
+      "  urdf: \"robot.urdf\"   # comment\n"
+      "  packages: {a: b, 'c': [1, 2]}\n"
+      "camera:\n"
+      "  pose: |\n"
+      "    text\n"
+      "  range: [0.3, !!float 3]\n"
+      "  ? x\n"
+      "  : - 1\n"
+      "    - ~\n";
+  ASSERT_NO_THROW(parse_yaml(sample));
+  test::read_damaged(sample, test::is_full_run() ? 100'000 : 5000, parse_yaml);
 }
 
 }  // namespace
