@@ -98,9 +98,11 @@ class Memory {
 };
 
 /// What is kept of an object next to the outline, by its distance and depth from it: without
-/// memory, with one of the other frames, in which it stood already, and of a new one.
+/// memory, with one of the other frames, in which it stood already and in one of which it was away
+/// from the robot, and of a new one.
 std::string remembered(Recorded& recorded, int placements) {
   constexpr std::array<int, 4> gaps = {0, 5, 10, 20};  // pixels
+  constexpr double away = 104.0;  // pixels from the robot, where all is seen: LabelRule and a tile
   const Image<float>& size = recorded.frames.front().robot;
   Classifier classifier(size.width(), size.height(), LabelRule{});
   test::Paster paster(seed);
@@ -121,16 +123,18 @@ std::string remembered(Recorded& recorded, int placements) {
           paster.undo(frame);
           Memory with(size), without(size);
           bool is_seen = false;
-          for (test::RealFrame& other : recorded.frames) {
-            const bool is_free = std::none_of(here.begin(), here.end(), [&](int pixel) {
-              return other.robot.data()[pixel] > 0.0F;
-            });  // it stands where no robot goes
-            if (&other == &frame || !is_free) continue;
+          for (std::size_t k = 0; k < recorded.frames.size(); ++k) {
+            test::RealFrame& other = recorded.frames[k];
+            double distance = away;  // from the robot
+            for (const int pixel : here)
+              distance = std::min(distance, recorded.nearest[k].distance(pixel % size.width(),
+                                                                         pixel / size.width()));
+            if (k == i || distance < 1.0) continue;  // it stands where no robot goes
             without.update(other);
             paster.paste_again(other);
             with.update(other);
             paster.undo(other);
-            is_seen = true;
+            is_seen = is_seen || distance >= away;
           }
           if (!is_seen) continue;
           paster.paste_again(frame);
@@ -166,7 +170,7 @@ double left_with_memory(const Recorded& recorded) {
     const test::RealFrame& frame = recorded.frames[i];
     sum.add(frame.robot.view(), frame.measured.view(),
             classifier.classify(frame.view(), frame.measured.view(), memory.depth()).labels,
-            recorded.nearest[i], test::Paster::air_rows);
+            recorded.nearest[i], frame.air_rows());
   }
   return sum.percent();
 }

@@ -2,7 +2,9 @@
 // Measures against the simulator's truth what a stereo camera carries past the robot's outline, how
 // much of it the fringe finds and what it takes of real things. Writes a table into docs/cloud.md.
 // With --sequences, prints the same of a moving arm, from single images and with a memory of the
-// scene, in which things stay, and in which half of them go and others come.
+// scene: where things stay, where half of them go and others come, where a person walks through and
+// where a door opens. With --beside, prints what is kept of two boxes next to the arm's outline, of
+// which one stood there before the arm came.
 #include "../tests/support/cloud_measure.hpp"
 #include "stereo_camera.hpp"
 #include "study_page.hpp"
@@ -16,8 +18,10 @@
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 
+#include <penumbra/base/statistics-inl.hpp>
 #include <penumbra/labels/scene_memory.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
 
@@ -42,9 +46,17 @@ constexpr double robots_depth = 3.0;  // of e(z): how near to the robot's depth 
 constexpr double frame_rate = 30.0;  // turns a frame's number into the scene's time
 constexpr double nearby = 64.0;      // pixels from the robot: no farther point was carried
 
+/// What happens while the arm moves.
+enum class Change { nothing, things, person, door };
+constexpr std::array<const char*, 4> change_names = {"static", "things go and come",
+                                                     "a person walks through", "a door opens"};
+
 constexpr std::size_t frames_of_sequence = 60;
-constexpr double away = 10.0;   // metres: out of view
-constexpr double close = 20.0;  // pixels from the outline
+constexpr double seen_from = 104.0;   // pixels from the arm: the memory sees all there
+constexpr double walk = 1.5;          // metres to each side, in a second
+constexpr double clear_of_arm = 0.1;  // metres from its middle, of a person and a door
+constexpr double away = 10.0;         // metres: out of view
+constexpr double close = 20.0;        // pixels from the outline
 
 /// The simulated arm among eight things before, behind and beside it, seen by a stereo camera. The
 /// seed chooses the camera's place and the things; every frame is a new arm pose with the things in
@@ -58,10 +70,13 @@ class StereoCell {
         scene_(sim::make_random_targets(
             arm_, {.seed = seed, .belt_jitter = 0.0, .frame_rate = frame_rate, .duration = 0.0},
             intrinsics(), false)),
-        stage_(arm_, scene_->description(), folder_.path(), intrinsics()),
+        stage_(arm_, description(), folder_.path(), intrinsics()),
         renderer_(make_depth_renderer(Backend::cpu, intrinsics(), bodies_of(arm_.robot()))),
         camera_(intrinsics(), seed),
-        poses_(arm_.robot().links().size()) {}
+        random_(seed, 47),
+        poses_(arm_.robot().links().size()) {
+    others_.fill(out_of_view());
+  }
 
   /// Captures frame `index` into `images`. Returns the robot alone, as rendered.
   VirtualDepthView capture(std::size_t index, StereoImages& images) {
@@ -70,42 +85,156 @@ class StereoCell {
   }
 
   /// Captures what one of the frames of a sequence shows: the arm comes to the first frame's pose
-  /// among the first frame's things, and leaves. If `changes`, half of the things go half-way, and
-  /// the others come.
-  VirtualDepthView capture_moving(std::size_t frame, bool changes, StereoImages& images) {
+  /// among the first frame's things, and leaves. With `elsewhere`, the arm is where it is in the
+  /// other half.
+  VirtualDepthView capture_moving(std::size_t frame, Change change, bool elsewhere,
+                                  StereoImages& images) {
     const double s = 2.0 * static_cast<double>(frame) / frames_of_sequence;  // 1: half-way
-    const double to = s < 1.0 ? s * s * (3.0 - 2.0 * s) : (s - 1.0) * (s - 1.0) * (5.0 - 2.0 * s);
-    const std::vector<double> from = scene_->joints((s < 1.0 ? 1.0 : 0.0) / frame_rate);
-    std::vector<double> joints = scene_->joints((s < 1.0 ? 0.0 : 2.0) / frame_rate);
-    for (std::size_t i = 0; i < joints.size(); ++i)
-      joints[i] = from[i] + to * (joints[i] - from[i]);
     std::vector<Eigen::Isometry3d> parts = scene_->pose(0.0).parts;
     const std::vector<ScenePart>& all = scene_->description().parts;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const int object = all[i].object;
       const bool goes = object >= 0 && object % 2 == 0, comes = object >= 0 && object % 2 == 1;
-      if (changes && ((goes && s >= 1.0) || (comes && s < 1.0))) parts[i].translation().z() -= away;
+      if (change == Change::things && ((goes && s >= 1.0) || (comes && s < 1.0)))
+        parts[i] = out_of_view();
     }
-    return capture(joints, parts, images);
+    if (frame == 0 && !elsewhere) begin();
+    if (change == Change::person) others_[0] = at({walk * (s - 1.0), 0.0, depth_});
+    if (change == Change::door)
+      others_[1] = at({hinge_, 0.0, depth_}) *
+                   Eigen::AngleAxisd(0.5 * M_PI * std::clamp(2.0 * s - 1.0, 0.0, 1.0) *
+                                         (hinge_ > 0.0 ? 1.0 : -1.0),
+                                     Eigen::Vector3d::UnitY()) *
+                   Eigen::Translation3d(hinge_ > 0.0 ? -0.4 : 0.4, 0.0, 0.0);
+    return capture(joints_at(elsewhere ? (s < 1.0 ? 2.0 : 0.0) : s), parts, images);
+  }
+
+  /// A box whose front faces the camera.
+  struct Box {
+    double u = 0, v = 0, half = 0, z = 0;  // pixels; metres
+
+    [[nodiscard]] bool holds(double x, double y, double margin) const {
+      return std::max(std::abs(x - u), std::abs(y - v)) <= half + margin;
+    }
+  };
+
+  /// Returns a box that is `gap` pixels from the arm's outline half-way, and `offset` metres behind
+  /// it. It is far from the arm of the first frame.
+  std::optional<Box> box_beside(double gap, double offset) {
+    const VirtualDepthView first = render(joints_at(0.0));
+    const tuning::NearestPixels far = test::nearest_robot(first.depth);
+    const VirtualDepthView robot = render(joints_at(1.0));
+    const tuning::NearestPixels nearest = test::nearest_robot(robot.depth);
+    for (int i = 0; i < 20000; ++i) {
+      Box box{.u = random_.uniform() * robot.depth.width,
+              .v = random_.uniform() * robot.depth.height};
+      const auto at = nearest.at(static_cast<int>(box.u), static_cast<int>(box.v));
+      box.z = static_cast<double>(robot.depth(at.u, at.v)) + offset;
+      box.half = 0.03 * intrinsics().fx() / box.z;
+      const bool is_inside = box.u > box.half && box.u < robot.depth.width - 1 - box.half &&
+                             box.v > box.half && box.v < robot.depth.height - 1 - box.half;
+      if (!is_inside || far.distance(static_cast<int>(box.u), static_cast<int>(box.v)) < seen_from)
+        continue;
+      double distance = seen_from;
+      for (int v = static_cast<int>(std::ceil(box.v - box.half)); v <= box.v + box.half; ++v)
+        for (int u = static_cast<int>(std::ceil(box.u - box.half)); u <= box.u + box.half; ++u)
+          distance = std::min(distance, nearest.distance(u, v));
+      if (distance >= gap + 1.0 && distance < gap + 2.5 && !is_pushed(box)) return box;
+    }
+    return std::nullopt;
+  }
+
+  /// Returns whether the arm comes to where a box is before it stops next to it.
+  bool is_pushed(const Box& box) {
+    constexpr double touches = 0.15;  // metres: more than the box and half a link are thick
+    for (double s = 0.0; s < 1.0; s += 0.05) {
+      const VirtualDepthView robot = render(joints_at(s));
+      for (int v = 0; v < robot.depth.height; v += 2)
+        for (int u = 0; u < robot.depth.width; u += 2)
+          if (robot.depth(u, v) > 0.0F && box.holds(u, v, 0.0) &&
+              std::abs(static_cast<double>(robot.depth(u, v)) - box.z) < touches)
+            return true;
+    }
+    return false;
+  }
+
+  /// Captures the arm and the boxes `0` and, if `is_late`, `1`.
+  VirtualDepthView capture_boxes(double s, const std::array<Box, 2>& boxes, bool is_late,
+                                 StereoImages& images) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Eigen::Vector3d ray = intrinsics().ray(boxes[i].u, boxes[i].v);
+      others_[2 + i] = i == 0 || is_late ? at(boxes[i].z * ray + Eigen::Vector3d(0.0, 0.0, 0.03))
+                                         : out_of_view();
+      if (i == 0 || is_late) others_[2 + i].linear() = T_base_camera().linear();
+    }
+    return capture(joints_at(s), scene_->pose(0.0).parts, images);
   }
 
   /// Captures an arm among parts.
-  VirtualDepthView capture(const std::vector<double>& joints,
-                           const std::vector<Eigen::Isometry3d>& parts, StereoImages& images) {
+  VirtualDepthView capture(const std::vector<double>& joints, std::vector<Eigen::Isometry3d> parts,
+                           StereoImages& images) {
+    parts.insert(parts.end(), others_.begin(), others_.end());
     stage_.place(joints, parts);
-    const Eigen::Isometry3d& T_base_camera = scene_->description().T_base_camera;
-    camera_.capture(stage_, T_base_camera, images);
-    arm_.robot().forward_kinematics(joints, poses_);
-    for (Eigen::Isometry3d& pose : poses_) pose = T_base_camera.inverse() * pose;
-    return renderer_->render(poses_);
+    camera_.capture(stage_, T_base_camera(), images);
+    return render(joints);
   }
 
  private:
+  /// Half-way (1) the arm is at the first frame's pose.
+  [[nodiscard]] std::vector<double> joints_at(double s) const {
+    const double to = s < 1.0 ? s * s * (3.0 - 2.0 * s) : (s - 1.0) * (s - 1.0) * (5.0 - 2.0 * s);
+    const std::vector<double> from = scene_->joints((s < 1.0 ? 1.0 : 0.0) / frame_rate);
+    std::vector<double> joints = scene_->joints((s < 1.0 ? 0.0 : 2.0) / frame_rate);
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      joints[i] = from[i] + to * (joints[i] - from[i]);
+    return joints;
+  }
+
   static RobotOptions visual_geometry() {
     RobotOptions options;
     options.geometry = Geometry::visual;
     options.geometry_fallback = true;
     return options;
+  }
+
+  [[nodiscard]] const Eigen::Isometry3d& T_base_camera() const {
+    return scene_->description().T_base_camera;
+  }
+  [[nodiscard]] Eigen::Isometry3d at(const Eigen::Vector3d& in_camera) const {
+    return T_base_camera() * Eigen::Translation3d(in_camera);
+  }
+  static Eigen::Isometry3d out_of_view() {
+    return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -away));
+  }
+
+  /// The scene's, with a person, a door and two boxes.
+  [[nodiscard]] sim::SceneDescription description() const {
+    sim::SceneDescription all = scene_->description();
+    for (const char* const size :
+         {"0.22 0.9 0.06", "0.4 0.9 0.02", "0.03 0.03 0.03", "0.03 0.03 0.03"})
+      all.parts.push_back(
+          {-1, std::string("<geom type=\"box\" rgba=\"0.5 0.5 0.6 1\" group=\"2\" ") + "size=\"" +
+                   size + "\"/>"});
+    return all;
+  }
+
+  VirtualDepthView render(const std::vector<double>& joints) {
+    arm_.robot().forward_kinematics(joints, poses_);
+    for (Eigen::Isometry3d& pose : poses_) pose = T_base_camera().inverse() * pose;
+    return renderer_->render(poses_);
+  }
+
+  /// Chooses where person and door are: beside, before or behind the arm's middle.
+  void begin() {
+    const VirtualDepthView robot = render(scene_->joints(0.0));
+    std::vector<double> depths;
+    for (int v = 0; v < robot.depth.height; ++v)
+      for (int u = 0; u < robot.depth.width; ++u)
+        if (robot.depth(u, v) > 0.0F) depths.push_back(static_cast<double>(robot.depth(u, v)));
+    const double middle = depths.empty() ? 1.0 : detail::median(depths);
+    const double off = clear_of_arm + 0.4 * random_.uniform();
+    depth_ = std::max(middle + (random_.uniform() < 0.3 ? -off : off), 0.4);
+    hinge_ = random_.uniform() < 0.5 ? -0.4 : 0.4;
   }
 
   sim::TemporaryFolder folder_;
@@ -114,7 +243,10 @@ class StereoCell {
   sim::Stage stage_;
   std::unique_ptr<DepthRenderer> renderer_;
   StereoCamera camera_;
-  std::vector<Eigen::Isometry3d> poses_;  // T_camera_link
+  sim::Random random_;
+  std::array<Eigen::Isometry3d, 4> others_;  // in the base frame: person, door and boxes
+  double depth_ = 0.0, hinge_ = 0.0;         // theirs, and the door's edge in the camera frame
+  std::vector<Eigen::Isometry3d> poses_;     // T_camera_link
 };
 
 enum class Point { robot, carried, thing, room, other };
@@ -236,14 +368,15 @@ struct Moving {
   std::size_t on_robot = 0;
   std::array<std::size_t, 6> points{};  // by Point; the last: of things next to the outline
   std::array<std::array<std::size_t, 6>, 2> kept{};
-  std::size_t confirmed = 0, off = 0;  // by the memory; of these, of nothing there
-  std::size_t sequences_off = 0;       // with such points
+  std::size_t confirmed = 0;      // by the memory
+  std::size_t gone = 0;           // of these, what was there, is gone, and only the arm explains
+  std::size_t sequences_off = 0;  // with such points
 
   void add(const Moving& other) {
     on_robot += other.on_robot;
     confirmed += other.confirmed;
-    off += other.off;
-    sequences_off += other.off > 0;
+    gone += other.gone;
+    sequences_off += other.gone > 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i] += other.points[i];
       for (std::size_t k = 0; k < kept.size(); ++k) kept[k][i] += other.kept[k][i];
@@ -251,17 +384,18 @@ struct Moving {
   }
 };
 
-Moving tally_sequence(std::size_t cell, bool changes) {
+Moving tally_sequence(std::size_t cell, Change change) {
   StereoCell place(first_seed + cell);
   const Intrinsics camera = StereoCell::intrinsics();
   const LabelRule rule;
   Classifier alone(camera.width(), camera.height(), rule),
       with(camera.width(), camera.height(), rule);
   SceneMemory memory(camera.width(), camera.height(), rule);
-  StereoImages images;
+  StereoImages images, elsewhere;
+  std::vector<StereoImages> before;
   Moving sum;
   for (std::size_t frame = 0; frame < frames_of_sequence; ++frame) {
-    const VirtualDepthView robot = place.capture_moving(frame, changes, images);
+    const VirtualDepthView robot = place.capture_moving(frame, change, false, images);
     const DepthView measured = std::as_const(images.measured).view();
     memory.update(Eigen::Isometry3d::Identity(),
                   static_cast<std::int64_t>(1e9 * static_cast<double>(frame) / frame_rate), robot,
@@ -269,6 +403,7 @@ Moving tally_sequence(std::size_t cell, bool changes) {
     const std::array<LabelView, 2> labels = {alone.classify(robot, measured),
                                              with.classify(robot, measured, memory.depth())};
     const tuning::NearestPixels nearest = test::nearest_robot(robot.depth);
+    std::vector<int> gone;  // pixels
     for (int v = 0; v < images.measured.height(); ++v)
       for (int u = 0; u < images.measured.width(); ++u) {
         if (images.measured(u, v) == 0 || nearest.distance(u, v) > nearby) continue;
@@ -286,15 +421,27 @@ Moving tally_sequence(std::size_t cell, bool changes) {
         const double depth = 0.001 * static_cast<double>(images.measured(u, v));
         const double off = std::abs(depth - static_cast<double>(images.depth(u, v)));
         sum.confirmed += is_confirmed;
-        sum.off += is_confirmed && off > wrong && !is_others(images, u, v, close);
+        if (is_confirmed && off > wrong && !is_others(images, u, v, close))
+          if (std::ranges::any_of(before, [&](StereoImages& then) {
+                then.measured(u, v) = images.measured(u, v);
+                return is_others(then, u, v, close);
+              }))
+            gone.push_back(pixel);
         if (point == Point::thing && nearest.distance(u, v) <= close) count(5);
       }
+    if (frame % 4 == 0) before.push_back(images);
+    if (gone.empty()) continue;
+    place.capture_moving(frame, change, true, elsewhere);
+    for (const int pixel : gone)
+      sum.gone +=
+          std::abs(int{images.measured.data()[pixel]} - int{elsewhere.measured.data()[pixel]}) >
+          static_cast<int>(1000.0 * wrong);
   }
   return sum;
 }
 
 int study_moving(std::size_t sequences) {
-  for (const bool changes : {false, true}) {
+  for (const Change change : {Change::person, Change::things, Change::door, Change::nothing}) {
     Moving all;
     std::mutex mutex;
     std::atomic<std::size_t> next = 0;
@@ -302,22 +449,102 @@ int study_moving(std::size_t sequences) {
     for (int i = 0; i < threads; ++i)
       workers.emplace_back([&] {
         for (std::size_t cell = next++; cell < sequences; cell = next++) {
-          const Moving sum = tally_sequence(cell, changes);
+          const Moving sum = tally_sequence(cell, change);
           const std::lock_guard lock(mutex);
           all.add(sum);
         }
       });
     for (std::thread& worker : workers) worker.join();
-    std::cout << (changes ? "changing" : "static") << ", on robot " << all.on_robot << '\n';
+    std::cout << change_names.at(static_cast<std::size_t>(change)) << ", on robot " << all.on_robot
+              << '\n';
     std::cout << "  confirmed by the memory: " << all.confirmed
-              << ", of these of nothing there: " << all.off << ", in " << all.sequences_off
+              << ", of these of what is gone: " << all.gone << ", in " << all.sequences_off
               << " of " << sequences << " sequences\n";
     const char* const names[] = {"robot", "carried", "thing", "room", "other", "thing next to it"};
     for (std::size_t i = 0; i < 6; ++i)
       std::cout << "  " << names[i] << ": " << all.points[i] << ", kept alone " << all.kept[0][i]
                 << " (" << test::percent(all.kept[0][i], all.points[i]) << " %), with memory "
-                << all.kept[1][i] << " (" << test::percent(all.kept[1][i], all.points[i])
-                << " %)\n";
+                << all.kept[1][i] << " (" << test::percent(all.kept[1][i], all.points[i]) << " %)"
+                << std::endl;
+  }
+  return 0;
+}
+
+constexpr std::array<double, 7> offsets = {-0.10, -0.05, -0.03, 0.0, 0.03, 0.05, 0.10};  // metres
+constexpr std::array<double, 4> gaps = {0.0, 5.0, 10.0, 20.0};                           // pixels
+
+/// Pixels of boxes, and those that are kept without and with a memory: of the box that was there,
+/// and of a new one.
+struct Beside {
+  std::array<std::size_t, 2> all{};
+  std::array<std::array<std::size_t, 2>, 2> kept{};
+};
+using BesideTable = std::array<std::array<Beside, gaps.size()>, offsets.size()>;
+
+void tally_beside(std::size_t cell, BesideTable& table) {
+  StereoCell place(first_seed + cell / (offsets.size() * gaps.size()));
+  const std::size_t i = cell % offsets.size(), j = cell / offsets.size() % gaps.size();
+  const auto old_box = place.box_beside(gaps[j], offsets[i]);
+  const auto new_box = place.box_beside(gaps[j], offsets[i]);
+  if (!old_box || !new_box) return;
+  const std::array<StereoCell::Box, 2> boxes = {*old_box, *new_box};
+  const Intrinsics camera = StereoCell::intrinsics();
+  const LabelRule rule;
+  Classifier alone(camera.width(), camera.height(), rule),
+      with(camera.width(), camera.height(), rule);
+  SceneMemory memory(camera.width(), camera.height(), rule);
+  StereoImages images;
+  Beside sum;
+  for (int frame = 0; frame <= 31; frame += frame < 27 ? 3 : 1) {  // it stops at frame 30
+    const double s = frame / 30.0;
+    const VirtualDepthView robot = place.capture_boxes(s, boxes, frame >= 27, images);
+    const DepthView measured = std::as_const(images.measured).view();
+    memory.update(Eigen::Isometry3d::Identity(), static_cast<std::int64_t>(1e9 * s), robot,
+                  measured);
+    if (frame < 29) continue;
+    const std::array<LabelView, 2> labels = {alone.classify(robot, measured),
+                                             with.classify(robot, measured, memory.depth())};
+    for (std::size_t b = 0; b < boxes.size(); ++b)
+      for (int v = 0; v < camera.height(); ++v)
+        for (int u = 0; u < camera.width(); ++u) {
+          const double z = static_cast<double>(images.depth(u, v));
+          const double off = std::abs(0.001 * images.measured(u, v) - z);
+          if (!boxes[b].holds(u, v, -2.0) || std::abs(z - boxes[b].z) > 0.005 || off > right ||
+              robot.depth(u, v) > 0.0F)
+            continue;
+          ++sum.all[b];
+          for (std::size_t k = 0; k < 2; ++k)
+            sum.kept[b][k] += is_trusted(label_at(labels[k], v * camera.width() + u));
+        }
+  }
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  Beside& into = table[i][j];
+  for (std::size_t b = 0; b < 2; ++b) {
+    into.all[b] += sum.all[b];
+    for (std::size_t k = 0; k < 2; ++k) into.kept[b][k] += sum.kept[b][k];
+  }
+}
+
+int study_beside(std::size_t sequences) {
+  BesideTable sums{};
+  std::atomic<std::size_t> next = 0;
+  std::vector<std::thread> workers;
+  for (int i = 0; i < threads; ++i)
+    workers.emplace_back([&] {
+      for (std::size_t cell = next++; cell < sequences; cell = next++) tally_beside(cell, sums);
+    });
+  for (std::thread& worker : workers) worker.join();
+  for (const std::size_t b : {0, 1}) {
+    std::vector<std::vector<std::string>> rows = {{"cm behind the outline"}};
+    for (const double gap : gaps) rows[0].push_back(number(gap, 0) + " px away");
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      rows.push_back({number(100.0 * offsets[i], 0)});
+      for (const Beside& of : sums[i])
+        rows.back().push_back(number(test::percent(of.kept[b][0], of.all[b]), 1) + " / " +
+                              number(test::percent(of.kept[b][1], of.all[b]), 1));
+    }
+    std::cout << (b == 0 ? "seen before\n" : "new\n") << table(rows) << '\n';
   }
   return 0;
 }
@@ -352,10 +579,12 @@ int main(int argc, char** argv) {
   try {
     if (arguments.size() == 2 && arguments[0] == "--sequences")
       return study_moving(std::stoul(arguments[1]));
+    if (arguments.size() == 2 && arguments[0] == "--beside")
+      return study_beside(std::stoul(arguments[1]));
     const bool has_count = arguments.size() == 3 && arguments[1] == "--frames";
     if (arguments.size() != 1 && !has_count) {
-      std::cerr
-          << "usage: stereo_study REPOSITORY [--frames N]\n       stereo_study --sequences N\n";
+      std::cerr << "usage: stereo_study REPOSITORY [--frames N]\n       stereo_study --sequences "
+                   "N\n       stereo_study --beside N\n";
       return 2;
     }
     const Tally sum = study(has_count ? std::stoul(arguments[2]) : 1000);
