@@ -148,6 +148,7 @@ struct TargetJudge::State {
   Eigen::Array2d whole_size{0, 0};  // pixels, of the remembered extent; 0: none
   Eigen::Vector2d moved{0, 0};      // of that
   bool is_near_robot = false;
+  bool is_hidden_by_other = false;  // in part
 };
 
 TargetJudge::State::State(const Camera& camera_, const LabelRule& label_rule, std::size_t links,
@@ -293,7 +294,7 @@ ExtentTally& TargetJudge::State::observe(const TargetView& target, const Expecte
 ExtentTally& TargetJudge::State::observe_modal(const TargetView& target,
                                                const ExpectedDepth& expected,
                                                TargetMemory& memory) {
-  is_near_robot = false;
+  is_near_robot = is_hidden_by_other = false;
   if (seen_tally.is_out_of_view(target.thresholds)) return seen_tally;
   const PixelRectangle box = box_of_spans(seen.spans());
   const bool is_there = place_whole(target, memory, box);
@@ -313,16 +314,18 @@ ExtentTally& TargetJudge::State::observe_modal(const TargetView& target,
   // What it exceeds the extent in one direction does not make up for what lacks in the other.
   const double excess = (size_of(box) / whole_size).max(1).prod();
   const double missing = all - static_cast<double>(seen.inside()) / excess;
-  if (missing <= target.thresholds.partial_enter * all) return seen_tally;
-  if (!is_near_robot && !expected.known()) return seen_tally;
+  const double unnoticed = is_near_robot ? target.thresholds.partial_enter * all : 0.0;
+  if (missing <= unnoticed || (!is_near_robot && !expected.known())) return seen_tally;
   whole_tally.count(images, rule, whole.spans(), expected, target.thresholds.beyond_hides, nullptr);
   const auto lacks = static_cast<std::size_t>(missing);
   if (!is_near_robot) {  // a target that turns lacks pixels, too: only what hides it counts
     std::size_t& other = seen_tally.pixels[PixelState::other];
-    const std::size_t more = std::min(lacks, whole_tally.pixels[PixelState::other]);
-    seen_tally.inside += more - std::min(more, other);
-    seen_tally.covered += more - std::min(more, other);
-    other = std::max(other, more);
+    const std::size_t hidden = whole_tally.pixels[PixelState::other];
+    const std::size_t more = std::min(lacks, hidden - std::min(hidden, other));
+    other += more;
+    seen_tally.inside += more;
+    seen_tally.covered += more;
+    is_hidden_by_other = more > 0;
     return seen_tally;
   }
   whole_tally.covered = whole.covered();
@@ -372,7 +375,7 @@ void TargetJudge::State::remember(const TargetView& target, TargetMemory& memory
   const Eigen::Array2d size = size_of(box_of_spans(seen.spans()));
   if (has_whole) memory.moved = moved;
   if (is_near_robot || reaches_border()) return;
-  if (has_whole && is_covered(size, whole_size, target.thresholds)) return;
+  if (has_whole && (is_hidden_by_other || is_covered(size, whole_size, target.thresholds))) return;
   memory.whole.assign(seen.spans().begin(), seen.spans().end());
   memory.depth = target.expected_depth;
   memory.moved.setZero();

@@ -87,6 +87,23 @@ TEST_F(ModalTargets, AreHiddenByOtherObjectsWhereTheirDepthIsExpected) {
   }
 }
 
+/// Something comes before the target, a column in each frame.
+TEST_F(ModalTargets, AreHiddenByWhatComesSlowly) {
+  depth = behind;
+  EXPECT_EQ(see(20, 140).verdict, Verdict::visible);
+  for (int columns = width; columns > width / 2; --columns) {
+    TargetFrame frame;
+    frame.add_robot(140, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
+    for (const auto [u, v] : each_pixel(20 + columns, 30, 120, 70))
+      frame.measured(u, v) = TargetFrame::wall - 0.5f;
+    TargetView target = box_target({20, 40, double(columns), 20}, Extent::modal);
+    target.expected_depth = depth;
+    judge.begin(frame.images());
+    const Judgement judgement = judge.judge(target, memory);
+    EXPECT_NEAR(judgement.hidden_by_other.value(), 1.0 - double(columns) / width, share_rounding);
+  }
+}
+
 TEST_F(ModalTargets, OfKnownHeightKeepTheirDepthWhileTheyAreCut) {
   constexpr int rows = 20;
   const double height = rows * behind / TargetFrame::camera().intrinsics.fy();
