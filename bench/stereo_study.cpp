@@ -133,7 +133,8 @@ class StereoCell {
       box.half = 0.03 * intrinsics().fx() / box.z;
       const bool is_inside = box.u > box.half && box.u < robot.depth.width - 1 - box.half &&
                              box.v > box.half && box.v < robot.depth.height - 1 - box.half;
-      if (!is_inside || far.distance(static_cast<int>(box.u), static_cast<int>(box.v)) < seen_from)
+      if (!is_inside || far.distance(static_cast<int>(box.u), static_cast<int>(box.v)) <
+                            seen_from + 1.5 * box.half)
         continue;
       double distance = seen_from;
       for (int v = static_cast<int>(std::ceil(box.v - box.half)); v <= box.v + box.half; ++v)
@@ -476,6 +477,7 @@ constexpr std::array<double, 4> gaps = {0.0, 5.0, 10.0, 20.0};                  
 /// Pixels of boxes, and those that are kept without and with a memory: of the box that was there,
 /// and of a new one.
 struct Beside {
+  std::size_t placements = 0;
   std::array<std::size_t, 2> all{};
   std::array<std::array<std::size_t, 2>, 2> kept{};
 };
@@ -520,6 +522,7 @@ void tally_beside(std::size_t cell, BesideTable& table) {
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   Beside& into = table[i][j];
+  ++into.placements;
   for (std::size_t b = 0; b < 2; ++b) {
     into.all[b] += sum.all[b];
     for (std::size_t k = 0; k < 2; ++k) into.kept[b][k] += sum.kept[b][k];
@@ -541,8 +544,11 @@ int study_beside(std::size_t sequences) {
     for (std::size_t i = 0; i < offsets.size(); ++i) {
       rows.push_back({number(100.0 * offsets[i], 0)});
       for (const Beside& of : sums[i])
-        rows.back().push_back(number(test::percent(of.kept[b][0], of.all[b]), 1) + " / " +
-                              number(test::percent(of.kept[b][1], of.all[b]), 1));
+        rows.back().push_back(of.all[b] == 0
+                                  ? "none"
+                                  : number(test::percent(of.kept[b][0], of.all[b]), 1) + " / " +
+                                        number(test::percent(of.kept[b][1], of.all[b]), 1) +
+                                        " of " + std::to_string(of.placements));
     }
     std::cout << (b == 0 ? "seen before\n" : "new\n") << table(rows) << '\n';
   }
