@@ -100,8 +100,8 @@ struct Tolerance {
 /// 4. Memory, of a Pipeline whose camera stands still and whose frames have stamps. A pixel stays
 ///    clear if its depth differs by at most fringe_step e(d(s)) from what was measured there when
 ///    no robot was within fringe_reach, or 40 pixels. That is forgotten after `scene_memory`
-///    seconds, where the camera sees past it or, by fringe_drift e(z), past a quarter of a tile
-///    near it, and where the robot comes within fringe_drift e(z) of it.
+///    seconds, where the camera sees past it, and where the robot comes within fringe_drift e(z) of
+///    it.
 ///
 /// In the code: pixel_labels-inl.hpp compares, foreground_pixels-inl.hpp and front_cleanup-inl.hpp
 /// clean up, fringe-inl.hpp floods; label_simd.cpp calls them in order. scene_memory.hpp remembers.

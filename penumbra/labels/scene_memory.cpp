@@ -35,8 +35,7 @@ HWY_INLINE void for_each_vector(const SceneTile& tile, ImageView<const float> ro
     if (u == tile.u1) continue;
     std::array<T, lanes> cut{};  // the image ends inside of a vector
     std::array<float, lanes> cut_z{};
-    std::array<std::uint16_t, lanes> cut_known;
-    cut_known.fill(SceneMemory::none);
+    std::array<std::uint16_t, lanes> cut_known{};
     std::copy(in + u, in + tile.u1, cut.begin());
     std::copy(z + u, z + tile.u1, cut_z.begin());
     std::copy(known + u, known + tile.u1, cut_known.begin());
@@ -70,39 +69,35 @@ bool take_tile(const Rule& rule, const SceneTile& tile, ImageView<const float> r
 }
 
 template <typename T>
-bool check_tile(const Rule& rule, const SceneTile& tile, ImageView<const float> robot,
+void check_tile(const Rule& rule, const SceneTile& tile, ImageView<const float> robot,
                 ImageView<const T> measured) {
   const Criteria criteria(rule, measured.data);
   const hn::Rebind<std::uint16_t, F> narrow;
   const VF reach = hn::Set(F(), static_cast<float>(LabelRule::fringe_drift));
   const VF step = hn::Set(F(), static_cast<float>(LabelRule::fringe_step));
-  const VI none = hn::Set(I(), SceneMemory::none);
-  std::size_t all = 0, gone = 0;
   const auto check = [&](const T* in, const float* virtual_depth, std::uint16_t* known,
                          bool) HWY_ATTR {
     const VF d = load_metres(in), z = hn::LoadU(F(), virtual_depth), m = load_metres(known);
     const VF e = criteria.tolerance(m);
-    const auto is_measured = hn::RebindMask(F(), criteria.measured(d));
-    const VF behind = hn::Sub(d, m);
-    const auto is_past = hn::And(is_measured, hn::Gt(behind, hn::Mul(step, e)));
+    const auto is_past =
+        hn::And(hn::RebindMask(F(), criteria.measured(d)), hn::Gt(hn::Sub(d, m), hn::Mul(step, e)));
     const auto is_reached =
         hn::And(hn::Gt(z, hn::Zero(F())), hn::Le(hn::Abs(hn::Sub(z, m)), hn::Mul(reach, e)));
     const VI before = hn::PromoteTo(I(), hn::LoadU(narrow, known));
-    all += hn::CountTrue(I(), hn::Ne(before, none));
-    gone += hn::CountTrue(F(), hn::And(is_measured, hn::Gt(behind, hn::Mul(reach, e))));
-    const VI now = hn::IfThenElse(hn::RebindMask(I(), hn::Or(is_past, is_reached)), none, before);
+    const VI now = hn::IfThenElse(hn::RebindMask(I(), hn::Or(is_past, is_reached)),
+                                  hn::Set(I(), SceneMemory::none), before);
     hn::StoreU(hn::DemoteTo(narrow, now), narrow, known);
   };
   for_each_vector(tile, robot, measured, check);
-  return 4 * gone > all;
 }
 
 bool update_tile(const Rule& rule, const SceneTile& tile, ImageView<const float> robot,
                  const DepthView& measured) {
   return std::visit(
       [&](const auto& depth) {
-        return tile.is_near ? check_tile(rule, tile, robot, depth)
-                            : take_tile(rule, tile, robot, depth);
+        if (!tile.is_near) return take_tile(rule, tile, robot, depth);
+        check_tile(rule, tile, robot, depth);
+        return false;
       },
       measured);
 }
@@ -219,30 +214,18 @@ void SceneMemory::update_row(std::size_t row, const VirtualDepthView& robot,
     const std::uint64_t age = stamp_distance(stamp_, taken_[row].at(i));
     tile.is_near = (near & bit) != 0;
     if (tile.is_near ? !is_known : is_known && age < between_takes) continue;
-    const bool is_other =
-        (tile.is_near && age > lasts_) || update_tile_(rule_, tile, robot.depth, measured);
-    if (tile.is_near && is_other) forget_around(row, i);
+    if (tile.is_near && age > lasts_) {
+      for (int v = tile.v0; v < tile.v1; ++v)
+        std::fill(&depth_(tile.u0, v), &depth_(tile.u0, v) + (tile.u1 - tile.u0), none);
+      known_[row] &= ~bit;
+      continue;
+    }
+    const bool is_other = update_tile_(rule_, tile, robot.depth, measured);
     if (tile.is_near) continue;
     away_ += is_known;
     changed_ += is_other && is_known;
     taken_[row].at(i) = stamp_;
     known_[row] |= bit;
-  }
-}
-
-/// Forgets a tile and those around it: what has left it may be hidden there.
-void SceneMemory::forget_around(std::size_t row, std::size_t column) {
-  const auto width = static_cast<std::size_t>(robot_.tile_width);
-  const std::size_t u0 = column > 0 ? (column - 1) * width : 0;
-  const std::size_t u1 = std::min((column + 2) * width, static_cast<std::size_t>(depth_.width()));
-  const std::uint64_t around = std::uint64_t{7} << column >> 1;
-  for (std::size_t j = row - std::min<std::size_t>(row, 1); j < std::min(row + 2, known_.size());
-       ++j) {
-    known_[j] &= ~around;
-    const std::size_t v1 =
-        std::min((j + 1) * TileMask::tile_height, static_cast<std::size_t>(depth_.height()));
-    for (std::size_t v = j * TileMask::tile_height; v < v1; ++v)
-      std::fill_n(depth_.data() + v * static_cast<std::size_t>(depth_.width()) + u0, u1 - u0, none);
   }
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -24,9 +23,8 @@ struct SceneTile {
   ImageView<std::uint16_t> known = {};
 };
 
-/// Takes what is measured in a tile away from the robot, or forgets what a tile near the robot
-/// contradicts. Returns whether most of a tile away from the robot differs from what was known, or
-/// the camera sees far past a quarter of a near one.
+/// Takes what is measured in a tile away from the robot, and returns whether most of it differs
+/// from what was known; or forgets what a tile near the robot contradicts.
 using UpdateSceneTile = bool (*)(const Rule&, const SceneTile&, ImageView<const float> robot,
                                  const DepthView& measured);
 
@@ -41,9 +39,8 @@ class SceneMemory {
   SceneMemory(int width, int height, const LabelRule& rule, const std::string& isa = {});
 
   /// Takes what a frame measures away from the robot, each place every two seconds. Forgets, four
-  /// times a second, what is too old and, near the robot, what it now sees past, with what
-  /// surrounds that, or the robot reaches; all, if the camera has moved, the clock was set or most
-  /// of the view differs.
+  /// times a second, what is too old and, near the robot, what it now sees past or the robot
+  /// reaches; all, if the camera has moved, the clock was set or most of the view differs.
   void update(const Eigen::Isometry3d& T_root_camera, std::int64_t stamp,
               const VirtualDepthView& robot, const DepthView& measured);
   void forget();
@@ -53,7 +50,6 @@ class SceneMemory {
 
  private:
   void update_row(std::size_t row, const VirtualDepthView& robot, const DepthView& measured);
-  void forget_around(std::size_t row, std::size_t column);
 
   labelling::Rule rule_;
   labelling::UpdateSceneTile update_tile_;

@@ -125,14 +125,6 @@ TEST_P(Memory, EndsWithAMovedCameraOrClock) {
   EXPECT_EQ(fringe(-5 * second), thing);
 }
 
-/// Nine tenths of a thing are seen to be gone; the rest is hidden in what the sensor carries.
-TEST_P(Memory, EndsAroundWhatIsTakenAway) {
-  EXPECT_EQ(fringe_of_thing(), 0u);
-  measure(203, 230, wall);
-  fringe();
-  EXPECT_EQ(fringe(), 3u * 56u);
-}
-
 TEST_P(Memory, OfAViewThatHasChangedIsLost) {
   EXPECT_EQ(fringe_of_thing(), 0u);
   for (float& z : std::span(scene_.metres.data(), scene_.metres.size()))
@@ -165,7 +157,7 @@ class PlainMemory {
 
   template <typename T>
   void update(const Scene& scene, ImageView<const T> measured) {
-    const int side = tile_width_ = scene.tiles.tile_width, tall = TileMask::tile_height;
+    const int side = scene.tiles.tile_width, tall = TileMask::tile_height;
     const int columns = (depth.width() + side - 1) / side;
     const MeasuredRange range(rule_.range.near, rule_.range.far);
     for (int v0 = 0; v0 < depth.height(); v0 += tall)
@@ -173,14 +165,12 @@ class PlainMemory {
         const int tile = v0 / tall * columns + u0 / side;
         const bool is_near = near(scene, u0 / side, v0 / tall);
         const bool is_known = !known_.insert({tile, false}).second && known_[tile];
-        int both = 0, others = 0, all = 0, gone = 0;
+        int both = 0, others = 0;
         for (const auto [u, v] : each_pixel(u0, v0, std::min(u0 + side, depth.width()),
                                             std::min(v0 + tall, depth.height()))) {
           std::uint16_t& m = depth(u, v);
           const float d = metres_of(measured(u, v), range), z = scene.robot(u, v);
           const float before = 0.001f * float(m), off = d - before;
-          all += m != SceneMemory::none;
-          gone += m != SceneMemory::none && d > 0.0f && off > 3.0f * e(before);
           if (is_near && m != SceneMemory::none &&
               ((d > 0.0f && off > 0.6f * e(before)) ||
                (z > 0.0f && std::abs(z - before) <= 3.0f * e(before))))
@@ -192,7 +182,6 @@ class PlainMemory {
           }
           m = d > 0.0f ? std::uint16_t(std::nearbyint(1000.0f * d)) : SceneMemory::none;
         }
-        if (is_near && is_known && 4 * gone > all) forget_around(u0 / side, v0 / tall);
         if (is_near) continue;
         away_ += is_known;
         changed_ += is_known && 2 * others > both;
@@ -213,16 +202,6 @@ class PlainMemory {
   [[nodiscard]] float e(float z) const {
     return float(rule_.tolerance.a) + float(rule_.tolerance.c) * z * z;
   }
-  void forget_around(int i, int j) {
-    const int side = tile_width_, tall = TileMask::tile_height;
-    const int columns = (depth.width() + side - 1) / side;
-    for (const auto [u, v] : each_pixel(std::max(i - 1, 0) * side, std::max(j - 1, 0) * tall,
-                                        std::min((i + 2) * side, depth.width()),
-                                        std::min((j + 2) * tall, depth.height()))) {
-      depth(u, v) = SceneMemory::none;
-      known_[v / tall * columns + u / side] = false;
-    }
-  }
   [[nodiscard]] bool near(const Scene& scene, int i, int j) const {
     const int reach = std::max(rule_.fringe_reach, 40);
     const auto tiles = [&](int size) { return (reach + size - 1) / size; };
@@ -236,7 +215,7 @@ class PlainMemory {
 
   LabelRule rule_;
   std::map<int, bool> known_;
-  int tile_width_ = 0, away_ = 0, changed_ = 0;
+  int away_ = 0, changed_ = 0;
 };
 
 TEST(MemoryTwins, RememberWhatPlainLoopsDo) {
