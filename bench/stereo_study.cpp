@@ -3,7 +3,7 @@
 // much of it the fringe finds and what it takes of real things. Writes a table into docs/cloud.md.
 // With --sequences, prints the same of a moving arm, from single images and with a memory of the
 // scene: where things stay, where half of them go and others come, where a person walks through and
-// where a door opens. With --beside, prints what is kept of two boxes next to the arm's outline, of
+// where a door opens. With --boxes, prints what is kept of two boxes next to the arm's outline, of
 // which one stood there before the arm came.
 #include "../tests/support/cloud_measure.hpp"
 #include "stereo_camera.hpp"
@@ -58,7 +58,7 @@ constexpr double clear_of_arm = 0.1;  // metres from its middle, of a person and
 constexpr double away = 10.0;         // metres: out of view
 constexpr double close = 20.0;        // pixels from the outline
 
-/// The simulated arm among eight things before, behind and beside it, seen by a stereo camera. The
+/// The simulated arm among eight things before, behind and next to it, seen by a stereo camera. The
 /// seed chooses the camera's place and the things; every frame is a new arm pose with the things in
 /// new places.
 class StereoCell {
@@ -120,7 +120,7 @@ class StereoCell {
 
   /// Returns a box that is `gap` pixels from the arm's outline half-way, and `offset` metres behind
   /// it. It is far from the arm of the first frame.
-  std::optional<Box> box_beside(double gap, double offset) {
+  std::optional<Box> box_next_to_arm(double gap, double offset) {
     const VirtualDepthView first = render(joints_at(0.0));
     const tuning::NearestPixels far = test::nearest_robot(first.depth);
     const VirtualDepthView robot = render(joints_at(1.0));
@@ -225,7 +225,7 @@ class StereoCell {
     return renderer_->render(poses_);
   }
 
-  /// Chooses where person and door are: beside, before or behind the arm's middle.
+  /// Chooses where person and door are: next to, before or behind the arm's middle.
   void begin() {
     const VirtualDepthView robot = render(scene_->joints(0.0));
     std::vector<double> depths;
@@ -369,15 +369,15 @@ struct Moving {
   std::size_t on_robot = 0;
   std::array<std::size_t, 6> points{};  // by Point; the last: of things next to the outline
   std::array<std::array<std::size_t, 6>, 2> kept{};
-  std::size_t confirmed = 0;      // by the memory
-  std::size_t gone = 0;           // of these, what was there, is gone, and only the arm explains
-  std::size_t sequences_off = 0;  // with such points
+  std::size_t confirmed = 0;       // by the memory
+  std::size_t gone = 0;            // of these, what was there, is gone, and only the arm explains
+  std::size_t sequences_gone = 0;  // with such points
 
   void add(const Moving& other) {
     on_robot += other.on_robot;
     confirmed += other.confirmed;
     gone += other.gone;
-    sequences_off += other.gone > 0;
+    sequences_gone += other.gone > 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i] += other.points[i];
       for (std::size_t k = 0; k < kept.size(); ++k) kept[k][i] += other.kept[k][i];
@@ -459,7 +459,7 @@ int study_moving(std::size_t sequences) {
     std::cout << change_names.at(static_cast<std::size_t>(change)) << ", on robot " << all.on_robot
               << '\n';
     std::cout << "  confirmed by the memory: " << all.confirmed
-              << ", of these of what is gone: " << all.gone << ", in " << all.sequences_off
+              << ", of these of what is gone: " << all.gone << ", in " << all.sequences_gone
               << " of " << sequences << " sequences\n";
     const char* const names[] = {"robot", "carried", "thing", "room", "other", "thing next to it"};
     for (std::size_t i = 0; i < 6; ++i)
@@ -476,18 +476,18 @@ constexpr std::array<double, 4> gaps = {0.0, 5.0, 10.0, 20.0};                  
 
 /// Pixels of boxes, and those that are kept without and with a memory: of the box that was there,
 /// and of a new one.
-struct Beside {
+struct BoxTally {
   std::size_t placements = 0;
   std::array<std::size_t, 2> all{};
   std::array<std::array<std::size_t, 2>, 2> kept{};
 };
-using BesideTable = std::array<std::array<Beside, gaps.size()>, offsets.size()>;
+using BoxTable = std::array<std::array<BoxTally, gaps.size()>, offsets.size()>;
 
-void tally_beside(std::size_t cell, BesideTable& table) {
+void tally_boxes(std::size_t cell, BoxTable& table) {
   StereoCell place(first_seed + cell / (offsets.size() * gaps.size()));
   const std::size_t i = cell % offsets.size(), j = cell / offsets.size() % gaps.size();
-  const auto old_box = place.box_beside(gaps[j], offsets[i]);
-  const auto new_box = place.box_beside(gaps[j], offsets[i]);
+  const auto old_box = place.box_next_to_arm(gaps[j], offsets[i]);
+  const auto new_box = place.box_next_to_arm(gaps[j], offsets[i]);
   if (!old_box || !new_box) return;
   const std::array<StereoCell::Box, 2> boxes = {*old_box, *new_box};
   const Intrinsics camera = StereoCell::intrinsics();
@@ -496,7 +496,7 @@ void tally_beside(std::size_t cell, BesideTable& table) {
       with(camera.width(), camera.height(), rule);
   SceneMemory memory(camera.width(), camera.height(), rule);
   StereoImages images;
-  Beside sum;
+  BoxTally sum;
   for (int frame = 0; frame <= 31; frame += frame < 27 ? 3 : 1) {  // it stops at frame 30
     const double s = frame / 30.0;
     const VirtualDepthView robot = place.capture_boxes(s, boxes, frame >= 27, images);
@@ -521,7 +521,7 @@ void tally_beside(std::size_t cell, BesideTable& table) {
   }
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
-  Beside& into = table[i][j];
+  BoxTally& into = table[i][j];
   ++into.placements;
   for (std::size_t b = 0; b < 2; ++b) {
     into.all[b] += sum.all[b];
@@ -529,13 +529,13 @@ void tally_beside(std::size_t cell, BesideTable& table) {
   }
 }
 
-int study_beside(std::size_t sequences) {
-  BesideTable sums{};
+int study_boxes(std::size_t sequences) {
+  BoxTable sums{};
   std::atomic<std::size_t> next = 0;
   std::vector<std::thread> workers;
   for (int i = 0; i < threads; ++i)
     workers.emplace_back([&] {
-      for (std::size_t cell = next++; cell < sequences; cell = next++) tally_beside(cell, sums);
+      for (std::size_t cell = next++; cell < sequences; cell = next++) tally_boxes(cell, sums);
     });
   for (std::thread& worker : workers) worker.join();
   for (const std::size_t b : {0, 1}) {
@@ -543,7 +543,7 @@ int study_beside(std::size_t sequences) {
     for (const double gap : gaps) rows[0].push_back(number(gap, 0) + " px away");
     for (std::size_t i = 0; i < offsets.size(); ++i) {
       rows.push_back({number(100.0 * offsets[i], 0)});
-      for (const Beside& of : sums[i])
+      for (const BoxTally& of : sums[i])
         rows.back().push_back(of.all[b] == 0
                                   ? "none"
                                   : number(test::percent(of.kept[b][0], of.all[b]), 1) + " / " +
@@ -582,18 +582,19 @@ std::string report(const Tally& sum) {
 int main(int argc, char** argv) {
   using namespace penumbra::study;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const auto count = [&](std::size_t i) { return std::strtoul(arguments[i].c_str(), nullptr, 10); };
   try {
-    if (arguments.size() == 2 && arguments[0] == "--sequences")
-      return study_moving(std::stoul(arguments[1]));
-    if (arguments.size() == 2 && arguments[0] == "--beside")
-      return study_beside(std::stoul(arguments[1]));
-    const bool has_count = arguments.size() == 3 && arguments[1] == "--frames";
-    if (arguments.size() != 1 && !has_count) {
+    if (arguments.size() == 2 && arguments[0] == "--sequences" && count(1) > 0)
+      return study_moving(count(1));
+    if (arguments.size() == 2 && arguments[0] == "--boxes" && count(1) > 0)
+      return study_boxes(count(1));
+    const bool has_count = arguments.size() == 3 && arguments[1] == "--frames" && count(2) > 0;
+    if ((arguments.size() != 1 && !has_count) || arguments[0].starts_with("-")) {
       std::cerr << "usage: stereo_study REPOSITORY [--frames N]\n       stereo_study --sequences "
-                   "N\n       stereo_study --beside N\n";
+                   "N\n       stereo_study --boxes N\n";
       return 2;
     }
-    const Tally sum = study(has_count ? std::stoul(arguments[2]) : 1000);
+    const Tally sum = study(has_count ? count(2) : 1000);
     const std::string text = report(sum);
     std::cout << text;
     if (!has_count)
