@@ -142,25 +142,6 @@ TEST_F(BagTargets, AreJudgedOnTheFrameOfTheirStamp) {
   expect_has(out_, {"/wrist", "penumbra_msgs/msg/Keypoints"});
 }
 
-/// A turntable of which nothing is drawn, and which two programs see turned differently.
-TEST_F(BagTargets, InALinkThatTwoProgramsPutElsewhereAreUnknown) {
-  add_to_bag_robot(R"(<link name="turntable"/>
-      <joint name="turn" type="continuous"><parent link="base"/><child link="turntable"/></joint>)");
-  bag_.edit<io::JointStateMessage>([](auto& state) {
-    state.names[0] = "turn";
-    state.positions[0] = 0.0;
-  });
-  add_pose("/goal", "turntable");
-  EXPECT_EQ(verdicts({"/goal"}, "", {})["/goal"], "hidden");
-  expect_recorded_labels();
-  for (std::int64_t at = tiny_stamp(0) - 190'000'000; at < tiny_stamp(3); at += 50'000'000)
-    bag_.add("/joint_states", at,
-             io::JointStateMessage{.header = {at, ""}, .names = {"turn"}, .positions = {0.7}});
-  EXPECT_EQ(verdicts({"/goal"}, "/goal", {"'turntable'", "joint 'turn' is at "})["/goal"],
-            "unknown");
-  expect_recorded_labels();
-}
-
 const std::string attached_topic = "/attached_collision_object";
 const std::string scene_topic = "/monitored_planning_scene";
 
@@ -225,14 +206,6 @@ TEST_F(BagAttachedTest, AnObjectIsDrawnFromItsStampOn) {
   bag_.add(attached_topic, tiny_stamp(1) + 20 * ms, part(tiny_stamp(1) - 10 * ms));
   bag_.add(attached_topic, tiny_stamp(2) + 20 * ms, removal(tiny_stamp(2) - 10 * ms, "part"));
   expect_part_from_1_on(2);
-}
-
-TEST_F(BagAttachedTest, StampsCountNotTheOrderOfMessages) {
-  bag_.add(attached_topic, tiny_stamp(0), removal(tiny_stamp(2) - 10 * ms, ""));
-  bag_.add(attached_topic, tiny_stamp(0) + 1, part(tiny_stamp(1) - 10 * ms));
-  EXPECT_EQ(frames_with_part(), "011") << "a removal of all removes what was known";
-  bag_.add(attached_topic, tiny_stamp(0) + 2, removal(tiny_stamp(2) - 10 * ms, "part"));
-  EXPECT_EQ(frames_with_part(), "010");
 }
 
 TEST_F(BagAttachedTest, PlanningScenesAddAndReplace) {

@@ -5,12 +5,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <limits>
 
 #include <io/files/camera_info.hpp>
-#include <io/inputs/run_input.hpp>
-#include <io/mcap/compression.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -29,13 +26,6 @@ TEST_F(BagTest, GivesTheLabelsOfTheRecording) {
 TEST_F(BagTest, ReadsSqliteBagsAndFolders) {
   bag_.write_sqlite(path("tiny.db3"));
   succeed(run({}, "tiny.db3"));
-  expect_recorded_labels();
-
-  std::vector<std::byte> packed;
-  io::mcap::Compressor(io::mcap::Compression::zstd)
-      .compress(as_bytes(read_file(path("tiny.db3"))), packed);
-  write("packed.db3.zst", {reinterpret_cast<const char*>(packed.data()), packed.size()});
-  EXPECT_EQ(succeed(run({}, "packed.db3.zst")).err, "");
   expect_recorded_labels();
 
   fs::create_directory(path("recorded"));
@@ -155,15 +145,6 @@ TEST_F(BagTest, DepthAlongTheRayIsAnOption) {
   EXPECT_EQ(expect_recorded({"--depth-along", "ray"}).err, "");
 }
 
-TEST_F(BagTest, FramesWithoutPoseAreFrames) {
-  std::erase_if(bag_.messages, [](const auto& message) {
-    return message.topic == "/joint_states" && message.log_time > tiny_stamp(1) - 200'000'000 &&
-           message.log_time < tiny_stamp(1) + 200'000'000;
-  });
-  EXPECT_EQ(count_lines(succeed(run()).err), 1U);
-  EXPECT_EQ(statuses(), (Words{"ok", "stale_joints", "ok"}));
-}
-
 TEST_F(BagTest, FaultyImagesAreFramesOfAStatus) {
   int image = 0;
   bag_.edit<io::ImageMessage>([&](auto& depth) {
@@ -235,47 +216,19 @@ TEST_F(BagTest, TakesPosesFromTransforms) {
   expect_has(run().out, {"poses: from tf"});
 }
 
-/// Returns how many bytes this process has read from files.
-std::uint64_t bytes_read() {
-  std::string name;
-  std::uint64_t bytes = 0;
-  std::ifstream("/proc/self/io") >> name >> bytes;
-  return bytes;
-}
-
-/// Once a frame above both camera and robot is known, no link can come above the camera.
-TEST_F(BagTest, ACameraBesideTheRobotIsFoundWithoutReadingTheWholeBag) {
+TEST_F(BagTest, ACameraMayStandBesideTheRobotInACell) {
   bag_.edit<io::TfMessage>("/tf_static", [](auto& tf) {
     if (tf.transforms[0].header.frame_id == "base") tf.transforms[0].header.frame_id = "cell";
   });
   bag_.add("/tf_static", tiny_stamp(0) - 190'000'000,
            io::TfMessage{{{{0, "cell"}, "base", Eigen::Isometry3d::Identity()}}});
   bag_.sort();
-  const TinyBag::Message first =
-      *std::ranges::find(bag_.messages, depth_topic, &TinyBag::Message::topic);
-  for (int i = 0; i < 1000; ++i) {
-    bag_.messages.push_back(first);
-    bag_.messages.back().log_time = tiny_stamp(3 + i);
-  }
-  const fs::path file = tiny_mcap();
-  const std::uint64_t before = bytes_read();
-  io::InputOptions options;
-  options.path = file;
-  const io::RunInput input = io::open_input(options, [](const std::string&) {});
-  constexpr std::uint64_t part = 10;  // of the bag: its index and its begin
-  EXPECT_LT(bytes_read() - before, fs::file_size(file) / part);
-  EXPECT_EQ(input.config.camera_parent, "base");
-
-  const auto frames = input.frames();
-  Frame frame;
-  ASSERT_TRUE(frames->next(frame));
-  EXPECT_EQ(frame.pose.status, FrameStatus::ok);
-  ASSERT_TRUE(frame.pose.T_parent_camera);
-  EXPECT_TRUE(frame.pose.T_parent_camera->isApprox(Eigen::Isometry3d::Identity()));
+  expect_has(expect_recorded().out, {"'base'"});
 }
 
 TEST_F(BagTest, JointStatesOfTwoPublishersThatDisagreeAreReportedAndNotUsed) {
   // joint_state_publisher beside the driver: all joints of its own order, no sliders moved.
+  const TinyBag alone = bag_;
   for (std::int64_t stamp = tiny_stamp(0) - 190'000'000; stamp < tiny_stamp(3);
        stamp += 100'000'000)
     bag_.add("/joint_states", stamp,
@@ -287,9 +240,8 @@ TEST_F(BagTest, JointStatesOfTwoPublishersThatDisagreeAreReportedAndNotUsed) {
   expect_has(outcome.err,
              {"poses_disagree", "3 of 3", "joint 'slide' is at ",
               "/joint_states (2 joints from 'other')", "/joint_states (2 joints from 'slide')"});
-}
 
-TEST_F(BagTest, TheFirstPublisherMayBeBelieved) {
+  bag_ = alone;
   bag_.copy("/joint_states", "/second/joint_states");
   bag_.edit<io::JointStateMessage>("/second/joint_states", [](auto& state) {
     state.header.stamp += 1'000'000;

@@ -66,25 +66,6 @@ TEST_F(RenderTest, RefusesBadInput) {
   EXPECT_EQ(read_file(path("camera_pose.csv")), pose);
 }
 
-TEST_F(RenderTest, FormerImagesStayWhereTheCallFails) {
-  const fs::path vdi = path("vdi.npy"), links = path("links.png");
-  write_file(vdi, "measured");
-  write_file(links, "drawn");
-  const auto expect_left = [&](const Words& options) {
-    EXPECT_EQ(render(options).status, 2);
-    EXPECT_EQ(read_file(vdi), "measured");
-    EXPECT_EQ(read_file(links), "drawn");
-  };
-  expect_left({"--joint", "slide=-1", "--links", links});
-  expect_left({"--links", path("nowhere/links.png")});
-  fs::rename(path("board.stl"), path("board.away"));
-  expect_left({"--links", links});
-  fs::rename(path("board.away"), path("board.stl"));
-  succeed(render({"--links", links}));
-  EXPECT_NE(read_file(vdi), "measured");
-  EXPECT_NE(read_file(links), "drawn");
-}
-
 using InspectTest = RenderTest;
 
 TEST_F(InspectTest, TellsTheSameAsJson) {
@@ -103,18 +84,6 @@ TEST_F(InspectTest, TellsWhereItsOutputCannotBeWritten) {
       penumbra({"-c", "\"$0\" inspect \"$1\" >/dev/full", PENUMBRA_PROGRAM, path("tiny.urdf")}, {},
                "/bin/sh"),
       {"standard output: cannot be written"});
-}
-
-TEST_F(InspectTest, ShowsTheOthersWhereAMeshIsMissing) {
-  fs::remove(path("board.stl"));
-  const Outcome outcome = inspect();
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_EQ(count_lines(outcome.err), 1U) << outcome.err;
-  EXPECT_EQ(outcome.err, render().err) << "with the line, too";
-  expect_has(outcome.out, {"MISSING"});
-  const std::size_t named = outcome.out.find("board.stl");
-  ASSERT_NE(named, std::string::npos) << outcome.out;
-  expect_lacks(outcome.out.substr(named + 1), {"board.stl"});
 }
 
 TEST_F(InspectTest, PathsNeverSteerTheTerminal) {

@@ -38,12 +38,10 @@ struct FourPoints {
   io::PointCloud2Message message;
 };
 
-/// A recording.yaml of the clouds scans/0.pcd and so on. `joints`: its table of joints.
-inline std::string clouds_yaml(const std::string& joints = "joint_states.csv") {
+/// A recording.yaml of the clouds scans/0.pcd and so on.
+inline std::string clouds_yaml() {
   return "robot: {urdf: tiny.urdf}\nsensor: {parent: base, pose: camera_pose.csv, model: "
-         "lidar_2cm}\n"
-         "frames: {joints: " +
-         joints + ", cloud: scans/%d.pcd}\n";
+         "lidar_2cm}\nframes: {joints: joint_states.csv, cloud: scans/%d.pcd}\n";
 }
 
 inline std::vector<int> numbers_of(const io::PointCloud2Message& cloud) {

@@ -41,35 +41,6 @@ TEST(Distortion, KnowsRosNames) {
   EXPECT_EQ(to_string(DistortionModel::rational_polynomial), "rational_polynomial");
 }
 
-TEST(Distortion, ItsCoefficientsMakeItAgain) {
-  auto random = seeded_random(5);
-  for (int i = 0; i < 100; ++i) {
-    const Lens sample = random_lens(random);
-    const Distortion lens = sample.distortion();
-    EXPECT_EQ(Distortion(to_string(lens.model()), lens.coefficients()), lens) << sample.name;
-  }
-  EXPECT_TRUE(Distortion().coefficients().empty());
-}
-
-TEST(Distortion, DerivativeAgreesWithDifferences) {
-  constexpr double h = 1e-5;
-  constexpr double close = 1e-6;  // third derivatives of up to some 1e3, times h^2
-  auto random = seeded_random(6);
-  for (int i = 0; i < 1000; ++i) {
-    const Lens sample = random_lens(random);
-    const Distortion lens = sample.distortion();
-    const Vector2d p = random_point_inside(lens, 0.9, random);
-    for (int axis = 0; axis < 2; ++axis) {
-      const Vector2d step = h * Vector2d::Unit(axis);
-      const Vector2d difference = (lens.distort(p + step) - lens.distort(p - step)) / (2 * h);
-      EXPECT_LT((lens.derivative(p).col(axis) - difference).norm(), close)
-          << sample.model << ' ' << p.transpose();
-    }
-  }
-  for (const Lens& sample : typical_lenses())
-    EXPECT_EQ(sample.distortion().derivative({0, 0}), Eigen::Matrix2d::Identity());
-}
-
 TEST(Distortion, IdealFisheyeHasAClosedFormInverse) {
   const Distortion lens("equidistant", std::vector<double>(4, 0.0));
   for (const double degrees : {0.0, 1e-6, 1.0, 45.0, 80.0, 89.9}) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Labels of points against Embree's rays and closed forms.
 #include "../support/test.hpp"
-#include "allocations.hpp"
 #include "embree_oracle.hpp"
 #include "scene.hpp"
 #include "shapes.hpp"
 
 #include <penumbra/cloud/scan.hpp>
+#include <penumbra/mesh/triangle_tree.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -247,22 +247,30 @@ TEST(CloudLabels, PointsWithoutMeasurementAreUnknown) {
   EXPECT_EQ(found.labels[5], std::uint8_t(Label::clear));
 }
 
-TEST(CloudLabels, BadRulesAreRefused) {
-  EXPECT_THROW((CloudLabeller({}, {.beam = 0.1})), InputError);
-  EXPECT_THROW((CloudLabeller({}, {.tolerance = {-1, 0, 0}})), InputError);
+/// Rays at corners and along edges are those that a careless test lets through.
+TEST(TriangleTree, NoRaySlipsThroughAClosedMesh) {
+  std::mt19937_64 random = seeded_random(422);
+  const TriangleMesh mesh = sphere(1.0F, 40);
+  const TriangleTree tree{PreparedMesh(mesh)};
+  for (const auto& triangle : mesh.triangles) {
+    const Vector3d a = mesh.vertices[triangle[0]].cast<double>(),
+                   b = mesh.vertices[triangle[1]].cast<double>();
+    const Vector3d from = 0.5 * random_direction(random);
+    for (const Vector3d& at : {a, Vector3d(a + uniform(random, 0.0, 1.0) * (b - a))})
+      ASSERT_NEAR(tree.first_hit(from, at - from), 1.0, 1e-3) << at.transpose();
+  }
 }
 
-TEST(CloudLabels, AllocateNothingOnceWarm) {
-  std::mt19937_64 random = seeded_random(45);
-  const Scene scene = random_scene(random);
-  CloudLabeller labeller(scene.bodies());
-  Points points;
-  for (const Vector3d& direction : random_directions(random, scene, 5'000))
-    points.add(2.0 * direction);
-  (void)labeller.label(points.view(), Vector3d::Zero(), scene.poses);
-  const std::size_t before = allocations();
-  (void)labeller.label(points.view(), Vector3d::Zero(), scene.poses);
-  EXPECT_EQ(allocations(), before);
+TEST(TriangleTree, ASmallHoleLetsNoPointOut) {
+  std::mt19937_64 random = seeded_random(424);
+  TriangleMesh mesh = sphere(0.5F, 24);
+  mesh.triangles.erase(mesh.triangles.begin() + 500);
+  const TriangleTree tree{PreparedMesh(mesh)};
+  for (int i = 0; i < 20'000; ++i) {
+    const double away = i % 2 == 0 ? uniform(random, 0.0, 0.45) : uniform(random, 0.87, 1.7);
+    const Vector3d point = away * random_direction(random);
+    ASSERT_EQ(tree.encloses(point), away < 0.5) << point.transpose();
+  }
 }
 
 }  // namespace

@@ -425,6 +425,8 @@ TEST(Scans, BadConfigurationsAreRefused) {
   wrong = config();
   wrong.T_parent_sensor.linear() *= 2.0;
   EXPECT_THROW(Pipeline(bar_robot(), wrong), InputError);
+  wrong.rule.beam = 0.1;
+  EXPECT_THROW(wrong.rule.check(), InputError);
   EXPECT_THROW((void)CloudRule::for_sensor("eyes"), InputError);
 }
 

@@ -42,13 +42,6 @@ def test_the_reference_has_every_public_name_and_member(text):
                 assert member.startswith("_") or re.search(rf"\b{member}\b", own), f"{name}.{member}"
 
 
-def test_signatures_are_short_and_whole(text):
-    assert ".. py:method:: process(frame: Frame) -> FrameReport" in text
-    assert ":type: uint8[H, W]" in text  # of labels
-    assert "Annotated" not in text and "object at 0x" not in text
-    assert "Default: ``Tolerance(a=0.015, b=0.0, c=0.006)``" in text
-
-
 def test_every_header_of_the_reference_is_there():
     for headers in reference.HEADERS.values():
         for header in headers:
@@ -63,7 +56,7 @@ SAME = 1.5
 
 def test_pictures_are_what_the_script_draws(tmp_path):
     subprocess.run([sys.executable, ROOT / "scripts" / "method_pictures.py", tmp_path], check=True)
-    drawn = sorted(tmp_path.iterdir())
+    drawn, page = sorted(tmp_path.iterdir()), (ROOT / "docs" / "method.md").read_text()
     assert [file.name for file in drawn] == [file.name for file in sorted(IMAGES.glob("method-*"))]
     for file in drawn:
         now, shown = (np.asarray(Image.open(folder / file.name).convert("RGB"), float)
@@ -71,9 +64,4 @@ def test_pictures_are_what_the_script_draws(tmp_path):
         assert now.shape == shown.shape
         assert np.abs(now - shown).mean() < SAME, f"{file.name}: run scripts/method_pictures.py"
         assert (IMAGES / file.name).stat().st_size < MOST_BYTES
-
-
-def test_each_is_shown():
-    page = (ROOT / "docs" / "method.md").read_text()
-    for file in IMAGES.glob("method-*"):
-        assert f"(images/{file.name})" in page, file.name
+        assert f"(images/{file.name})" in page

@@ -3,8 +3,6 @@
 // live` where the tiny recording is played.
 #include "../apps/fixtures.hpp"
 #include "../apps/tiny_clouds.hpp"
-#include "../support/opengl.hpp"
-#include "../support/run_length.hpp"
 #include "../support/running_program.hpp"
 #include "listening.hpp"
 #include "lone_domain.hpp"
@@ -345,31 +343,6 @@ TEST_F(LiveTest, RemapsItsDiagnostics) {
                            [](const auto& topic) { return topic.name == "/diagnostics"; }));
   EXPECT_EQ(program->end(), 0);
 }
-
-#ifdef PENUMBRA_FAILING_DEVICE
-TEST_F(LiveTest, ADeviceThatFailsLeavesTheSummary) {
-  if (sanitized) GTEST_SKIP() << "skipped: sanitized";  // what fails wants to be the first library
-  if (!has_opengl()) GTEST_SKIP() << no_opengl;
-  write("live.json", "former");
-  const auto player = play_in_loop(bag_);
-  const Outcome outcome =
-      penumbra(on_domain("live", {"--depth-topic", "/camera/depth/image_rect_raw", "--robot",
-                                  path("tiny.urdf"), "--duration", "120", "--summary",
-                                  path("live.json"), "--renderer", "gl"}),
-               {std::string("LD_PRELOAD=") + PENUMBRA_FAILING_DEVICE, "PENUMBRA_TEST_SPARED=6"});
-  EXPECT_EQ(outcome.status, 1) << outcome.err;
-  expect_has(outcome.err, {"OpenGL: the graphics device was reset"});
-  expect_lacks(outcome.err, {"left as it was"});
-  const Json json = read_json(path("live.json"));
-  const std::string fault = json["fault"];
-  EXPECT_TRUE(fault.starts_with("OpenGL: the graphics device was reset")) << fault;
-  const Json& camera = json["cameras"][0];
-  EXPECT_GT(camera["judged"], 0);
-  EXPECT_EQ(camera["in_work"], 1) << "the one that failed";
-  EXPECT_EQ(camera["renderer"]["backend"], "gl");
-  EXPECT_TRUE(camera["renderer"]["device"].is_string());
-}
-#endif
 
 }  // namespace
 }  // namespace penumbra::test

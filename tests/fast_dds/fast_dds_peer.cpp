@@ -8,8 +8,7 @@
 //     messages from stdin, each behind its size in 4 bytes
 //   fast_dds_peer DOMAIN repeat TOPIC TYPE QOS HZ
 //     one message with a header from stdin, likewise, again and again with each tick of the clock
-//     as its stamp; says "written N" at the end: from the first on that somebody acknowledged (QoS
-//     best effort: may have heard)
+//     as its stamp
 //   fast_dds_peer DOMAIN watch TOPIC TYPE QOS
 //     "NUMBER STAMP DIGEST" for each message with a header: its writer's sequence number, from 1
 //     on, and its stamp in nanoseconds since 1970
@@ -190,25 +189,16 @@ bool read_message(Bytes& message) {
   return std::fread(message.data(), 1, size, stdin) == size;
 }
 
-/// The first message counts that a reader has acknowledged which was known before it was written.
-/// While no reader is known nothing waits to be acknowledged.
 void repeat(dds::DataWriter& writer, std::int64_t hertz, const Qos& qos) {
   Bytes message;
   if (!read_message(message)) return;
-  std::size_t heard = 0;
   for (std::int64_t tick = 0; !stdin_ended();) {
     tick = next_tick(std::max(tick, system_now()), hertz);
     std::this_thread::sleep_for(std::chrono::nanoseconds(tick - system_now()));
     set_stamp(message, tick);
-    const bool has_reader = heard > 0 || is_matched(writer);
-    if (!writer.write(&message))
-      std::cerr << "a message was refused\n";
-    else if (heard > 0 || (has_reader && writer.wait_for_acknowledgments({0, 5'000'000}) ==
-                                             ReturnCode_t::RETCODE_OK))
-      ++heard;
+    if (!writer.write(&message)) std::cerr << "a message was refused\n";
   }
   if (qos.reliable) writer.wait_for_acknowledgments({10, 0});
-  say("written " + std::to_string(heard));
 }
 
 void publish(dds::DataWriter& writer, const std::vector<std::string>& words) {

@@ -38,7 +38,6 @@ TEST(GraphNames, AreThoseOfRos2AndOthersAreRefusedInBothDirections) {
   for (const char* const type : {"", "::", "a::msg::dds_::_x", "a::msg::dds_::", "a::msg::dds::C_",
                                  "a::b::dds_::C_", "a::msg::dds_::C"})
     EXPECT_EQ(io::ros_type(type), std::nullopt) << type;
-  EXPECT_EQ(io::ros_topic("rt/" + std::string(1'000'000, 'a')), "/" + std::string(1'000'000, 'a'));
 }
 
 TEST(GraphDomain, IsThatOfOptionsEnvironmentOrZero) {
@@ -67,7 +66,7 @@ TEST(DiscoveryRange, IsThatOfTheEnvironment) {
                                     std::pair{"ROS_STATIC_PEERS", "192.0.2.1;<Peers>"}}) {
     unsetenv("ROS_AUTOMATIC_DISCOVERY_RANGE");
     setenv(name, value, 1);
-    expect_refused([] { static_cast<void>(io::join_graph({.domain = 9})); }, {name});
+    expect_refused([] { return io::join_graph({.domain = 9}); }, {name});
     unsetenv(name);
   }
 }
@@ -114,11 +113,7 @@ TEST(TypeHash, IsThatOfJazzysOwnNodes) {
        "5f8cab968684ffa08b85be83d6fd2819dfb30e4579ca75e5f6e8399a3580f0f0"}};
   for (const auto& [type, hash] : announced)
     EXPECT_EQ(io::type_hash(type, io::definition_of(type)), std::string("RIHS01_") + hash) << type;
-}
-
-TEST(TypeHash, IsEmptyWithoutAllTypes) {
   EXPECT_EQ(io::type_hash("a/msg/A", "Unknown field\n"), "");
-  EXPECT_EQ(io::type_hash("a/msg/A", "a/A itself\n").size(), 71U);  // ends
 }
 
 }  // namespace

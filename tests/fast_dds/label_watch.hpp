@@ -31,10 +31,9 @@ struct HeardLabels {
 /// What label images have come to.
 struct LabelVerdict {
   std::size_t known = 0, unknown = 0, wrong = 0;
-  std::size_t lost_again = 0;       ///< of the unknown, those after the first known
-  std::uint64_t newest_number = 0;  ///< the last one's sequence number; 0: none was heard
-  bool in_order = true;             ///< each behind the one before it
-  std::int64_t first_wrong = 0;     ///< stamp
+  std::size_t lost_again = 0;    ///< of the unknown, those after the first known
+  bool in_order = true;          ///< each behind the one before it
+  std::int64_t first_wrong = 0;  ///< stamp
 };
 
 class LabelWatch {
@@ -95,7 +94,6 @@ class LabelWatch {
     const auto first = std::find_if(heard_.begin(), heard_.end(), is_known);
     all.lost_again = static_cast<std::size_t>(heard_.end() - first -
                                               std::count_if(first, heard_.end(), is_known));
-    all.newest_number = heard_.empty() ? 0 : heard_.back().number;
     const auto is_behind = [](const HeardLabels& before, const HeardLabels& one) {
       return one.number <= before.number;
     };

@@ -67,9 +67,6 @@ class PeerProcess {
     send(message.data(), size);
   }
 
-  /// SIGSTOP: it answers nothing.
-  void stop() { ::kill(pid_, SIGSTOP); }
-
   /// SIGKILL: it says no goodbye.
   void kill() {
     if (pid_ < 0) return;

@@ -236,10 +236,6 @@ TEST(TargetFusion, RefusesWhatMeansNothing) {
   EXPECT_THROW(fusion_of({"a", "a"}), InputError);
   EXPECT_THROW(TargetFusion({camera_called("a")}, {.window = 0}), InputError);
   EXPECT_THROW(TargetFusion({camera_called("a")}, {.window = inf}), InputError);
-  TargetFusion views = fusion_of({"a"});
-  EXPECT_THROW((void)views.fused("part"), InputError);
-  EXPECT_THROW(views.add(1, Shot(0, Verdict::visible).get()), InputError);
-  EXPECT_THROW(views.add(0, FrameReport{}), InputError) << "no stamp";
 }
 
 }  // namespace

@@ -57,14 +57,11 @@ class BagDatabase {
   }
 
   void message(int topic, std::int64_t time, const std::string& data) {
-    std::ostringstream hex;
-    for (const char c : data) {
-      const char* digits = "0123456789abcdef";
-      const auto byte = static_cast<unsigned char>(c);
-      hex << digits[byte >> 4] << digits[byte & 15];
-    }
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string hex;
+    for (const unsigned char byte : data) hex += {digits[byte >> 4], digits[byte & 15]};
     run("INSERT INTO messages(topic_id, timestamp, data) VALUES(" + std::to_string(topic) + ", " +
-        std::to_string(time) + ", x'" + hex.str() + "')");
+        std::to_string(time) + ", x'" + hex + "')");
   }
 
  private:

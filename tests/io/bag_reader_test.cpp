@@ -32,7 +32,7 @@ class Bags : public testing::Test {
     return folder_.path() / name;
   }
   std::string refusal(const std::filesystem::path& file) {
-    return test::refusal([&] { static_cast<void>(open_bag(file)); });
+    return test::refusal([&] { return open_bag(file); });
   }
   static std::string times(const BagContent& all) {
     std::string text;
@@ -101,16 +101,11 @@ TEST_F(Bags, MetadataTellsWhichTopicsWereLatched) {
   EXPECT_EQ(told("\"- {\""), (OfferedQos{{}, true}));
 }
 
-TEST_F(Bags, OldMetadataNamesTheFolderToo) {
-  mcap("r_0.mcap", {1});
-  metadata(test::metadata_yaml("mcap", {folder_.path().filename() / "r_0.mcap"}));
-  EXPECT_EQ(test::read_bag(folder_.path()).messages.size(), 1U);
-}
-
 TEST_F(Bags, AMissingOrBrokenFileCostsItsPart) {
   mcap("r_0.mcap", {1, 2});
   folder_.write("r_1.mcap", "no bag");
-  metadata(test::metadata_yaml("mcap", {"r_0.mcap", "r_1.mcap", "r_2.mcap"}));
+  const std::string old = folder_.path().filename() / "r_0.mcap";  // with the folder's name
+  metadata(test::metadata_yaml("mcap", {old, "r_1.mcap", "r_2.mcap"}));
   const BagContent all = test::read_bag(folder_.path());
   EXPECT_EQ(all.messages.size(), 2U);
   ASSERT_EQ(all.faults.size(), 2U);
@@ -283,7 +278,7 @@ TEST_F(SqliteBags, TellWhatRowsAreWrong) {
 TEST_F(SqliteBags, RefuseWhatIsNoBag) {
   const auto refusal = [&](const std::string& tables) {
     { BagDatabase(file_).run(tables); }
-    return test::refusal([&] { static_cast<void>(open_bag(file_)); });
+    return test::refusal([&] { return open_bag(file_); });
   };
   EXPECT_HAS(refusal("CREATE TABLE other(x)"), "has no table 'topics'");
   EXPECT_HAS(refusal("CREATE TABLE topics(id, name); CREATE TABLE messages(timestamp)"),
@@ -324,9 +319,8 @@ TEST_F(SqliteDamage, CutFilesAreReadUpToTheCut) {
     ASSERT_TRUE(all.topics.empty()) << length;  // it was refused
   }
   folder_.write("b.db3", whole.substr(0, 2 * page + 7));
-  const std::string message =
-      test::refusal([&] { static_cast<void>(open_bag(folder_.path() / "b.db3")); });
-  for (const char* part : {"b.db3: is cut", "'truncate -s 8192'"}) EXPECT_HAS(message, part);
+  test::expect_refused([&] { return open_bag(folder_.path() / "b.db3"); },
+                       {"b.db3: is cut", "'truncate -s 8192'"});
 }
 
 TEST_F(SqliteDamage, SurvivesRandomDamage) {

@@ -4,10 +4,7 @@
 
 #include "files.hpp"
 
-#include <algorithm>
 #include <string>
-#include <string_view>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,34 +19,13 @@ std::string raw_big(T... values) {
   return bytes;
 }
 
-/// Compresses as liblzf: runs of up to 32 bytes, and references to 3 to 264 bytes at most 8192
-/// back. Tries all distances.
-inline std::string lzf(std::string_view in) {
-  std::string out, run;
-  const auto end_run = [&] {
-    if (!run.empty()) out += static_cast<char>(run.size() - 1) + run;
-    run.clear();
-  };
-  for (std::size_t at = 0; at < in.size();) {
-    std::size_t length = 0, distance = 0;
-    for (std::size_t back = 1; back <= std::min<std::size_t>(at, 8192); ++back) {
-      std::size_t same = 0;
-      while (same < 264 && at + same < in.size() && in[at + same] == in[at + same - back]) ++same;
-      if (same > length) std::tie(length, distance) = std::pair(same, back);
-    }
-    if (length < 3) {
-      run += in[at++];
-      if (run.size() == 32) end_run();
-      continue;
-    }
-    end_run();
-    const std::size_t coded = length - 2, high = (distance - 1) >> 8;
-    out += static_cast<char>(std::min<std::size_t>(coded, 7) << 5 | high);
-    if (coded >= 7) out += static_cast<char>(coded - 7);
-    out += static_cast<char>((distance - 1) & 255);
-    at += length;
+/// As liblzf compresses what does not repeat: runs of up to 32 bytes.
+inline std::string lzf(const std::string& in) {
+  std::string out;
+  for (std::size_t at = 0; at < in.size(); at += 32) {
+    const std::string run = in.substr(at, 32);
+    out += static_cast<char>(run.size() - 1) + run;
   }
-  end_run();
   return out;
 }
 
@@ -82,12 +58,11 @@ inline std::string mixed_points() {
 
 /// The values of mixed_points() field by field, compressed.
 inline std::string compressed_pcd() {
-  const std::vector<std::size_t> sizes{4, 4, 4, 4, 2, 2, 8, 3};
   const std::string points = mixed_points();
   const std::size_t step = points.size() / 4;
   std::string plain;
   std::size_t offset = 0;
-  for (const std::size_t size : sizes) {
+  for (const std::size_t size : {4U, 4U, 4U, 4U, 2U, 2U, 8U, 3U}) {
     for (std::size_t i = 0; i < 4; ++i) plain += points.substr(i * step + offset, size);
     offset += size;
   }

@@ -165,23 +165,6 @@ TEST_F(LiveCalibration, StartsFromTfAndIsAppliedWhenAsked) {
   EXPECT_TRUE(holds(now().message, "in use"));
 }
 
-TEST_F(LiveCalibration, FindsACameraThatTfLacks) {
-  if (!is_full_run()) GTEST_SKIP() << "skipped: a search takes a while: PENUMBRA_FULL=1";
-  start();
-  calibration().begin(false);
-  play(0);
-  play(1);
-  play(2);
-  EXPECT_TRUE(holds(now().message, "search")) << now().message;
-  EXPECT_FALSE(now().found);
-  calibration().begin(true);
-  play_ten();
-  const CalibrationProgress of = wait_for(10);
-  expect_truth(of);
-  EXPECT_FALSE(of.given);
-  EXPECT_EQ(run_->calibrated_transform(0)->child_frame_id, "optical");
-}
-
 TEST_F(LiveCalibration, SaysWhatIsMissing) {
   start();
   say_mount(off());

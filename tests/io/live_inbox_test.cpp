@@ -45,13 +45,6 @@ TEST_F(LiveInboxTest, JudgesAnImageAtItsStamp) {
   EXPECT_EQ(labels.header.frame_id, "optical");
 }
 
-TEST_F(LiveInboxTest, WithoutJointStatesAllIsUnknown) {
-  bench_.tell_all();
-  bench_.tell_depth(start);
-  EXPECT_EQ(bench_.work(), 0U) << "they may still come";
-  expect_all_unknown("missing_joints");
-}
-
 TEST_F(LiveInboxTest, TwoPublishersThatDisagreeAreNoPose) {
   bench_.tell_all();
   for (std::int64_t ago = 300; ago >= -20; ago -= 20) {
@@ -317,13 +310,9 @@ class LateRobotsTest : public testing::Test {
   std::int64_t delay_ = 0;  // of the last image, in nanoseconds
 };
 
-TEST_F(LateRobotsTest, AreAwaited) {
+TEST_F(LateRobotsTest, AreAwaitedUntilTheyAreSilent) {
   EXPECT_EQ(play(true), (std::map<std::string, std::size_t>{{"ok", 20}}));
   EXPECT_EQ(delay_, 9 * milliseconds);
-}
-
-TEST_F(LateRobotsTest, AreNotAwaitedAnyMoreOnceTheyAreSilent) {
-  play(true);
   EXPECT_GE(play(false).at("missing_link"), 15U);
   EXPECT_LT(delay_, 10 * milliseconds);
   EXPECT_GE(play(true).at("ok"), 19U) << "the right one is back";

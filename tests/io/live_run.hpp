@@ -52,11 +52,7 @@ class LiveRun : public io::LiveRunner {
   explicit LiveRun(Arguments&&... arguments) : LiveRunner(std::forward<Arguments>(arguments)...) {
     with_inbox([&](io::LiveInbox& inbox) {
       topics.assign(inbox.topics().begin(), inbox.topics().end());
-      for (std::size_t i = 0; i < topics.size(); ++i)
-        if (topics[i].role == io::TopicRole::cloud)
-          inbox.set_type(i, io::message_type<io::PointCloud2Message>());
-        else if (topics[i].role == io::TopicRole::targets)
-          inbox.set_type(i, io::message_type<io::PoseStampedMessage>());
+      set_types(inbox);
       return true;
     });
   }

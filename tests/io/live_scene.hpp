@@ -198,15 +198,20 @@ class KeptResults final : public io::ResultSink {
   std::vector<std::byte> last_;
 };
 
+/// Says of what types clouds and targets are.
+inline void set_types(io::LiveInbox& inbox) {
+  for (std::size_t i = 0; i < inbox.topics().size(); ++i)
+    if (inbox.topics()[i].role == io::TopicRole::cloud)
+      inbox.set_type(i, io::message_type<io::PointCloud2Message>());
+    else if (inbox.topics()[i].role == io::TopicRole::targets)
+      inbox.set_type(i, io::message_type<io::PoseStampedMessage>());
+}
+
 /// An inbox and its worker, driven by hand.
 class LiveBench {
  public:
   LiveBench() : LiveBench(one_camera()) {}
-  explicit LiveBench(const io::LiveOptions& options) : inbox(options) {
-    for (std::size_t i = 0; i < inbox.topics().size(); ++i)
-      if (inbox.topics()[i].role == io::TopicRole::targets)
-        inbox.set_type(i, io::message_type<io::PoseStampedMessage>());
-  }
+  explicit LiveBench(const io::LiveOptions& options) : inbox(options) { set_types(inbox); }
 
   static io::LiveOptions one_camera(const std::vector<std::string>& targets = {}) {
     io::LiveOptions options;

@@ -43,6 +43,13 @@ class McapDamage : public testing::TestWithParam<Compression> {
     return all;
   }
 
+  [[nodiscard]] auto places() const {
+    InputFile input;
+    input.open(file_).require();
+    FaultLog faults;
+    return read_index(input, faults).places;
+  }
+
   // Every message is one that was written, and none comes twice.
   void expect_genuine(const McapContents& all, std::size_t at) {
     std::vector<RecordedMessage> expected = messages_, found = all.messages;
@@ -60,7 +67,7 @@ class McapDamage : public testing::TestWithParam<Compression> {
          at += test::sample_stride) {
       for (const int flip : {0x01, 0x04, 0x09, 0x0a, 0x0f, 0x80, 0xff}) {
         std::string damaged = bytes;
-        damaged[at] = static_cast<char>(damaged[at] ^ flip);
+        damaged[at] ^= static_cast<char>(flip);
         ASSERT_NO_FATAL_FAILURE(expect_genuine(read(damaged), at)) << flip;
       }
     }
@@ -73,12 +80,9 @@ class McapDamage : public testing::TestWithParam<Compression> {
 };
 
 TEST_P(McapDamage, EveryTruncationKeepsTheChunksBefore) {
-  InputFile input;
-  input.open(file_).require();
-  FaultLog faults;
   std::vector<std::pair<std::size_t, std::size_t>> whole_at;  // bytes of the file, messages in them
   std::size_t messages = 0;
-  for (const MessagePlace& place : read_index(input, faults).places) {
+  for (const MessagePlace& place : places()) {
     const std::size_t end = place.offset + place.length;
     messages = read(whole_.substr(0, end)).messages.size();
     whole_at.emplace_back(end, messages);
@@ -111,14 +115,9 @@ TEST_P(McapDamage, DamagedBytesNeverGiveOtherMessagesWithoutASummary) {
 
 // One damaged chunk costs its own messages and no others.
 TEST_P(McapDamage, ADamagedChunkIsOneFault) {
-  InputFile input;
-  input.open(file_).require();
-  FaultLog faults;
-  const FileIndex index = read_index(input, faults);
-  for (const MessagePlace& place : index.places) {
+  for (const MessagePlace& place : places()) {
     std::string damaged = whole_;
-    damaged[place.offset + place.length - 1] =
-        static_cast<char>(damaged[place.offset + place.length - 1] ^ 0x40);
+    damaged[place.offset + place.length - 1] ^= 0x40;
     const McapContents all = read(damaged);
     ASSERT_EQ(all.faults.size(), 1U) << testing::PrintToString(all.faults);
     EXPECT_EQ(all.fault_offsets[0], place.offset);
@@ -128,39 +127,13 @@ TEST_P(McapDamage, ADamagedChunkIsOneFault) {
   }
 }
 
-TEST_P(McapDamage, SurvivesMuchRandomDamage) {
-  std::mt19937_64 random = test::seeded_random(72);
-  const int rounds = test::is_full_run() ? 100'000 : 2000;
-  for (int i = 0; i < rounds; ++i) {
-    std::string damaged = whole_;
-    for (std::size_t n = 0; n < 1 + random() % 8; ++n) {
-      const std::size_t at = random() % damaged.size();
-      switch (random() % 4) {
-        case 0:
-          damaged[at] = static_cast<char>(random());
-          break;
-        case 1:  // a length or an offset
-          damaged.replace(at, 8, test::mcap_file::u64(random() >> random() % 64));
-          break;
-        case 2:
-          damaged.erase(at, random() % 40);
-          break;
-        default:
-          damaged.insert(at, damaged.substr(random() % damaged.size(), random() % 200));
-      }
-    }
-    const McapContents all = read(damaged);
-    ASSERT_LE(all.messages.size(), 40 * messages_.size()) << i;
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(All, McapDamage,
                          testing::Values(Compression::none, Compression::lz4, Compression::zstd),
                          [](const auto& test) {
                            return std::string(test.index == 0 ? "none" : to_string(test.param));
                          });
 
-/// Returns how many bytes this process has read from files.
+/// Of files, by this process.
 std::uint64_t bytes_read() {
   std::string name;
   std::uint64_t bytes = 0;
@@ -192,7 +165,7 @@ TEST(McapClaims, TakeNoMemory) {
   const std::string rest = huge + std::string(100, 'a') + footer();
   for (const int opcode : {1, 3, 4, 5, 6, 7, 8, 9, 11, 12, 15, 16, 200})
     files.push_back(std::string(head).append(1, static_cast<char>(opcode)).append(rest));
-  for (const std::string& compression : {std::string("lz4"), std::string("zstd"), std::string()})
+  for (const char* const compression : {"lz4", "zstd", ""})
     for (const std::uint64_t size : {std::uint64_t{60} << 20, ~std::uint64_t{0}})
       files.push_back(file(compressed_chunk(compression, size, std::string(50, '\0'))));
   for (const int opcode : {3, 4, 8, 11})

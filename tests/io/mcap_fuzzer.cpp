@@ -11,16 +11,14 @@
 #include <io/mcap/reader.hpp>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
+  static volatile std::byte seen;
   const penumbra::test::MemoryFile file(bytes, count);
   try {
     penumbra::io::mcap::Reader reader(file.path());
-    unsigned sum = 0;
     for (penumbra::io::mcap::Message message; reader.next(message);) {
       if (!reader.channels().contains(message.channel) || message.log_time < 0) std::abort();
-      for (const std::byte b : message.data) sum += static_cast<unsigned>(b);
+      for (const std::byte b : message.data) seen = b;
     }
-    volatile unsigned kept = sum;
-    static_cast<void>(kept);
   } catch (const penumbra::InputError&) {
     return 0;
   }

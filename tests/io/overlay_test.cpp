@@ -102,26 +102,6 @@ TEST(Overlay, WithoutAPoseTheLegendCountsNoRobot) {
   EXPECT_FALSE(shows(out, "robot 76800 px"));
 }
 
-TEST(Overlay, WorksAtAnySize) {
-  std::mt19937_64 random = test::seeded_random(1);
-  for (const auto& [width, height] :
-       {std::pair{1, 1}, {1, 400}, {400, 1}, {7, 5}, {33, 719}, {641, 361}, {2001, 1500}}) {
-    Image<std::uint8_t> labels(width, height);
-    for (std::size_t i = 0; i < labels.size(); ++i)
-      labels.data()[i] = static_cast<std::uint8_t>(random() % label_count);
-    FrameReport report;
-    report.labels = std::as_const(labels).view();
-    report.pixels.front = std::size_t{1} << 60;
-    report.index = std::numeric_limits<std::size_t>::max();
-    report.stamp = std::numeric_limits<std::int64_t>::min();
-    report.message = std::string(3000, '\xE9');
-    Image<Rgb8> out;
-    draw_overlay(report, {}, out);
-    EXPECT_EQ(out.width(), width);
-    EXPECT_EQ(out.height(), height);
-  }
-}
-
 // Every pair of label colours stays apart for normal sight and for people who lack one kind of
 // cone: simulation matrices of severity 1 by Machado, Oliveira and Fernandes (2009), which work on
 // linear RGB; distance in CIELAB (1976), where 2.3 is just noticeable.

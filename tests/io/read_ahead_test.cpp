@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files that are read ahead of their frames, and jobs on several threads: few wait at a time.
 #include "../support/test.hpp"
 
-#include <atomic>
-#include <thread>
-
-#include <io/files/background_jobs.hpp>
 #include <io/inputs/read_ahead.hpp>
 
 namespace penumbra::io {
@@ -23,9 +18,7 @@ class FiveFrames final : public FrameSource {
     return true;
   }
   [[nodiscard]] std::optional<std::size_t> size() const override { return 6; }
-  [[nodiscard]] std::vector<std::string> notes() const override {
-    return {std::to_string(count_) + " frames read"};
-  }
+  [[nodiscard]] std::vector<std::string> notes() const override { return {}; }
 
  private:
   std::size_t count_ = 0;
@@ -41,30 +34,6 @@ TEST(ReadAhead, ThrowsAFaultAfterTheFramesBeforeIt) {
     EXPECT_EQ(std::get<ImageView<const float>>(frame.depth.view)(3, 2), static_cast<float>(i));
   }
   EXPECT_THROW(source.next(frame), InputError);
-}
-
-TEST(ReadAhead, CanBeLeftWhileItReads) {
-  ReadAhead source(std::make_unique<FiveFrames>());
-  Frame frame;
-  ASSERT_TRUE(source.next(frame));
-  EXPECT_EQ(source.notes(), std::vector<std::string>{"2 frames read"});
-}
-
-TEST(BackgroundJobs, DoEveryJobAndKeepFewWaiting) {
-  constexpr int threads = 3, jobs = 200;
-  std::atomic<int> done = 0;
-  int most_waiting = 0;
-  BackgroundJobs background(threads);
-  for (int i = 0; i < jobs; ++i) {
-    background.add([&done] {
-      std::this_thread::sleep_for(std::chrono::microseconds(100));
-      ++done;
-    });
-    most_waiting = std::max(most_waiting, i + 1 - done);
-  }
-  background.finish();
-  EXPECT_EQ(done, jobs);
-  EXPECT_LE(most_waiting, 3 * threads) << "one runs and two wait for each thread";
 }
 
 }  // namespace

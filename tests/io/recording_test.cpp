@@ -132,7 +132,7 @@ TEST_F(RecordingFolder, NamesKeyAndLineOfEveryFault) {
        {with("  parent", "  parent: tool"), ":6: key 'parent'"},
        {"", ":1: "},
        {"text", ":1: "}},
-      [&](const std::string& text) { static_cast<void>(open(text)); });
+      [&](const std::string& text) { return open(text); });
   EXPECT_HAS(test::refusal([&] { return Recording::open(file("nowhere")); }), "nowhere: ");
 }
 
@@ -141,9 +141,6 @@ TEST_F(RecordingFolder, ReadsSeveralRobots) {
       "robots:\n"
       "  a: {urdf: arm.urdf, pose: [0, 1, 0, 0, 0, 0, 1]}\n"
       "  b: {urdf: arm.urdf, pose: [0, 0, 2, 0, 0, 1, 0], margins: {tool: 0.01}}\n";
-  std::string many = "robots:\n";
-  for (int i = 0; i < 1000; ++i)
-    many += "  r" + std::to_string(i) + ": {urdf: arm.urdf, pose: [0, 0, 0, 0, 0, 0, 1]}\n";
   const auto with_robots = [&](const std::string& robots) {
     return replaced("robot:\n  urdf: arm.urdf\n", robots);
   };
@@ -177,16 +174,14 @@ TEST_F(RecordingFolder, ReadsSeveralRobots) {
        {with_robots("robots:\n  a: {urdf: arm.urdf}\n"), ":2: "},
        {with_robots("robots:\n  \"a\\e[31m\": {urdf: arm.urdf, pose: [0, 0, 0, 0, 0, 0, 1]}\n"),
         "control character"},
-       {with_robots(many), ":1: robots: "},
        {with_robots("robots:\n  a: {urdf: arm.urdf, pose: [0, 0, 0, 0, 0, 0, 2]}\n"),
         ":2: robots.a.pose: "},
        {with("  urdf", "  pose: [0, 0, 0, 0, 0, 0, 1]"), ":3: robot.pose: is for several robots"}},
-      [&](const std::string& text) { static_cast<void>(open(text)); });
+      [&](const std::string& text) { return open(text); });
 }
 
 TEST_F(RecordingFolder, SurvivesDamage) {
-  test::read_damaged(minimal, 1000,
-                     [&](const std::string& text) { static_cast<void>(open(text)); });
+  test::read_damaged(minimal, 1000, [&](const std::string& text) { return open(text); });
 }
 
 class JointFile : public testing::Test {
@@ -202,8 +197,9 @@ class JointFile : public testing::Test {
 
 TEST_F(JointFile, ReadsColumnsInAnyOrderAndFramesInTheFilesOrder) {
   const auto rows = read(
-      "frame,stamp,elbow,finger_joint,shoulder\r\n"
-      "7,1700000000123456789,0.25,9,1.5\r\n\r\n000003,6,-0.5,,+2");
+      "\xEF\xBB\xBF"
+      "frame,stamp, elbow ,finger_joint,shoulder\r\n"
+      "7,1700000000123456789,0.25,9,1.5\r\n\r\n  \n000003,6,-0.5,,+2");
   ASSERT_EQ(rows.size(), 2U);
   EXPECT_EQ(rows[0].index, 7);
   EXPECT_EQ(rows[0].stamp, 1700000000123456789) << "exact";

@@ -6,8 +6,6 @@
 #include "ros_images.hpp"
 #include "ros_samples.hpp"
 
-#include <chrono>
-
 #include <io/ros/image_codec.hpp>
 
 namespace penumbra::io {
@@ -31,19 +29,21 @@ Bytes damaged(const Bytes& whole, std::mt19937_64& random) {
 }
 
 template <typename Call>
-void fuzz(const Bytes& whole, int rounds, std::mt19937_64& random, const Call& call) {
-  for (int i = 0; i < rounds; ++i) {
+void fuzz(const Bytes& whole, int times, std::mt19937_64& random, const Call& call) {
+  for (int i = 0; i < times; ++i) {
     const test::ExactCopy copy(damaged(whole, random));
     const std::optional<std::string> fault = call(copy.bytes());
     ASSERT_EQ(fault.value_or("").find('\n'), std::string::npos) << *fault;
   }
 }
 
-void fuzz_messages(int rounds, std::uint64_t seed) {
-  std::mt19937_64 random = test::seeded_random(seed);
+int rounds(int all) { return test::is_full_run() ? 40 * all : test::samples(all); }
+
+TEST(RosFuzz, Messages) {
+  std::mt19937_64 random = test::seeded_random(11);
   const test::MemoryShortage shortage(large_memory, 0);
   const auto fuzz_as = [&]<typename M>(M out, const Bytes& payload) {
-    fuzz(payload, rounds, random,
+    fuzz(payload, rounds(1500), random,
          [&, decoder = Decoder<M>()](auto bytes) { return decoder.decode(bytes, out); });
   };
   test::for_each_sample([&](const auto& message) {
@@ -54,8 +54,8 @@ void fuzz_messages(int rounds, std::uint64_t seed) {
   EXPECT_EQ(shortage.asked(), 0U);
 }
 
-void fuzz_images(int rounds, std::uint64_t seed) {
-  std::mt19937_64 random = test::seeded_random(seed);
+TEST(RosFuzz, Images) {
+  std::mt19937_64 random = test::seeded_random(13);
   const test::MemoryShortage shortage(large_memory, 0);
   SharedDepth depth;
   const auto image = test::depth_image(24, 16, random);
@@ -63,7 +63,7 @@ void fuzz_images(int rounds, std::uint64_t seed) {
     for (const char* encoding : {"16UC1", "32FC1"}) {
       const std::string format =
           std::string(encoding) + "; compressedDepth " + (rvl ? "rvl" : "png");
-      fuzz(test::compressed_depth(image, rvl, 100, 1), rounds, random, [&](auto bytes) {
+      fuzz(test::compressed_depth(image, rvl, 100, 1), rounds(1000), random, [&](auto bytes) {
         return decode_depth(CompressedImageMessage{.format = format, .data = bytes}, depth);
       });
     }
@@ -73,24 +73,10 @@ void fuzz_images(int rounds, std::uint64_t seed) {
   Bytes png;
   encode_png(std::as_const(small).view(), png);
   for (const Bytes& file : {test::jpeg_of(small, false), test::jpeg_of(small, true), png})
-    fuzz(file, rounds, random, [&](auto bytes) {
+    fuzz(file, rounds(1000), random, [&](auto bytes) {
       return decode_color(CompressedImageMessage{.format = "any", .data = bytes}, colours);
     });
   EXPECT_EQ(shortage.asked(), 0U);
-}
-
-TEST(RosFuzz, Messages) { fuzz_messages(test::samples(1500), 11); }
-TEST(RosFuzz, Images) { fuzz_images(test::samples(1000), 13); }
-
-// Minutes: one seed after the other.
-TEST(RosFuzzFull, EverythingForAMinuteEach) {
-  if (!test::is_full_run()) GTEST_SKIP() << "skipped: PENUMBRA_FULL is not set";
-  const auto for_a_minute = [](const auto& call) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    for (std::uint64_t seed = 1000; std::chrono::steady_clock::now() < end; ++seed) call(seed);
-  };
-  for_a_minute([](std::uint64_t seed) { fuzz_messages(2000, seed); });
-  for_a_minute([](std::uint64_t seed) { fuzz_images(2000, seed); });
 }
 
 }  // namespace

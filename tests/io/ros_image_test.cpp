@@ -4,7 +4,6 @@
 #include "ros_samples.hpp"
 
 #include <io/ros/cdr_reader.hpp>
-#include <io/ros/compressed_depth-inl.hpp>
 #include <io/ros/image_codec.hpp>
 
 namespace penumbra::io {
@@ -244,17 +243,6 @@ TEST(RosImage, CompressedDepthFaults) {
   huge = good;
   huge[13] = huge[17] = std::byte{0x20};
   EXPECT_HAS(fault("16UC1; compressedDepth rvl", huge), "8194 x 8194 pixels");
-}
-
-// By hand: no zeros, three depths of 5 (10 = 2 + 8 * 1), 5 and 4, then one zero and none else.
-TEST(RosImage, RvlByHand) {
-  // Nibbles 0 3 | A 1 | 0 | 1 | 1 0: 0x03A10110 as a little-endian word.
-  const std::vector<std::byte> word = {std::byte{0x10}, std::byte{0x01}, std::byte{0xa1},
-                                       std::byte{0x03}};
-  std::vector<std::uint16_t> depths(4);
-  const auto fault = decode_rvl(word, depths);
-  ASSERT_FALSE(fault) << *fault;
-  EXPECT_EQ(depths, (std::vector<std::uint16_t>{5, 5, 4, 0}));
 }
 
 }  // namespace

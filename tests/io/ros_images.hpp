@@ -30,50 +30,32 @@ inline Image<std::uint16_t> depth_image(int width, int height, std::mt19937_64& 
 }
 
 /// RVL written from its paper: nibbles first, words of them at the end.
-class RvlPacker {
- public:
-  static std::vector<std::byte> pack(std::span<const std::uint16_t> depths) {
-    RvlPacker packer;
-    int previous = 0;
-    for (std::size_t at = 0; at < depths.size();) {
-      const std::size_t zeros = packer.run(depths, at, true);
-      const std::size_t others = packer.run(depths, at + zeros, false);
-      packer.add(zeros);
-      packer.add(others);
-      at += zeros;
-      for (const std::size_t end = at + others; at < end; ++at) {
-        const int difference = depths[at] - previous;
-        packer.add(static_cast<std::size_t>(difference < 0 ? -2 * difference - 1 : 2 * difference));
-        previous = depths[at];
-      }
+inline std::vector<std::byte> rvl_of(std::span<const std::uint16_t> depths) {
+  std::vector<std::size_t> nibbles;
+  const auto add = [&](std::size_t number) {
+    for (; number >= 8; number /= 8) nibbles.push_back(8 + number % 8);
+    nibbles.push_back(number);
+  };
+  int previous = 0;
+  for (std::size_t at = 0; at < depths.size();) {
+    std::size_t first = at;
+    while (first < depths.size() && depths[first] == 0) ++first;
+    std::size_t end = first;
+    while (end < depths.size() && depths[end] != 0) ++end;
+    add(first - at);
+    add(end - first);
+    for (at = first; at < end; previous = depths[at++]) {
+      const int difference = depths[at] - previous;
+      add(static_cast<std::size_t>(difference < 0 ? -2 * difference - 1 : 2 * difference));
     }
-    return packer.words();
   }
-
- private:
-  static std::size_t run(std::span<const std::uint16_t> depths, std::size_t from, bool of_zeros) {
-    std::size_t end = from;
-    while (end < depths.size() && (depths[end] == 0) == of_zeros) ++end;
-    return end - from;
-  }
-
-  void add(std::size_t number) {
-    for (; number >= 8; number /= 8) nibbles_.push_back(static_cast<int>(8 + number % 8));
-    nibbles_.push_back(static_cast<int>(number));
-  }
-
-  [[nodiscard]] std::vector<std::byte> words() {
-    while (nibbles_.size() % 8 != 0) nibbles_.push_back(0);
-    std::vector<std::byte> bytes;
-    for (std::size_t word = 0; word < nibbles_.size(); word += 8)
-      for (std::size_t byte = 8; byte > 0; byte -= 2)  // the last nibbles lie in the first byte
-        bytes.push_back(
-            static_cast<std::byte>(16 * nibbles_[word + byte - 2] + nibbles_[word + byte - 1]));
-    return bytes;
-  }
-
-  std::vector<int> nibbles_;
-};
+  while (nibbles.size() % 8 != 0) nibbles.push_back(0);
+  std::vector<std::byte> bytes;
+  for (std::size_t word = 0; word < nibbles.size(); word += 8)
+    for (std::size_t i = word + 8; i > word; i -= 2)  // the last nibbles lie in the first byte
+      bytes.push_back(static_cast<std::byte>(16 * nibbles[i - 2] + nibbles[i - 1]));
+  return bytes;
+}
 
 /// Data of the transport compressedDepth: parameters, then PNG or, with its size, RVL.
 inline std::vector<std::byte> compressed_depth(const Image<std::uint16_t>& image, bool rvl, float a,
@@ -83,7 +65,7 @@ inline std::vector<std::byte> compressed_depth(const Image<std::uint16_t>& image
   const std::string head = raw(std::int32_t{0}, a, b);
   if (!rvl) return bytes_of(head + mini_png::encode(format, mini_png::samples(image)));
   auto bytes = bytes_of(head + raw(image.width(), image.height()));
-  const auto packed = RvlPacker::pack(std::span(image.data(), image.size()));
+  const auto packed = rvl_of(std::span(image.data(), image.size()));
   bytes.insert(bytes.end(), packed.begin(), packed.end());
   return bytes;
 }

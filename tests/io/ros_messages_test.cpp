@@ -138,12 +138,11 @@ TEST(RosMessages, ARotationThatIsNoneIsNaN) {
 }
 
 TEST(RosMessages, StampsThatRosCannotHoldAreRefused) {
-  std::vector<std::byte> payload;
+  const auto encode_at = [](std::int64_t stamp) {
+    return encoded(PoseStampedMessage{{stamp, ""}});
+  };
   for (const std::int64_t stamp : {2'147'483'648'000'000'000, -2'147'483'648'000'000'001})
-    EXPECT_HAS(refusal([&] {
-                 encode(PoseStampedMessage{{stamp, ""}}, payload);
-               }),
-               "32 bits for seconds");
+    EXPECT_HAS(refusal([&] { encode_at(stamp); }), "32 bits for seconds");
 }
 
 // What colcon builds: the same files, of this version.

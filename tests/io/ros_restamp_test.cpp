@@ -19,50 +19,37 @@ io::Restamper restamper() {
 /// The same as if the message had been encoded with other stamps.
 template <typename M, typename Shift>
 void expect_as_encoded(M message, Shift shift_stamps) {
-  std::vector<std::byte> payload, wanted;
-  io::encode(message, payload);
+  std::vector<std::byte> payload = encoded(message);
   shift_stamps(message);
-  io::encode(message, wanted);
   const io::Restamper restamper = test::restamper<M>();
   EXPECT_TRUE(restamper.has_headers());
   EXPECT_EQ(restamper.apply(payload, shifted), std::nullopt);
-  EXPECT_TRUE(payload == wanted) << io::message_type<M>();
+  EXPECT_TRUE(payload == encoded(message)) << io::message_type<M>();
 }
 
-TEST(Restamp, ChangesTheStampAndNothingElse) {
+TEST(Restamp, ChangesStampsAndNothingElse) {
   for_each_sample([](const auto& message) {
     if constexpr (requires { message.header; })
       expect_as_encoded(message, [](auto& moved) { moved.header.stamp += shift; });
-  });
-}
-
-TEST(Restamp, FindsHeadersInSequences) {
-  io::TfMessage tf;
-  for (int i = 0; i < 3; ++i) {
-    io::TransformMessage& transform = tf.transforms.emplace_back();
-    transform.header = {std::int64_t{1'000'000'007} * (i + 1),
-                        std::string(static_cast<std::size_t>(i), 'p')};
-    transform.child_frame_id = std::string(static_cast<std::size_t>(2 * i + 1), 'c');
-  }
-  expect_as_encoded(tf, [](io::TfMessage& message) {
-    for (io::TransformMessage& transform : message.transforms) transform.header.stamp += shift;
+    else if constexpr (requires { message.transforms; })
+      expect_as_encoded(message, [](auto& moved) {
+        for (auto& transform : moved.transforms) transform.header.stamp += shift;
+      });
   });
 }
 
 TEST(Restamp, LeavesNoStampAndTypesWithoutHeadersAlone) {
   auto message = sample<io::JointStateMessage>();
   message.header.stamp = 0;
-  std::vector<std::byte> payload;
-  io::encode(message, payload);
-  const std::vector<std::byte> before = payload;
+  const std::vector<std::byte> before = encoded(message);
+  std::vector<std::byte> payload = before;
   EXPECT_EQ(restamper<io::JointStateMessage>().apply(payload, shifted), std::nullopt);
   EXPECT_TRUE(payload == before);
   EXPECT_FALSE(restamper<io::StringMessage>().has_headers());
 }
 
 TEST(Restamp, CutPayloadsAreFaultsOrWholeInTheirHeaders) {
-  std::vector<std::byte> whole;
-  io::encode(sample<io::JointStateMessage>(), whole);
+  const std::vector<std::byte> whole = encoded(sample<io::JointStateMessage>());
   const io::Restamper restamper = test::restamper<io::JointStateMessage>();
   std::size_t faults = 0;
   for (std::size_t size = 0; size < whole.size(); ++size) {

@@ -10,6 +10,12 @@
 namespace penumbra::io {
 namespace {
 
+TargetMessage sent_of(const TargetReport& target) {
+  FrameReport report;
+  report.targets = std::span(&target, 1);
+  return targets_message(report, "optical", "base").targets.at(0);
+}
+
 TEST(RosTargets, WhatIsKnownOfATargetArrives) {
   TargetReport part{};
   part.judgement.emplace();
@@ -20,9 +26,7 @@ TEST(RosTargets, WhatIsKnownOfATargetArrives) {
   part.point = Eigen::Vector3d(1, 2, 3);
   part.handled = HandledTarget{Source::held, 0.5, Eigen::Vector3d(4, 5, 6),
                                Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5), 0.01};
-  FrameReport report;
-  report.targets = std::span(&part, 1);
-  const TargetMessage told = targets_message(report, "optical", "base").targets.at(0);
+  const TargetMessage told = sent_of(part);
   EXPECT_EQ(told.covered, 200U);
   EXPECT_EQ(told.occluded_fraction, 0.375);
   ASSERT_EQ(told.blame.size(), 2U);
@@ -46,9 +50,7 @@ int nans_of(const TargetMessage& m) {
 
 TEST(RosTargets, OnlyWhatIsNotKnownIsNaN) {
   TargetReport target{};
-  FrameReport report;
-  report.targets = std::span(&target, 1);
-  const auto sent = [&] { return targets_message(report, "c", "r").targets[0]; };
+  const auto sent = [&] { return sent_of(target); };
   EXPECT_TRUE(std::isnan(sent().occluded_fraction)) << "0 would look visible";
   EXPECT_EQ(nans_of(sent()), 4 + 3 + 2);
   target.judgement.emplace();
@@ -68,9 +70,7 @@ TEST(RosTargets, EachValueIsAConstantOfTheDefinition) {
     EXPECT_TRUE(test::holds(definition, "\nuint8 " + name + "=" + std::to_string(value) + "\n"));
   };
   TargetReport target{};
-  FrameReport report;
-  report.targets = std::span(&target, 1);
-  const auto sent = [&] { return targets_message(report, "c", "r").targets[0]; };
+  const auto sent = [&] { return sent_of(target); };
   expect_constant("not_handled", sent().source);
   expect_constant("no_estimate", sent().estimate);
   for (const Verdict verdict : {Verdict::visible, Verdict::partial, Verdict::hidden,
@@ -109,18 +109,7 @@ class TargetInboxTest : public testing::Test {
     one.results = {{{"other", 0.1}}, {{class_id, 0.9}}};
     return one;
   }
-
-  /// Key points that are each seen once.
-  KeypointsMessage tracked(std::int64_t stamp, int first, int count) {
-    KeypointsMessage message{{stamp, "optical"}, {}};
-    names_.clear();
-    for (int i = 0; i < count; ++i) names_.push_back(std::to_string(first + i));
-    for (const std::string& name : names_) message.keypoints.push_back({.name = name});
-    return message;
-  }
-
   static constexpr std::int64_t last = std::numeric_limits<std::int64_t>::max();  // of frames
-  std::vector<std::string> names_;  // of the last of these
   const Robot robot_ = test::arm();
   TargetInbox inbox_{robot_, "optical"};
   const MessageHeader header_{7, "optical"};
@@ -149,21 +138,12 @@ TEST_F(TargetInboxTest, IdsThatStandTwiceAreNone) {
 /// Tracking ids that are always new, and no image that they could be judged on.
 TEST_F(TargetInboxTest, WhatIsNotTakenDoesNotPileUp) {
   constexpr std::int64_t frame = 33'000'000, start = 1'000'000'000'000;
-  constexpr int each = 5, messages = 20'000;
-  std::size_t most = 0;
-  for (int m = 0; m < messages; ++m) {
-    inbox_.add("/k", tracked(start + m * frame, m * each, each));
-    most = std::max(most, inbox_.waiting());
+  for (int i = 0; i < 20'000; ++i) {
+    const std::string name = std::to_string(i);
+    inbox_.add("/k", KeypointsMessage{{start + i * frame, "optical"}, {{.name = name}}});
+    ASSERT_LE(inbox_.waiting(), TargetInbox::longest_lag / frame + 2);
   }
-  EXPECT_LE(most, each * (TargetInbox::longest_lag / frame + 2));
-  EXPECT_EQ(inbox_.discarded() + inbox_.waiting(), std::size_t{each * messages});
-  EXPECT_EQ(inbox_.replaced(), 0U);
-  const std::size_t waiting = inbox_.waiting();
-  const std::vector<Target> all = inbox_.take(last);
-  ASSERT_EQ(all.size(), waiting);
-  EXPECT_EQ(all.back().name, "/k/" + names_.back());
-  for (const Target& one : all)
-    EXPECT_GE(*one.stamp, start + (messages - 1) * frame - TargetInbox::longest_lag);
+  EXPECT_EQ(inbox_.take(last).back().name, "/k/19999");
 }
 
 TEST_F(TargetInboxTest, WhatIsEarlierThanItsFrameWaitsForIt) {

@@ -9,6 +9,7 @@
 #include <penumbra/tracking/trackers.hpp>
 
 #include <io/files/settings.hpp>
+#include <io/files/statistics.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -100,6 +101,15 @@ TEST(Settings, OthersKeepTheirs) {
   EXPECT_EQ(options.applied_to(recorded).fringe_reach, 11);
   options.sensor = "tof";
   EXPECT_EQ(options.applied_to(recorded).fringe_reach, 6);
+}
+
+TEST(Statistics, QuantilesByRank) {
+  EXPECT_FALSE(quantiles({}).has_value());
+  EXPECT_EQ(quantiles({4.0, 1.0, 2.0, 3.0})->median, 3.0);
+  std::vector<double> samples(200);
+  std::iota(samples.rbegin(), samples.rend(), 1.0);
+  EXPECT_EQ(quantiles(samples)->p99, 198.0) << "198 of 200 are 99 %";
+  EXPECT_EQ(quantiles(samples)->max, 200.0);
 }
 
 }  // namespace

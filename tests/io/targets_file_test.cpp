@@ -128,7 +128,7 @@ TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
   folder_.write("half.csv", "frame,x,y,z,qx,qy,qz,qw,position_sigma\n");
   folder_.write("solid.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   const auto open_target = [&](const std::string& text) {
-    static_cast<void>(open("targets:\n- name: a\n  " + text));
+    return open("targets:\n- name: a\n  " + text);
   };
   const std::string pose = "box3d: [0, 0, 1, 0, 0, 0, 1]\n  size: [0.1, 0.1, 0.1]\n";
   const std::string mesh = "mesh: [0, 0, 1, 0, 0, 0, 1]\n  file: ", size = "\n  size: [1, 1, 1]\n";
@@ -198,7 +198,7 @@ TEST_F(TargetsFileTest, FaultsNameFileAndLine) {
                         {"targets:\n- name: \"a\\nb\"\n  box: [1, 2, 3, 4]\n", "control"},
                         {"targets: []\nhistory: 61\n", "targets.yaml:2: history"},
                         {"targets: []\nimage: bent\n", "targets.yaml:2: image"}},
-                       [&](const std::string& text) { static_cast<void>(open(text)); });
+                       [&](const std::string& text) { return open(text); });
 }
 
 /// What a motion uses is taken.

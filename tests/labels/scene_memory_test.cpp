@@ -98,17 +98,6 @@ TEST_P(Memory, LastsWhileTheRobotPassesBeforeIt) {
   EXPECT_EQ(fringe(), 0u);
 }
 
-TEST_P(Memory, EndsWhereTheRobotWas) {
-  EXPECT_EQ(fringe_of_thing(), 0u);
-  measure(140, 200, wall);
-  move_robot(180, 260);  // at the thing's own depth: it has been taken or pushed
-  EXPECT_EQ(fringe(), 0u);
-  measure(180, 260, wall);
-  measure(200, 230, near);
-  move_robot(140, 200);
-  EXPECT_EQ(fringe(), thing);
-}
-
 TEST_P(Memory, EndsWhenTheThingIsTakenAway) {
   EXPECT_EQ(fringe_of_thing(), 0u);
   measure(200, 230, wall);

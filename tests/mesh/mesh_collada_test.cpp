@@ -71,16 +71,6 @@ void expect_as_assimp(const std::filesystem::path& file) {
   EXPECT_LT((ours.bounds.max() - theirs.bounds.max()).norm(), reading_error * length);
 }
 
-/// A file whose primitive runs over the corners of a plane rectangle.
-std::string with_primitive(const std::string& primitive) {
-  std::string text = replaced(collada("<unit meter=\"0.5\"/>"), "0 0 0 2 0 0 0 3 0 0 0 4",
-                              "0 0 1 2 0 1 2 3 2 0 3 2");
-  const std::size_t begin = text.find("<triangles");
-  return text.replace(begin, text.find("</mesh>") - begin, primitive);
-}
-
-const std::string vertex_input = "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>";
-
 class Collada : public ::testing::Test {
  protected:
   void expect_refused(const std::string& text, const std::string& why) {

@@ -96,33 +96,22 @@ std::string mutated(const std::string& text, Random& random) {
   return random() % 4 == 0 && !result.empty() ? shuffled(std::move(result), random) : result;
 }
 
-/// The same scene with each kind of primitive, and other formats.
+/// Each format and each of Collada's primitives.
 std::vector<Sample> fuzz_samples() {
-  const std::string plain = collada("<unit name=\"meter\" meter=\"1\"/>",
-                                    "<node id=\"m\"><rotate>0 0 1 90</rotate><scale>1 2 1</scale>"
-                                    "<instance_node url=\"#n\"/></node>" +
-                                        collada_node("<translate>1 0 0</translate>"));
-  const std::string triangles = "<triangles count=\"4\">";
-  const auto with = [&](const std::string& open, const std::string& numbers,
-                        const std::string& close) {
-    std::string text = plain;
-    text.replace(text.find(triangles), triangles.size(), open);
-    const std::size_t p = text.find("<p>");
-    return text.replace(p, text.find("</mesh>") - p, numbers + close);
-  };
-  return {{"t.dae", plain},
-          {"l.dae", with("<polylist count=\"2\">", "<vcount>3 4</vcount><p>0 2 1 0 1 3 2</p>",
-                         "</polylist>")},
-          {"p.dae", with("<polygons count=\"2\">", "<p>0 2 1</p><p>0 1 3 2</p>", "</polygons>")},
-          {"s.dae", with("<tristrips count=\"1\">", "<p>0 1 2 3</p>", "</tristrips>")},
-          {"f.dae", with("<trifans count=\"1\">", "<p>0 1 2 3</p>", "</trifans>")},
-          {"a.obj", obj()},
-          {"a.ply", ascii_ply()},
-          {"b.ply", binary_ply()},
-          {"a.stl", ascii_stl(tetrahedron())},
-          {"b.stl", binary_stl(tetrahedron())},
-          {"a.glb", glb()},
-          {"a.gltf", gltf_json(",\"uri\":\"a.bin\"", ",\"scale\":[1,2,1]")}};
+  std::vector<Sample> all = samples();
+  all.push_back({"n.dae", collada("<unit name=\"meter\" meter=\"1\"/>",
+                                  "<node id=\"m\"><rotate>0 0 1 90</rotate><scale>1 2 1</scale>"
+                                  "<instance_node url=\"#n\"/></node>" +
+                                      collada_node("<translate>1 0 0</translate>"))});
+  const std::string& input = vertex_input;
+  for (const std::string& primitive :
+       {"<polylist count=\"2\">" + input + "<vcount>3 4</vcount><p>0 2 1 0 1 3 2</p></polylist>",
+        "<polygons count=\"2\">" + input + "<p>0 2 1</p><p>0 1 3 2</p></polygons>",
+        "<tristrips count=\"1\">" + input + "<p>0 1 2 3</p></tristrips>",
+        "<trifans count=\"1\">" + input + "<p>0 1 2 3</p></trifans>"})
+    all.push_back({"p.dae", with_primitive(primitive)});
+  all.push_back({"a.gltf", gltf_json(",\"uri\":\"a.bin\"", ",\"scale\":[1,2,1]")});
+  return all;
 }
 
 void fuzz(int trials, std::uint64_t default_seed) {

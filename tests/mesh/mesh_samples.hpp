@@ -11,8 +11,8 @@ namespace penumbra::test {
 
 inline constexpr double tetrahedron_volume = 4.0;
 
-inline TriangleMesh tetrahedron() {
-  return {{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}},
+inline TriangleMesh tetrahedron(float x = 2, float y = 3, float z = 4) {
+  return {{{0, 0, 0}, {x, 0, 0}, {0, y, 0}, {0, 0, z}},
           {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }
 
@@ -111,6 +111,16 @@ inline std::string collada(const std::string& asset = "",
          nodes +
          "</visual_scene></library_visual_scenes>\n"
          "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>\n";
+}
+
+inline const std::string vertex_input = "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/>";
+
+/// A Collada file whose primitive runs over the corners of a plane rectangle.
+inline std::string with_primitive(const std::string& primitive) {
+  std::string text = replaced(collada("<unit meter=\"0.5\"/>"), "0 0 0 2 0 0 0 3 0 0 0 4",
+                              "0 0 1 2 0 1 2 3 2 0 3 2");
+  const std::size_t begin = text.find("<triangles");
+  return text.replace(begin, text.find("</mesh>") - begin, primitive);
 }
 
 inline std::string gltf_buffer() {

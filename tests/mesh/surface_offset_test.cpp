@@ -59,18 +59,17 @@ TriangleMesh crumpled(double amount) {
 }
 
 /// Points within the margin, but for most_missing, lie inside; no seen point lies far beyond it.
-void expect_grown(const TriangleMesh& mesh, const TriangleMesh& grown, double margin, int count) {
+void expect_grown(const TriangleMesh& mesh, const PreparedMesh& grown, double margin, int count) {
   auto random = seeded_random(31);
   for (int i = 0; i < samples(count); ++i) {
     const double reach = std::max(margin - most_missing, 0.25 * margin);
     const Vector3d p = random_point(mesh, random) + reach * random_direction(random);
     ASSERT_TRUE(windings(grown, p) > 0 || windings(mesh, p) != 0) << p.transpose();
   }
-  Eigen::AlignedBox3d box;
-  for (const auto& v : grown.vertices) box.extend(v.cast<double>());
   std::vector<double> excess;
   for (int i = 0; i < samples(count); ++i) {
-    const Vector3d eye = box.center() + 2 * box.diagonal().norm() * random_direction(random);
+    const Vector3d eye =
+        grown.bounds.center() + 2 * grown.bounds.diagonal().norm() * random_direction(random);
     const Vector3d ray = random_point(mesh, random) - eye;
     double first = 1e9;
     for (const auto& crossing : crossings(grown, eye, ray)) first = std::min(first, crossing.t);
@@ -98,8 +97,7 @@ void expect_shrunk(const TriangleMesh& mesh, const TriangleMesh& shrunk, double 
     least = std::min(least, (windings(mesh, p) != 0 ? away : -away) - depth);
   }
   EXPECT_GE(least, -0.0015);
-  Eigen::AlignedBox3d box;
-  for (const auto& v : mesh.vertices) box.extend(v.cast<double>());
+  const Eigen::AlignedBox3d box = PreparedMesh(mesh).bounds;
   std::uniform_real_distribution<double> share(0.0, 1.0);
   int deep = 0;
   for (int i = 0; i < samples(4 * count); ++i) {
@@ -180,7 +178,7 @@ TEST(Offset, RealLinks) {
     const TriangleMesh mesh = load_mesh(file);
     std::cout << file.filename() << '\n';
     for (const double margin : margins({0.002, 0.01, 0.03})) {
-      const TriangleMesh grown = offset_surface(mesh, margin);
+      const PreparedMesh grown = offset_surface(mesh, margin);
       expect_grown(mesh, grown, margin, 200);
       EXPECT_LT(grown.triangles.size(), mesh.triangles.size() + 3000);
     }

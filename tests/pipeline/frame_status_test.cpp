@@ -41,13 +41,8 @@ class FrameStatusTest : public testing::Test {
 
   void expect_pose_unknown(const Frame& frame, FrameStatus status, const char* says) {
     const FrameReport& report = expect_unknown(frame, status, says);
-    EXPECT_TRUE(report.virtual_depth.depth.empty());
-    EXPECT_TRUE(report.virtual_depth.links.empty());
-    EXPECT_EQ(report.virtual_depth.touched, nullptr);
+    EXPECT_TRUE(report.virtual_depth.depth.empty() && report.virtual_depth.links.empty());
     EXPECT_FALSE(report.pixels.robot.has_value());
-    EXPECT_EQ(report.pixels.front + report.pixels.occluded + report.pixels.beyond, 0U);
-    EXPECT_FALSE(report.timing.render.has_value());
-    EXPECT_FALSE(report.timing.classify.has_value());
     EXPECT_EQ(process(good()).status, FrameStatus::ok) << "the stream goes on";
   }
 

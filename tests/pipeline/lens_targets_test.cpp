@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "slab_scene.hpp"
 
-#include <penumbra/targets/object_renderers.hpp>
-
 namespace penumbra::test {
 namespace {
 
@@ -36,40 +34,6 @@ TEST(TargetsInTheRawImage, OfARenderedBoxAreThoseThatTheirRaysMeet) {
   EXPECT_NEAR(double(plate.judgement->inside), covered, outline * covered);
   EXPECT_NEAR(plate.judgement->occluded, hidden / (1.0 * covered), outline);
   EXPECT_EQ(plate.verdict, Verdict::partial);
-}
-
-/// A small mesh in a lens's image covers the pixels whose rays meet it. Where an edge runs along
-/// the pixels' centres, a row of them may be missing or added: the mean counts.
-TEST(TargetsInTheRawImage, OfASmallMeshAreThoseThatItsRaysMeet) {
-  constexpr double side = 24.0, outline = 0.01;  // pixels; of the plates' pixels
-  constexpr double z = 1.0;
-  Camera camera{Intrinsics(640, 480, 600, 600, 320, 240), {}, {}, {}};
-  camera.distortion = Distortion("plumb_bob", std::array{-0.25, 0.06, 0.001, -0.001, 0.0});
-  const Rectification rectification(camera);
-  ObjectRenderers renderers(rectification.pinhole(), Backend::cpu, {}, &rectification, camera);
-  const auto half = float(0.5 * side * z / camera.intrinsics.fx());
-  const auto plate = std::make_shared<PreparedMesh>(
-      TriangleMesh{{{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}},
-                   {{0, 1, 2}, {0, 2, 3}}});
-  Image<Vector2d> rays(640, 480, Vector2d(1e9, 1e9));  // at depth 1; far away where there is none
-  for (const auto [u, v] : each_pixel(rays))
-    if (const auto ray = camera.distortion.undistort(camera.intrinsics.ray(u, v).head<2>()))
-      rays(u, v) = *ray;
-  int all = 0, different = 0;
-  for (double x = -0.4; x <= 0.4; x += 0.0131) {
-    Isometry3d pose = at(x, 0.6 * x + 0.03, z);
-    const VirtualDepthView drawn = renderers.mesh(plate, pose);
-    int meets = 0, covered = 0;
-    for (const auto [u, v] : each_pixel(drawn.depth)) {
-      covered += drawn.depth(u, v) > 0.0f ? 1 : 0;
-      const Vector2d off = z * rays(u, v) - pose.translation().head<2>();
-      meets += off.cwiseAbs().maxCoeff() < double(half);
-    }
-    all += meets;
-    different += std::abs(covered - meets);
-  }
-  EXPECT_GT(all, 20000);
-  EXPECT_LT(different, outline * all);
 }
 
 /// Pixels of a fisheye's image whose rays meet a sphere, by the formula of equidistant lenses: also

@@ -55,18 +55,6 @@ TEST_P(PipelineOf, LabelsEveryPixelAsTheRuleSays) {
   }
 }
 
-TEST(Pipeline, TakesTheCameraOnAMovingLink) {
-  PipelineConfig config = plain_config();
-  config.camera_parent = "slab";
-  config.T_parent_camera.translation() = Vector3d(0.0, 0.0, -1.0);
-  Pipeline pipeline(slab_robot(), slab_camera(), config);
-  for (const double slide : {0.0, 0.2}) {
-    const FrameReport& report = pipeline.process({.pose = {.positions = {slide}}});
-    EXPECT_NEAR(report.virtual_depth.depth(73, 57), slab_depth, depth_tolerance);
-    EXPECT_NEAR(report.virtual_depth.depth(73 + 40, 57 + 8), 1.45 - slide, depth_tolerance);
-  }
-}
-
 TEST(Pipeline, RefusesAFaultyConfiguration) {
   using Config = PipelineConfig;
   const std::pair<const char*, std::function<void(Config&)>> faults[] = {

@@ -42,18 +42,11 @@ VerdictInterval first_interval(const std::vector<ForecastCamera>& cameras,
   return forecast(cameras, target, start).any.intervals[0];
 }
 
-/// The pixels of the slab robot at slide 0.
-std::vector<Eigen::Vector2i> robot_pixels() {
-  const Intrinsics image = slab_camera().intrinsics;
-  std::vector<Eigen::Vector2i> pixels;
-  for (const auto [u, v] : each_pixel(image))
-    if (cast(image.ray(u, v), 0.0).link != 0) pixels.emplace_back(u, v);
-  return pixels;
-}
-
 TEST(LookAheadClearance, IsTheDistanceOfAllPairsOfPixels) {
   const Intrinsics image = slab_camera().intrinsics;
-  const std::vector<Eigen::Vector2i> robot = robot_pixels();
+  std::vector<Eigen::Vector2i> robot;  // pixels
+  for (const auto [u, v] : each_pixel(image))
+    if (cast(image.ray(u, v), 0.0).link != 0) robot.emplace_back(u, v);
   const LookAheadConfig config{.clearance = 20};
   std::mt19937_64 random = seeded_random(392);
   std::size_t negative = 0, positive = 0;

@@ -139,14 +139,6 @@ TEST(ViewPlanning, VerdictsAreThoseOfRays) {
   for (std::size_t c = 0; c < candidates.size(); ++c)
     for (std::size_t t = 0; t < balls.size(); ++t)
       EXPECT_DOUBLE_EQ(views.share(c, t, Verdict::visible), visible[c][t] / 12.0);
-
-  const CandidateViews alone = judge_candidates(robot, candidates, motion, 1);
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
-    EXPECT_EQ(alone.unknown(c), views.unknown(c));
-    for (std::size_t f = 0; f < motion.size(); ++f)
-      for (std::size_t t = 0; t < balls.size(); ++t)
-        EXPECT_EQ(alone.at(c, f, t), views.at(c, f, t));
-  }
 }
 
 /// The verdicts of one candidate for targets at one pose of the robot.

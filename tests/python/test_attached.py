@@ -27,15 +27,6 @@ def test_a_body_in_the_gripper_hides_and_is_blamed(opened):
     assert opened.session.process(frame).pixels.robot == robot
 
 
-def test_one_that_cannot_be_drawn_is_a_missing_link(opened):
-    part = penumbra.AttachedBody("part", "elbow", box_mesh(0.1), np.eye(4))
-    frame = opened.frames[0]
-    report = opened.session.process(frame.replace(pose=frame.pose.replace(attached=[part])))
-    assert report.status == penumbra.FrameStatus.missing_link
-    assert report.missing_links == ("part",) and "'elbow'" in report.message
-    assert not report.filtered_depth().any()
-
-
 def test_recordings_name_them_by_frames(tmp_path):
     folder = tmp_path / "in"
     shutil.copytree(SHIPPED, folder)

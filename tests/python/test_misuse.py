@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whatever is given wrongly is a TypeError or ValueError that says what is expected."""
 
-import copy
 import enum
 import pickle
 import re
@@ -14,8 +13,6 @@ from conftest import refuses, ROOT, SHIPPED
 
 GOOD = np.zeros((480, 640), np.uint16)
 POSE = np.eye(4)
-POINT = np.array([1.0, 2.0, 3.0])
-CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
 
 BAD_DEPTHS = [
     (None, TypeError, "uint16 or float32"),
@@ -23,16 +20,11 @@ BAD_DEPTHS = [
     ("depth", TypeError, "got str"),
     (GOOD.astype(np.int32), TypeError, "got numpy.ndarray of int32"),
     (GOOD.astype(np.float64), TypeError, ".astype(np.float32)"),
-    (GOOD.astype(">u2"), TypeError, "got numpy.ndarray of >u2"),
-    (GOOD.astype(object), TypeError, "object"),
     (GOOD.ravel(), ValueError, "shape (H, W)"),
-    (GOOD[None], ValueError, "shape (H, W)"),
     (GOOD[:0], ValueError, "shape (H, W)"),
     (np.zeros((480, 1280), np.uint16)[:, ::2], ValueError, "side by side"),
-    (GOOD[:, ::-1], ValueError, "side by side"),
     (np.asfortranarray(np.ones((480, 640), np.uint16)), ValueError, "side by side"),
     (np.ndarray((480, 640), np.uint16, bytes(2 * 640 * 480 + 1), 1), ValueError, "not aligned"),
-    (np.ndarray((2, 640), np.uint16, bytes(4001), 0, (1281, 2)), ValueError, "not aligned"),
     (np.ma.masked_array(GOOD, mask=GOOD == 0), TypeError, "its mask would be lost"),
     (GOOD[:10], ValueError, "(480, 640)"),
     (GOOD[:, :10], ValueError, "(480, 640)"),
@@ -47,37 +39,6 @@ def test_classifiers_and_frames_refuse_images(depth, error, says):
         calls["depth"] = lambda: penumbra.Frame(depth, None)
     for name, call in calls.items():
         refuses(f"{name}: expected.*{re.escape(says)}|{re.escape(says)}.*{name}: expected", call, error)
-
-
-def test_arrays_that_were_pickled_are_taken():
-    mask = pickle.loads(pickle.dumps(np.eye(4, dtype=bool)))
-    assert np.array_equal(penumbra.PixelMask(mask).mask, np.eye(4, dtype=np.uint8))
-    mesh = penumbra.TriangleMesh(pickle.loads(pickle.dumps(CORNERS)),
-                                 pickle.loads(pickle.dumps(np.array([[0, 1, 2]], np.uint32))))
-    assert np.array_equal(mesh.vertices, CORNERS)
-
-
-# A valid array and a call of it for each kind of argument.
-CASES = {
-    "joints": (np.zeros(7), lambda x: penumbra.Frame(GOOD, x)),
-    "poses": (np.stack([POSE] * 11), lambda x: penumbra.RobotPose(T_root_link=x)),
-    "pose": (POSE, lambda x: penumbra.PipelineConfig(T_parent_camera=x)),
-    "point": (POINT, lambda x: penumbra.PointTarget(x)),
-    "estimate": (POINT, lambda x: penumbra.TargetEstimate(x)),
-    "polygon": (CORNERS[:, :2].astype(float), lambda x: penumbra.PixelPolygon(x)),
-    "mask": (np.eye(4, dtype=bool), lambda x: penumbra.PixelMask(x)),
-    "vertices": (CORNERS, lambda x: penumbra.TriangleMesh(x, np.array([[0, 1, 2]], np.uint32))),
-}
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_masked_arrays_are_refused(name):
-    valid, call = CASES[name]
-    call(valid)
-    one = np.zeros(valid.shape, bool)
-    one.flat[0] = True
-    for mask in (one, np.ma.nomask):
-        refuses("its mask would be lost", lambda: call(np.ma.masked_array(valid, mask=mask)), TypeError)
 
 
 def test_other_arrays_are_taken():
@@ -137,52 +98,35 @@ BAD_CALLS = [
     (lambda o: penumbra.PipelineConfig(bakend=None), TypeError, "backend"),
     (lambda o: penumbra.LabelRule(front_min_width=None), TypeError, "front_min_width: int"),
     (lambda o: penumbra.Classifier(0, 480, penumbra.LabelRule.paper()), ValueError, "1 to 32767"),
-    (lambda o: penumbra.Classifier(64, 48, penumbra.LabelRule(beyond_factor=0)), ValueError,
-     "beyond_factor 0"),
     (lambda o: penumbra.Intrinsics(0, 0, 1, 1, 0, 0), ValueError, "1 .. 32767"),
-    (lambda o: penumbra.Camera(o.camera.intrinsics, range=penumbra.DepthRange(near=2, far=1)),
-     ValueError, "near"),
     (lambda o: penumbra.Robot.load(SHIPPED / "nothing.urdf"), ValueError, "nothing.urdf"),
     (lambda o: penumbra.Robot.load(SHIPPED, {"packages": {}}), TypeError, "penumbra.RobotOptions"),
     (lambda o: o.robot.forward_kinematics([0.0]), ValueError, "(7,)"),
-    (lambda o: o.robot.forward_kinematics(["a"] * 7), TypeError, "float64"),
     (lambda o: o.robot.forward_kinematics([float("nan")] * 7), ValueError, "+-1e9"),
     (lambda o: o.robot.meshes(99), IndexError, "below 11"),
     (lambda o: o.robot.find_variable("tail"), KeyError, "tail"),
     (lambda o: o.frames[12], IndexError, "frame 12"),
     (lambda o: penumbra.Frame(GOOD, 1.0), ValueError, "shape (N,)"),
-    (lambda o: penumbra.Frame(GOOD, [1j]), TypeError, "float64"),
     (lambda o: penumbra.Frame(GOOD, {"elbow": 0}), TypeError, "penumbra.RobotPose"),
     (lambda o: penumbra.Frame(GOOD, None, color=GOOD), TypeError, "(H, W, 3)"),
     (lambda o: penumbra.Frame(GOOD, None, targets=[None]), TypeError, "penumbra.Target"),
-    (lambda o: penumbra.RobotPose(T_parent_camera=np.eye(3)), ValueError, "(4, 4)"),
     (lambda o: penumbra.RobotPose(T_parent_camera=np.ones((4, 4))), ValueError, "0 0 0 1"),
-    (lambda o: penumbra.RobotPose(T_root_link=np.eye(4)), ValueError, "(N, 4, 4)"),
     (lambda o: penumbra.TriangleMesh(np.zeros((3, 3)), np.zeros((1, 3), np.uint32)), TypeError,
      "float32"),
     (lambda o: penumbra.TriangleMesh(np.zeros((3, 3), np.float32), np.full((1, 3), 3, np.uint32)),
      ValueError, "below the number of vertices, 3"),
-    (lambda o: penumbra.TriangleMesh(np.full((3, 3), np.inf, np.float32),
-                                     np.zeros((1, 3), np.uint32)), ValueError, "finite"),
-    (lambda o: penumbra.TriangleMesh(np.zeros((3, 2), np.float32), np.zeros((1, 3), np.uint32)),
-     ValueError, "(N, 3)"),
     (lambda o: penumbra.PixelMask(np.zeros((4, 4))), TypeError, "bool or uint8"),
     (lambda o: penumbra.PixelPolygon([1, 2, 3]), ValueError, "(N, 2)"),
     (lambda o: penumbra.Target("", None).check(), ValueError, "name"),
     (lambda o: penumbra.TargetEstimate(np.eye(3)), ValueError, "(3,)"),
-    (lambda o: penumbra.TargetEstimate("here"), TypeError, "float64"),
     (lambda o: penumbra.PoseTracker(penumbra.PoseTrackerConfig(timeout=-1)), ValueError, "timeout"),
     (lambda o: penumbra.PoseTracker().update(1, np.eye(4), "visible"), TypeError,
      "penumbra.Verdict"),
-    (lambda o: penumbra.PointTracker().update(1, [1, 2], penumbra.Verdict.visible), ValueError,
-     "(3,)"),
     (lambda o: penumbra.open("nowhere"), penumbra.InputError, "nowhere"),
     (lambda o: penumbra.open(SHIPPED, bag=penumbra.BagOptions()), ValueError, "bags"),
     (lambda o: penumbra.open(SHIPPED, frames=(3, 99)), ValueError, "0 to 11"),
     (lambda o: pickle.dumps(o.session), TypeError, "pickle"),
-    (lambda o: copy.copy(o.session), TypeError, "pickle"),
     (lambda o: setattr(o.config, "backend", None), AttributeError, "no setter"),
-    (lambda o: penumbra.RobotOptions(packages={"a": "/tmp"}).packages.update(b="/"), AttributeError, "update"),
 ]
 
 

@@ -170,25 +170,6 @@ def test_two_publishers_of_one_joint_are_compared(shipped):
     report = shipped.session.process(frame)
     assert report.status is penumbra.FrameStatus.poses_disagree
     assert "sliders" in report.message
-    first = penumbra.JointBuffer(robot, penumbra.JointBufferOptions(compare_sources=False))
-    first.insert(0, names, zeros, source="driver")
-    first.insert(0, names, [0.5, *zeros[1:]], source="sliders")
-    assert first.at(0).positions[0] == 0.0
-
-
-def test_targets_in_a_link_whose_place_is_doubted_are_unknown(shipped):
-    link = shipped.robot.links[-1]
-    target = penumbra.Target("t", penumbra.PointTarget([0, 0, 0.2], frame=link))
-    frame = shipped.frames[0].replace(targets=[target])
-    assert frame.pose.uncertain_links == () and frame.pose.uncertain_reason == ""
-    assert shipped.session.process(frame).targets[0].judgement is not None
-    doubted = frame.replace(pose=frame.pose.replace(
-        uncertain_links=[len(shipped.robot.links) - 1], uncertain_reason="two tell it"))
-    for given in (doubted, doubted.replace(index=7)):
-        report = shipped.session.process(given)
-        assert report.status == penumbra.FrameStatus.ok
-        assert report.targets[0].verdict == penumbra.Verdict.unknown
-        assert link in report.targets[0].reason and "two tell it" in report.targets[0].reason
 
 
 def test_points_without_the_robot(shipped):
@@ -252,18 +233,6 @@ def test_what_the_command_line_notes_is_noted(opened):
     millimetres = opened.frames[4].depth.astype(np.float32)
     session.process(opened.frames[4].replace(depth=millimetres))
     assert any("millimetres" in note for note in session.notes)
-
-
-def test_objects_tell_what_they_are(opened):
-    report = opened.session.process(opened.frames[4])
-    target = penumbra.Target("t", penumbra.RegionTarget(penumbra.PixelBox(1, 2, 3, 4)))
-    for thing, says in ((opened.session, "arm"), (report, "FrameStatus.ok"), (target, "PixelBox"),
-                        (opened.camera, "fx="), (opened.robot, "7 variables"),
-                        (opened.frames[4], "index=4"), (opened.frames[4].pose, "positions=array"),
-                        (opened.config, "camera_parent='base_link'"),
-                        (opened.frames, "six_axis_arm"),
-                        (report.points(), "points"), (penumbra.TargetEstimate([1, 2, 3]), "1., 2., 3.")):
-        assert says in repr(thing) and len(repr(thing)) < 2000
 
 
 def test_without_depth_verdicts_come_from_the_model():

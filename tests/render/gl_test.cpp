@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What only the OpenGL renderer has: devices, contexts, the rectangle that it reads back.
+// What only the OpenGL renderer has: devices and contexts.
 #include "render_test.hpp"
 #include "shapes.hpp"
 
 #include <thread>
-
-#include <penumbra/render/depth_renderer.hpp>
-#include <penumbra/render/gl/egl_context.hpp>
-#include <penumbra/render/gl/gl_calls.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -43,42 +39,6 @@ TEST_F(Gl, DevicesTellTheirNames) {
     EXPECT_EQ(renderer->info().backend, Backend::gl);
     EXPECT_GT(Frame(renderer->render(scene_.poses)).covered(), 0U);
   }
-}
-
-TEST_F(Gl, DevicesThatDoNotExistAreRefused) {
-  const std::size_t count = gl_devices().size();
-  const auto made_with = [&](int device) {
-    return [=] { (void)make_depth_renderer(Backend::gl, camera, {}, {.gl_device = device}); };
-  };
-  expect_refused(made_with(int(count)), {"no device " + std::to_string(count)});
-  expect_refused(made_with(-2), {"-2"});
-}
-
-TEST_F(Gl, RectanglesLeaveNothingOut) {
-  std::mt19937_64 random = seeded_random(92);
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  std::size_t tight = 0;
-  for (int round = 0; round < 500; ++round) {
-    const Eigen::AlignedBox3d bounds(Vector3d(-0.1, -0.2 * unit(random), -0.1),
-                                     Vector3d(0.1, 0.1, 0.3 * unit(random)));
-    const Isometry3d pose = random_pose(random, {-1, -1, -0.4}, {1, 1, 1.5});
-    const PixelRectangle seen = pixels_of(bounds, pose, camera);
-    tight += seen.width() < camera.width() ? 1 : 0;
-    for (int i = 0; i < 200; ++i) {
-      const double x = unit(random), y = unit(random);
-      const Vector3d share(x, y, unit(random));
-      const Vector3d p = pose * (bounds.min() + share.cwiseProduct(bounds.sizes()));
-      if (p.z() < DepthRenderer::near_plane) continue;
-      const Vector2d pixel = camera.project(p).array().round();
-      const bool in_image = pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < camera.width() &&
-                            pixel.y() < camera.height();
-      if (!in_image) continue;
-      EXPECT_TRUE(pixel.x() >= seen.u0 && pixel.x() < seen.u1 && pixel.y() >= seen.v0 &&
-                  pixel.y() < seen.v1)
-          << "round " << round;
-    }
-  }
-  EXPECT_GT(tight, 250U);
 }
 
 TEST_F(Gl, RenderersServeManyThreads) {

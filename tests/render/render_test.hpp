@@ -76,11 +76,8 @@ class RenderTest : public ::testing::TestWithParam<BackendChoice> {
 }  // namespace penumbra::test
 
 /// Makes a RenderTest of that name for all backends.
-#define PENUMBRA_RENDER_TEST(suite, max_threads)      \
-  class suite : public penumbra::test::RenderTest {}; \
-  PENUMBRA_FOR_EACH_BACKEND(suite, max_threads)
-/// Instantiates a RenderTest for all backends.
-#define PENUMBRA_FOR_EACH_BACKEND(suite, max_threads)                                         \
+#define PENUMBRA_RENDER_TEST(suite, max_threads)                                              \
+  class suite : public penumbra::test::RenderTest {};                                         \
   INSTANTIATE_TEST_SUITE_P(Backends, suite,                                                   \
                            ::testing::ValuesIn(penumbra::test::backend_choices(max_threads)), \
                            penumbra::test::backend_name)

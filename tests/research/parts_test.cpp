@@ -14,49 +14,41 @@ namespace {
 using namespace penumbra::research;
 
 /// Runs of one frame whose position error is the given one, the target hidden.
-std::pair<std::vector<SeedRun>, std::vector<MethodRun>> runs_of(const std::vector<double>& errors) {
+struct Runs {
+  explicit Runs(const std::vector<double>& errors) : seeds(errors.size()), methods(errors.size()) {
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      seeds[i].frame_seconds = 0.5;
+      seeds[i].frames = {{1.0, true}, {0.0, true}};
+      methods[i].success = false;
+      methods[i].samples.resize(2);
+      methods[i].samples[0].known = true;
+      methods[i].samples[0].translation_error = errors[i];
+    }
+  }
+  [[nodiscard]] std::vector<MethodOfSeed> all() const {
+    std::vector<MethodOfSeed> all;
+    for (std::size_t i = 0; i < seeds.size(); ++i) all.push_back({&seeds[i], &methods[i]});
+    return all;
+  }
+  [[nodiscard]] double measured(const std::string& key) const {
+    for (const Measure& measure : measures_of("conveyor"))
+      if (measure.key == key) return *measure.value(all());
+    throw std::out_of_range(key);
+  }
+
   std::vector<SeedRun> seeds;
   std::vector<MethodRun> methods;
-  for (const double error : errors) {
-    SeedRun seed;
-    seed.frame_seconds = 0.5;
-    seed.frames = {{1.0, true}, {0.0, true}};
-    seeds.push_back(seed);
-    MethodRun method;
-    method.success = false;
-    method.samples.resize(2);
-    method.samples[0].known = true;
-    method.samples[0].translation_error = error;
-    methods.push_back(method);
-  }
-  return {seeds, methods};
-}
-
-std::vector<MethodOfSeed> methods_of(
-    const std::pair<std::vector<SeedRun>, std::vector<MethodRun>>& runs) {
-  std::vector<MethodOfSeed> all;
-  for (std::size_t i = 0; i < runs.first.size(); ++i)
-    all.push_back({&runs.first[i], &runs.second[i]});
-  return all;
-}
-
-const Measure& measure_named(const std::vector<Measure>& measures, const std::string& key) {
-  for (const Measure& measure : measures)
-    if (measure.key == key) return measure;
-  throw std::out_of_range(key);
-}
+};
 
 TEST(Measures, CountHiddenFramesAndThoseWithoutPose) {
-  const auto runs = runs_of({0.010, 0.020, 0.030});
-  const auto measures = measures_of("conveyor");
-  const auto all = methods_of(runs);
-  EXPECT_DOUBLE_EQ(*measure_named(measures, "translation_median_mm").value(all), 20.0);
-  EXPECT_DOUBLE_EQ(*measure_named(measures, "without_pose_s").value(all), 0.5);
-  EXPECT_DOUBLE_EQ(*measure_named(measures, "success_percent").value(all), 0.0);
+  const Runs runs({0.010, 0.020, 0.030});
+  EXPECT_DOUBLE_EQ(runs.measured("translation_median_mm"), 20.0);
+  EXPECT_DOUBLE_EQ(runs.measured("without_pose_s"), 0.5);
+  EXPECT_DOUBLE_EQ(runs.measured("success_percent"), 0.0);
 }
 
 TEST(Measures, CountWrongPosesThatWereAccepted) {
-  auto runs = runs_of({0.010, 0.010});
+  Runs runs({0.010, 0.010});
   Event wrong;
   wrong.accepted = true;
   wrong.translation_error = 0.021;
@@ -64,22 +56,21 @@ TEST(Measures, CountWrongPosesThatWereAccepted) {
   refused.accepted = false;
   Event right = wrong;
   right.translation_error = 0.019;
-  runs.second[0].events = {wrong, refused, right};
-  EXPECT_DOUBLE_EQ(
-      *measure_named(measures_of("conveyor"), "wrong_accepted").value(methods_of(runs)), 0.5);
+  runs.methods[0].events = {wrong, refused, right};
+  EXPECT_DOUBLE_EQ(runs.measured("wrong_accepted"), 0.5);
 }
 
 TEST(Bootstrap, OfAMeanHasTheWidthThatTheNormalDistributionSays) {
   std::vector<double> errors(100);
   for (std::size_t i = 0; i < errors.size(); ++i) errors[i] = 0.001 * static_cast<double>(i);
-  const auto runs = runs_of(errors);
+  const Runs runs(errors);
   Measure mean;
   mean.value = [](std::span<const MethodOfSeed> some) -> std::optional<double> {
     double sum = 0;
     for (const MethodOfSeed& run : some) sum += run.method->samples[0].translation_error;
     return sum / static_cast<double>(some.size());
   };
-  const Interval interval = interval_of(mean, methods_of(runs));
+  const Interval interval = interval_of(mean, runs.all());
   ASSERT_TRUE(interval.confidence);
   const double sigma = 0.1 / std::sqrt(12.0) / std::sqrt(100.0);
   constexpr double slack = 0.15;  // 1000 resamples leave a few percent

@@ -97,15 +97,5 @@ TEST(Kinematics, HeldJointsStandWhereTheyWouldMove) {
   expect_refused([&] { hold("k", 0.0); }, {"'k'"});
 }
 
-TEST(Kinematics, RefusesWhatWouldMakeAPoseUp) {
-  const Robot robot = one_joint("floating", "");
-  EXPECT_THROW(pose(robot, {0, 0, 0, 0, 0, 1}), std::invalid_argument);
-  EXPECT_THROW(pose(robot, {0, 0, 0, 0, 0, 0, 0}), std::invalid_argument);
-  EXPECT_THROW(pose(robot, {nan, 0, 0, 0, 0, 0, 1}), std::invalid_argument);
-  EXPECT_THROW(pose(robot, {0, inf, 0, 0, 0, 0, 1}), std::invalid_argument);
-  std::vector<Isometry3d> too_few(1);
-  EXPECT_THROW(robot.forward_kinematics(robot.rest_positions(), too_few), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace penumbra::test

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../mesh/mesh_samples.hpp"
 #include "urdf_text.hpp"
 
 namespace penumbra::test {
@@ -18,7 +19,7 @@ class Packages : public ::testing::Test {
   }
 
   void add_mesh(const std::string& file, double size) {
-    folder_.write(file, tetrahedron_stl(size));
+    folder_.write(file, ascii_stl(tetrahedron(float(size), 1, 1)));
   }
 
   void set(const char* variable, const std::string& value) { ::setenv(variable, value.c_str(), 1); }

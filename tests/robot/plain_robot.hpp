@@ -188,21 +188,16 @@ inline std::string urdf_text(Random& random, const PlainRobot& robot) {
 // Chains of some tens of links of a metre, each rotation rounded to 1e-16.
 constexpr double kPoseTolerance = 1e-12;
 
-inline std::vector<double> random_positions(Random& random, const Robot& robot) {
-  std::vector<double> positions(robot.variables().size());
-  for (double& value : positions) value = uniform(random, -3.0, 3.0);
-  return positions;
-}
-
 inline void expect_pose(const Isometry3d& pose, const Matrix& expected, const std::string& link) {
   EXPECT_LT((pose.matrix() - expected).cwiseAbs().maxCoeff(), kPoseTolerance) << link;
 }
 
 /// Poses every link at random positions and compares with the plain matrices.
 inline void expect_kinematics(Random& random, const Robot& robot, const PlainRobot& plain) {
-  const auto positions = random_positions(random, robot);
+  std::vector<double> positions;
   Positions by_name;
-  for (std::size_t i = 0; i < positions.size(); ++i) by_name[robot.variables()[i]] = positions[i];
+  for (const std::string& name : robot.variables())
+    positions.push_back(by_name[name] = uniform(random, -3.0, 3.0));
   std::vector<Isometry3d> poses(robot.links().size());
   robot.forward_kinematics(positions, poses);
   for (std::size_t i = 0; i < poses.size(); ++i)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "../mesh/mesh_oracle.hpp"
-#include "../support/data.hpp"
+#include "../mesh/mesh_samples.hpp"
 #include "urdf_text.hpp"
 
 #include <penumbra/mesh/primitives.hpp>
@@ -10,6 +10,8 @@ namespace {
 
 // Vertices are rounded to float once, at about a metre.
 constexpr double kVertexTolerance = 1e-6;
+
+const std::string unit_tetrahedron = ascii_stl(tetrahedron(1, 1, 1));
 
 const LinkReport& report_of(const Robot& robot, const std::string& link) {
   return robot.report()[*robot.find_link(link)];
@@ -50,7 +52,7 @@ TEST(LinkChoice, GeometryIsTheOneAskedFor) {
 
 TEST(LinkChoice, ExtraMeshesAreDrawnWithTheirLinksAndNamed) {
   const TemporaryFolder folder;
-  const auto mesh = folder.write("tool.stl", tetrahedron_stl());
+  const auto mesh = folder.write("tool.stl", unit_tetrahedron);
   const Robot robot =
       parse(four_links(), {.ignore_links = {"b"}, .extra = {{"c", mesh}, {"d", mesh}}});
   const LinkReport& c = report_of(robot, "c");
@@ -123,7 +125,7 @@ TEST(Geometry, EveryElementOfALinkIsDrawn) {
 
 class MeshFiles : public ::testing::Test {
  protected:
-  void SetUp() override { folder_.write("meshes/t.stl", tetrahedron_stl()); }
+  void SetUp() override { folder_.write("meshes/t.stl", unit_tetrahedron); }
 
   Robot load(const std::string& mesh, const RobotOptions& options = {},
              const std::string& origin = "") {
@@ -151,7 +153,7 @@ TEST_F(MeshFiles, MirroredMeshKeepsItsOutside) {
 }
 
 TEST_F(MeshFiles, EveryFormOfPathIsFound) {
-  folder_.write("meshes/UPPER CASE.STL", tetrahedron_stl());
+  folder_.write("meshes/UPPER CASE.STL", unit_tetrahedron);
   const std::string absolute = (folder_.path() / "meshes/t.stl").string();
   for (const std::string& name : std::vector<std::string>{
            "meshes/t.stl", "./meshes/../meshes/t.stl", absolute, "file://" + absolute,
@@ -249,25 +251,6 @@ TEST_F(MeshFiles, NegativeMarginOfAnOpenMeshIsAnErrorOfTheLink) {
   const RobotOptions options{.margins = {{"a", -0.01}}, .allow_missing_meshes = true};
   expect_refused([&] { (void)load("filename=\"open.stl\"", options); }, {"link \"a\""});
   EXPECT_FALSE(load("filename=\"open.stl\"").report()[0].watertight);
-}
-
-TEST(RealRobots, VisualAndCollisionOfUr5eAgreeInSize) {
-  PENUMBRA_REQUIRE_DATA();
-  const auto load = [](Geometry geometry) {
-    return Robot::load(data_folder() / "robots/ur5e/ur5e.urdf", {.geometry = geometry});
-  };
-  const Robot collision = load(Geometry::collision), visual = load(Geometry::visual);
-  std::size_t drawn = 0;
-  for (std::size_t i = 0; i < visual.links().size(); ++i) {
-    EXPECT_EQ(visual.report()[i].drawn, collision.report()[i].drawn);
-    if (!visual.report()[i].drawn) continue;
-    ++drawn;
-    const auto& v = visual.report()[i].bounds;
-    const auto& c = collision.report()[i].bounds;
-    EXPECT_LT((v.center() - c.center()).norm(), 0.02) << visual.links()[i];
-    EXPECT_LT((v.sizes() - c.sizes()).norm(), 0.05) << visual.links()[i];
-  }
-  EXPECT_EQ(drawn, 7U);
 }
 
 }  // namespace

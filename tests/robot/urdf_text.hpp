@@ -27,8 +27,8 @@ inline std::string collision_xml(const std::string& shape, const std::string& or
   return "<collision>" + origin + "<geometry>" + shape + "</geometry></collision>";
 }
 
-inline std::string visual_xml(const std::string& shape, const std::string& origin = "") {
-  return "<visual>" + origin + "<geometry>" + shape + "</geometry></visual>";
+inline std::string visual_xml(const std::string& shape) {
+  return "<visual><geometry>" + shape + "</geometry></visual>";
 }
 
 /// A collision box; `size`: three numbers.
@@ -50,20 +50,6 @@ inline Robot every_kind() {
             joint_xml("j" + std::to_string(i), types[i], "l" + std::to_string(i),
                       "l" + std::to_string(i + 1), "<axis xyz=\"0 0 1\"/>");
   return parse(robot_xml(body));
-}
-
-/// An ASCII STL of the tetrahedron (0,0,0), (size,0,0), (0,size,0), (0,0,size), wound outwards.
-inline std::string tetrahedron_stl(double size = 1.0) {
-  const std::string s = std::to_string(size);
-  const std::string corners[4] = {"0 0 0", s + " 0 0", "0 " + s + " 0", "0 0 " + s};
-  constexpr int kFaces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-  std::string text = "solid t\n";
-  for (const auto& face : kFaces) {
-    text += "facet normal 0 0 0\nouter loop\n";
-    for (const int corner : face) text += "vertex " + corners[corner] + "\n";
-    text += "endloop\nendfacet\n";
-  }
-  return text + "endsolid t\n";
 }
 
 }  // namespace penumbra::test

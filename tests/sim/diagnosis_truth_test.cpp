@@ -33,6 +33,21 @@ std::function<void(Given&)> moved(double metres, double turn) {
   };
 }
 
+void in_millimetres(Given& given) { given.T_base_camera.translation() *= 1000.0; }
+void inverted(Given& given) { given.T_base_camera = given.T_base_camera.inverse(); }
+
+/// Each frame's joints are given otherwise.
+std::function<void(Given&)> changed(const std::function<void(std::vector<double>&)>& change) {
+  return [=](Given& given) { std::ranges::for_each(given.joints, change); };
+}
+
+/// They are given as those of other frames.
+std::function<void(Given&)> shifted(int by) {
+  return [=](Given& given) {
+    std::rotate(given.joints.begin(), given.joints.begin() + by, given.joints.end());
+  };
+}
+
 class DiagnosisTruth : public testing::Test {
  protected:
   void SetUp() override {
@@ -74,6 +89,17 @@ class DiagnosisTruth : public testing::Test {
     EXPECT_FALSE(found.message.empty());
   }
 
+  /// The mistakes with joints that depth and colours tell.
+  void expect_joints() {
+    const std::size_t elbow = *simulation_->robot().find_variable("elbow");
+    expect(Cause::joint_unit, changed([](auto& joints) {
+             for (double& joint : joints) joint /= degree;
+           }));
+    expect(Cause::joint_sign, changed([&](auto& joints) { joints[elbow] = -joints[elbow]; }));
+    expect(Cause::joint_zero, changed([&](auto& joints) { joints[elbow] += 20.0 * degree; }));
+    expect(Cause::joint_time, shifted(1));
+  }
+
   std::optional<sim::Simulation> simulation_;
   std::optional<Given> given_;
 };
@@ -82,9 +108,8 @@ TEST_F(DiagnosisTruth, ACameraThatIsElsewhereOrWhosePoseIsWrittenInAnotherWay) {
   expect(Cause::camera_pose, moved(0.02, 0.5));
   expect(Cause::camera_pose, moved(0.05, 3.0));
   expect(Cause::camera_pose, moved(0.25, 12.0));
-  expect(Cause::camera_unit, [](Given& given) { given.T_base_camera.translation() *= 1000.0; });
-  expect(Cause::camera_inverted,
-         [](Given& given) { given.T_base_camera = given.T_base_camera.inverse(); });
+  expect(Cause::camera_unit, in_millimetres);
+  expect(Cause::camera_inverted, inverted);
   expect(Cause::camera_transposed, [](Given& given) {
     given.T_base_camera.linear() = given.T_base_camera.linear().transpose().eval();
   });
@@ -144,22 +169,10 @@ TEST_F(DiagnosisTruth, JointsOfAnotherConventionOrOfOtherFrames) {
   const Robot& robot = simulation_->robot();
   const std::size_t lift = *robot.find_variable("shoulder_lift"),
                     elbow = *robot.find_variable("elbow");
-  const auto changed = [](const std::function<void(std::vector<double>&)>& change) {
-    return [=](Given& given) {
-      for (auto& joints : given.joints) change(joints);
-    };
-  };
-  expect(Cause::joint_unit, changed([](auto& joints) {
-           for (double& joint : joints) joint /= degree;
-         }));
-  expect(Cause::joint_sign, changed([&](auto& joints) { joints[elbow] = -joints[elbow]; }));
-  expect(Cause::joint_zero, changed([&](auto& joints) { joints[elbow] += 20.0 * degree; }));
+  expect_joints();
   expect(Cause::joint_order,
          changed([&](auto& joints) { std::swap(joints[lift], joints[elbow]); }));
-  for (const int shift : {1, 3})
-    expect(Cause::joint_time, [&](Given& given) {
-      std::rotate(given.joints.begin(), given.joints.begin() + shift, given.joints.end());
-    });
+  expect(Cause::joint_time, shifted(3));
 }
 
 /// The scene changes from image to image. The last joint turns little that is seen.
@@ -180,23 +193,9 @@ class DiagnosisByColor : public DiagnosisTruth {
 TEST_F(DiagnosisByColor, NamesTheSameMistakes) {
   EXPECT_EQ(diagnosed().message, "");
   expect(Cause::camera_pose, moved(0.05, 3.0));
-  expect(Cause::camera_unit, [](Given& given) { given.T_base_camera.translation() *= 1000.0; });
-  expect(Cause::camera_inverted,
-         [](Given& given) { given.T_base_camera = given.T_base_camera.inverse(); });
-  const std::size_t elbow = *simulation_->robot().find_variable("elbow");
-  const auto changed = [](const std::function<void(std::vector<double>&)>& change) {
-    return [=](Given& given) {
-      for (auto& joints : given.joints) change(joints);
-    };
-  };
-  expect(Cause::joint_unit, changed([](auto& joints) {
-           for (double& joint : joints) joint /= degree;
-         }));
-  expect(Cause::joint_sign, changed([&](auto& joints) { joints[elbow] = -joints[elbow]; }));
-  expect(Cause::joint_zero, changed([&](auto& joints) { joints[elbow] += 20.0 * degree; }));
-  expect(Cause::joint_time, [&](Given& given) {
-    std::rotate(given.joints.begin(), given.joints.begin() + 1, given.joints.end());
-  });
+  expect(Cause::camera_unit, in_millimetres);
+  expect(Cause::camera_inverted, inverted);
+  expect_joints();
 }
 
 TEST_F(DiagnosisTruth, NothingIsInvented) {

@@ -57,7 +57,7 @@ Executed execute(sim::Simulation& simulation) {
 
 struct Errors {
   std::vector<double> seconds;
-  std::size_t missed = 0, invented = 0, none = 0;
+  std::size_t missed = 0, invented = 0;
 };
 
 /// Compares at a time when the parcel is seen.
@@ -107,8 +107,6 @@ void compare(const sim::Simulation& simulation, const Executed& executed, std::s
     ++errors.missed;
   else if (clear != seen.predictions.end() && *said < last)
     ++errors.invented;
-  else
-    ++errors.none;
 }
 
 TEST_F(ForecastTruth, TellsWhenTheParcelGetsHidden) {
@@ -124,13 +122,8 @@ TEST_F(ForecastTruth, TellsWhenTheParcelGetsHidden) {
       if (executed.hidden[from] < 0.5) compare(simulation, executed, from, random, errors);
   }
   ASSERT_GT(errors.seconds.size(), 5U);
-  const double median = quantile(errors.seconds, 0.5), p95 = quantile(errors.seconds, 0.95);
-  std::cout << errors.seconds.size() << " forecasts of getting hidden, off by " << 1e3 * median
-            << " ms in the median, " << 1e3 * p95 << " ms at 95 %, "
-            << 1e3 * quantile(errors.seconds, 1.0) << " ms at most; missed " << errors.missed
-            << ", invented " << errors.invented << ", rightly none " << errors.none << '\n';
-  EXPECT_LT(median, most_median);
-  EXPECT_LT(p95, most_p95);
+  EXPECT_LT(quantile(errors.seconds, 0.5), most_median);
+  EXPECT_LT(quantile(errors.seconds, 0.95), most_p95);
   EXPECT_EQ(errors.missed, 0U);
   EXPECT_EQ(errors.invented, 0U);
 }

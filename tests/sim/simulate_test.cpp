@@ -2,10 +2,9 @@
 // `penumbra simulate`: what it writes is a recording that `penumbra run` judges as the truth says,
 // and a bag is the recording of the same scene and seed in another form.
 #include "../apps/fixtures.hpp"
-#include "../support/node_scripts.hpp"
+#include "../apps/reference_bag.hpp"
 #include "simulated.hpp"
 
-#include <io/mcap/compression.hpp>
 #include <sim/recording_bag.hpp>
 
 namespace penumbra::test {
@@ -123,25 +122,22 @@ TEST_F(SimulateTest, LabelsOfARecordingAreTheTruth) {
   }
 }
 
-/// Answers how many targets were judged.
-int compare_targets(const Json& of_folder, const Json& of_bag, std::size_t frames) {
+void expect_same_targets(const Json& of_folder, const Json& of_bag, std::size_t frames) {
   EXPECT_EQ(of_folder["frames"].size(), frames);
   EXPECT_EQ(of_bag["frames"].size(), frames);
-  int judged = 0;
+  const auto number = [](const Json& one) { return one.is_null() ? -1.0 : one.get<double>(); };
+  double judged = 0.0;
   for (std::size_t i = 0; i < frames; ++i) {
     const Json& a = of_folder["frames"][i]["targets"].at(0);
     const Json& b = of_bag["frames"][i]["targets"].at(0);
     EXPECT_EQ(a["verdict"], b["verdict"]) << a << b;
     EXPECT_EQ(a["inside"], b["inside"]);
+    judged += number(a["inside"]);
     for (const char* fraction : {"occluded_fraction", "front_fraction", "clear_fraction",
-                                 "unknown_fraction", "hidden_by_other_fraction"}) {
-      EXPECT_EQ(a[fraction].is_null(), b[fraction].is_null()) << fraction;
-      if (a[fraction].is_null()) continue;
-      EXPECT_NEAR(a[fraction].get<double>(), b[fraction].get<double>(), most_fraction_apart);
-      ++judged;
-    }
+                                 "unknown_fraction", "hidden_by_other_fraction"})
+      EXPECT_NEAR(number(a[fraction]), number(b[fraction]), most_fraction_apart) << fraction;
   }
-  return judged;
+  EXPECT_GT(judged, 0.0);
 }
 
 TEST_F(SimulateTest, ABagIsJudgedAsTheFolder) {
@@ -158,9 +154,8 @@ TEST_F(SimulateTest, ABagIsJudgedAsTheFolder) {
     expect_same_labels(scene);
     succeed(
         run(bag, "of_bag", {"--target-topic", std::string("/truth/") + scene.object + "/pose"}));
-    EXPECT_GT(compare_targets(read_json(path("of_folder/report.json")),
-                              read_json(path("of_bag/report.json")), scene.end - scene.first),
-              0);
+    expect_same_targets(read_json(path("of_folder/report.json")),
+                        read_json(path("of_bag/report.json")), scene.end - scene.first);
   }
 }
 
@@ -202,27 +197,10 @@ TEST_F(SimulateTest, ABagOfTwoCamerasIsJudgedTogether) {
   expect_failed(judged("none", {"--camera", "a=/camera/none"}), {"/camera/none"});
 }
 
-/// What decode.mjs says of an image's bytes.
-template <typename T>
-Json array_of(const Image<T>& image) {
-  char crc[9];
-  std::snprintf(crc, sizeof crc, "%08x",
-                io::mcap::crc32(std::as_bytes(std::span(image.data(), image.size()))));
-  return {{"length", image.size() * sizeof(T)}, {"crc", crc}};
-}
-
 /// Messages of a bag as the reference library reads them, by topic.
 std::map<std::string, std::vector<Json>> decoded(const fs::path& bag) {
-  const ScriptResult checked = run_script("read_back.mjs", "'" + bag.string() + "'");
-  EXPECT_EQ(checked.status, 0) << checked.errors;
-  const ScriptResult told = run_script("decode.mjs", "'" + bag.string() + "'");
-  EXPECT_EQ(told.status, 0) << told.errors;
   std::map<std::string, std::vector<Json>> messages;
-  std::istringstream lines(told.output);
-  for (std::string line; std::getline(lines, line);) {
-    const Json one = Json::parse(line);
-    messages[one["topic"]].push_back(one);
-  }
+  for (const Json& one : decoded_messages(bag)) messages[one["topic"]].push_back(one);
   return messages;
 }
 
@@ -319,20 +297,17 @@ TEST_F(SimulateTest, RefusesBadOutput) {
   };
   refused("bag.db3", "bags are written as .mcap");
   refused("nowhere/bag.mcap", "No such file or directory");
-  refused("/proc/bag.mcap", "cannot be written");
   EXPECT_TRUE(fs::is_empty(path()));
 
   write_file(path("mine.mcap"), "mine");
   refused("mine.mcap", "mine.mcap is there");
   EXPECT_EQ(read_file(path("mine.mcap")), "mine");
-  fs::create_symlink("nowhere", path("link.mcap"));
-  refused("link.mcap", "link.mcap is there");
 
   fs::create_directory(path("arm_description"));
   write_file(path("arm_description/arm.urdf"), "<robot/>");
   refused("bag.mcap", "does not hold the simulated arm's meshes");
   EXPECT_EQ(read_file(path("arm_description/arm.urdf")), "<robot/>");
-  EXPECT_EQ(std::distance(fs::directory_iterator(path()), fs::directory_iterator()), 3);
+  EXPECT_EQ(std::distance(fs::directory_iterator(path()), fs::directory_iterator()), 2);
 }
 
 }  // namespace

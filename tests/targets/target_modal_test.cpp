@@ -11,11 +11,18 @@ class ModalTargets : public testing::Test {
   /// The verdict on what a detector sees of a box: the part left of the robot, which covers the
   /// columns from `robot` on.
   Judgement see(int u, int robot, std::optional<double> motion = {}) {
-    TargetFrame frame;
-    frame.add_robot(robot, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
+    TargetFrame frame = robot_from(robot);
     const int seen = std::min(u + width, robot) - u;
     TargetView target = box_target({double(u), 40, double(seen), 20}, Extent::modal);
     if (motion) target.motion = Vector2d(*motion, 0);
+    return judge_in(frame, target);
+  }
+  static TargetFrame robot_from(int column) {
+    TargetFrame frame;
+    frame.add_robot(column, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
+    return frame;
+  }
+  Judgement judge_in(TargetFrame& frame, TargetView target) {
     target.expected_depth = depth;
     judge.begin(frame.images());
     return judge.judge(target, memory);
@@ -49,14 +56,10 @@ TEST_F(ModalTargets, AreNotSmallerBecauseSomethingCoveredThem) {
       memory = {};
       depth = expected;
       EXPECT_EQ(see(20, 120).verdict, Verdict::visible);
-      TargetFrame far;
-      far.add_robot(140, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
-      for (int i = 0; i < frames; ++i) {
-        TargetView target = box_target(rest, Extent::modal);
-        target.expected_depth = depth;
-        judge.begin(far.images());
-        EXPECT_EQ(judge.judge(target, memory).verdict, Verdict::visible) << "no robot is near";
-      }
+      TargetFrame far = robot_from(140);
+      for (int i = 0; i < frames; ++i)
+        EXPECT_EQ(judge_in(far, box_target(rest, Extent::modal)).verdict, Verdict::visible)
+            << "no robot is near";
       const Judgement covered = see(20, 36);
       EXPECT_EQ(covered.verdict, Verdict::partial);
       EXPECT_NEAR(covered.occluded, 0.6, share_rounding);
@@ -70,20 +73,16 @@ TEST_F(ModalTargets, AreHiddenByOtherObjectsWhereTheirDepthIsExpected) {
     memory = {};
     depth = behind;
     EXPECT_EQ(see(20, 120).verdict, Verdict::visible);
-    TargetFrame frame;
-    frame.add_robot(140, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
-    for (const auto [u, v] : each_pixel(20 + seen_columns, 30, 80, 70))
-      frame.measured(u, v) = TargetFrame::wall - 0.5f;
+    TargetFrame frame = robot_from(140);
+    frame.see(20 + seen_columns, 30, 80, 70, TargetFrame::wall - 0.5f);
     TargetView target = box_target({20, 40, seen_columns, 20}, Extent::modal);
-    target.expected_depth = depth;
     target.thresholds.others_hide = others_hide;
-    judge.begin(frame.images());
-    const Judgement covered = judge.judge(target, memory);
+    const Judgement covered = judge_in(frame, target);
     EXPECT_EQ(covered.verdict, others_hide ? Verdict::partial : Verdict::visible);
     EXPECT_NEAR(covered.hidden_by_other.value(), 0.6, share_rounding);
     EXPECT_EQ(covered.inside, 800u);
-    target.expected_depth.reset();
-    EXPECT_EQ(judge.judge(target, memory).hidden_by_other, std::nullopt);
+    depth.reset();
+    EXPECT_EQ(judge_in(frame, target).hidden_by_other, std::nullopt);
   }
 }
 
@@ -92,14 +91,10 @@ TEST_F(ModalTargets, AreHiddenByWhatComesSlowly) {
   depth = behind;
   EXPECT_EQ(see(20, 140).verdict, Verdict::visible);
   for (int columns = width; columns > width / 2; --columns) {
-    TargetFrame frame;
-    frame.add_robot(140, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
-    for (const auto [u, v] : each_pixel(20 + columns, 30, 120, 70))
-      frame.measured(u, v) = TargetFrame::wall - 0.5f;
-    TargetView target = box_target({20, 40, double(columns), 20}, Extent::modal);
-    target.expected_depth = depth;
-    judge.begin(frame.images());
-    const Judgement judgement = judge.judge(target, memory);
+    TargetFrame frame = robot_from(140);
+    frame.see(20 + columns, 30, 120, 70, TargetFrame::wall - 0.5f);
+    const Judgement judgement =
+        judge_in(frame, box_target({20, 40, double(columns), 20}, Extent::modal));
     EXPECT_NEAR(judgement.hidden_by_other.value(), 1.0 - double(columns) / width, share_rounding);
   }
 }
@@ -113,8 +108,7 @@ TEST_F(ModalTargets, OfKnownHeightKeepTheirDepthWhileTheyAreCut) {
     TargetView target = box_target({20, 40, width, double(seen)}, Extent::modal);
     target.height = height;
     target.thresholds.unknown_limit = 0.0;
-    judge.begin(frame.images());
-    return judge.judge(target, memory);
+    return judge_in(frame, target);
   };
   EXPECT_EQ(judge_rows(rows / 2, 50).verdict, Verdict::unknown) << "not seen whole";
   EXPECT_EQ(judge_rows(3 * rows, 110).verdict, Verdict::unknown) << "the wall is behind it";
@@ -150,8 +144,7 @@ TEST_F(ModalTargets, FirstSeenBesideTheRobotAreUnknown) {
 
 TEST_F(ModalTargets, AreAsLargeAsTheirDepthSays) {
   const auto see_box = [&](double columns, double rows, double z, int robot) {
-    TargetFrame frame;
-    frame.add_robot(robot, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
+    TargetFrame frame = robot_from(robot);
     TargetView target = box_target({70, 40, columns, rows}, Extent::modal);
     target.expected_depth = z;
     target.thresholds.min_measured = 0;
@@ -173,10 +166,8 @@ TEST_F(ModalTargets, AreAsLargeAsTheirDepthSays) {
 
 TEST_F(ModalTargets, MissingPixelsAddToWhatIsHidden) {
   EXPECT_EQ(see(20, 100).verdict, Verdict::visible);
-  TargetFrame frame;
-  frame.add_robot(50, 0, TargetFrame::width, TargetFrame::height, 1.0f, 1);
-  judge.begin(frame.images());
-  const Judgement half = judge.judge(box_target({20, 40, 20, 20}, Extent::modal), memory);
+  TargetFrame frame = robot_from(50);
+  const Judgement half = judge_in(frame, box_target({20, 40, 20, 20}, Extent::modal));
   EXPECT_NEAR(half.occluded, 0.25, share_rounding);
   EXPECT_NEAR(half.unknown, 0.25, share_rounding);
   EXPECT_NEAR(half.clear, 0.5, share_rounding);

@@ -2,12 +2,77 @@
 // Random targets on random frames against a judge that asks every pixel, in words of TargetJudge's
 // docstring.
 #include "../labels/scene.hpp"
-#include "target_regions.hpp"
 
 #include <penumbra/targets/target_judge.hpp>
 
 namespace penumbra::test {
 namespace {
+
+using Corners = std::vector<Vector2d>;
+
+/// By the sum of the angles under which the edges are seen, full turns of either sign.
+bool is_in_polygon(const Corners& corners, const Vector2d& p) {
+  double angle = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector2d x = corners[i] - p, y = corners[(i + 1) % corners.size()] - p;
+    angle += std::atan2(x.x() * y.y() - x.y() * y.x(), x.dot(y));
+  }
+  return std::abs(angle) > std::numbers::pi;
+}
+
+bool is_in_ellipse(const PixelEllipse& ellipse, const Vector2d& p) {
+  const Vector2d d = p - ellipse.centre;
+  const double c = std::cos(ellipse.angle), s = std::sin(ellipse.angle);
+  return std::hypot((c * d.x() + s * d.y()) / ellipse.semi_axes.x(),
+                    (c * d.y() - s * d.x()) / ellipse.semi_axes.y()) < 1;
+}
+
+/// How far the number of pixels in an ellipse can be from its area: half the length of a convex
+/// outline and 1 (Nosarzewska 1948), and half a pixel that rounding adds. 0 if all of the ellipse
+/// lies in the image: then its pixels are counted.
+double area_error(const PixelEllipse& ellipse, int width, int height) {
+  const double c = std::cos(ellipse.angle), s = std::sin(ellipse.angle);
+  const double a = ellipse.semi_axes.x(), b = ellipse.semi_axes.y();
+  const Eigen::Array2d reach(std::hypot(a * c, b * s), std::hypot(a * s, b * c));
+  const Eigen::Array2d low = ellipse.centre.array() - reach, high = ellipse.centre.array() + reach;
+  if (low.minCoeff() >= 0 && high.x() <= width - 1 && high.y() <= height - 1) return 0;
+  const double longest_outline = std::numbers::pi * std::sqrt(2 * (a * a + b * b));
+  return longest_outline / 2 + 1.5;
+}
+
+bool is_in_box(const PixelBox& box, const Vector2d& p) {
+  return box.u <= p.x() && p.x() < box.u + box.width && box.v <= p.y() &&
+         p.y() < box.v + box.height;
+}
+
+/// A polygon around a point of which all of its outline is seen, so that no edges cross.
+Corners random_star(std::mt19937_64& random, const Vector2d& centre, double radius,
+                    std::size_t corners) {
+  std::uniform_real_distribution<double> share(0.1, 1.0), jitter(0.0, 0.9);
+  const bool reversed = random() % 2 == 0;
+  Corners star;
+  for (std::size_t i = 0; i < corners; ++i) {
+    const double turn = 2 * std::numbers::pi * (double(i) + jitter(random)) / double(corners);
+    const double angle = reversed ? -turn : turn;
+    star.push_back(centre + radius * share(random) * Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  return star;
+}
+
+/// COCO's counts of a mask.
+std::vector<std::uint32_t> run_lengths(ImageView<const std::uint8_t> mask) {
+  std::vector<std::uint32_t> counts{0};
+  bool inside = false;
+  for (int u = 0; u < mask.width; ++u)
+    for (int v = 0; v < mask.height; ++v) {
+      if ((mask(u, v) != 0) != inside) {
+        counts.push_back(0);
+        inside = !inside;
+      }
+      ++counts.back();
+    }
+  return counts;
+}
 
 struct NaiveJudgement {
   std::size_t inside = 0, clear = 0, front = 0, occluded = 0, unknown = 0, other = 0;
@@ -183,11 +248,11 @@ class TargetOracle : public testing::Test {
   /// A region, and its pixels by geometry.
   void choose_shape(Shape& shape, int width, int height) {
     const Vector2d centre(number(0, width), number(0, height));
-    const auto paint = [&](const auto& place) {
+    const auto paint = [&](const auto& holds) {
       constexpr int margin = 50;  // pixels around the image that hold all of it
       shape.mask = Image<std::uint8_t>(width, height);
       for (const auto [u, v] : each_pixel(-margin, -margin, width + margin, height + margin)) {
-        if (place(Vector2d(u, v)) != Place::inside) continue;
+        if (!holds(Vector2d(u, v))) continue;
         ++shape.covered;
         if (u >= 0 && v >= 0 && u < width && v < height) shape.mask(u, v) = 1;
       }
@@ -196,7 +261,7 @@ class TargetOracle : public testing::Test {
     if (kind == 0) {
       const PixelBox box{centre.x() - 8, centre.y() - 9, number(2, 40), number(2, 40)};
       shape.region = box;
-      paint([&](const auto& p) { return place_in_box(box, p); });
+      paint([&](const auto& p) { return is_in_box(box, p); });
       return;
     }
     if (kind >= 5) {  // a star, or an outline that crosses itself
@@ -204,12 +269,12 @@ class TargetOracle : public testing::Test {
       for (std::size_t n = kind == 5 ? 0 : 4 + below(8); n > 0; --n)
         shape.corners.emplace_back(number(-30, width + 30), number(-30, height + 30));
       shape.region = PixelPolygon{shape.corners};
-      paint([&](const auto& p) { return place_in_polygon(shape.corners, p); });
+      paint([&](const auto& p) { return is_in_polygon(shape.corners, p); });
       return;
     }
     const PixelEllipse ellipse{centre, {number(2, 25), number(2, 25)}, number(0, 3)};
     shape.region = ellipse;
-    paint([&](const auto& p) { return place_in_ellipse(ellipse, p); });
+    paint([&](const auto& p) { return is_in_ellipse(ellipse, p); });
     shape.covered_error = area_error(ellipse, width, height);
     if (kind == 1) return;
     shape.covered = 0;

@@ -58,14 +58,6 @@ TEST_F(Buffer, ANameTwiceInOneStateIsDisputedIfItsValuesDiffer) {
   EXPECT_EQ(at(1).disputes.size(), 1U);
 }
 
-TEST_F(Buffer, SaysWhatWasSeenInPlaceOfAJoint) {
-  insert(1, {"left/p", "q"}, {0.1, nan});
-  EXPECT_EQ(at(1).other_names, std::vector<std::string>{"left/p"});
-  ASSERT_EQ(answer_.gaps.size(), 2U);
-  EXPECT_FALSE(answer_.gaps[0].is_refused);
-  EXPECT_TRUE(answer_.gaps[1].is_refused);
-}
-
 const std::vector<std::string> kPose = {"p", "q/x", "q/y", "q/z", "q/qx", "q/qy", "q/qz", "q/qw"};
 
 TEST(BufferKinds, PartsOfAQuaternionBelongToOneStamp) {
@@ -132,27 +124,20 @@ TEST(BufferJumps, AreNeverInterpolated) {
 constexpr double kOracleTolerance = 1e-12;
 constexpr std::int64_t kMaxGap = 50;
 
-struct Oracle {
-  std::vector<std::string> names;
-  std::map<std::string, std::map<std::int64_t, double>> states;
+using States = std::map<std::string, std::map<std::int64_t, double>>;
+using Known = std::map<std::int64_t, std::vector<double>>;
 
-  using Known = std::map<std::int64_t, std::vector<double>>;
-
-  // The stamps at which every one of the variables is known.
-  Known known(const std::vector<std::string>& of) const {
-    Known out;
-    const auto first = states.find(of[0]);
-    if (first == states.end()) return out;
-    for (const auto& [stamp, value] : first->second) {
-      std::vector<double> values;
-      for (const std::string& name : of)
-        if (states.count(name) != 0 && states.at(name).count(stamp) != 0)
-          values.push_back(states.at(name).at(stamp));
-      if (values.size() == of.size()) out[stamp] = values;
-    }
-    return out;
+/// The stamps at which every one of the variables is known.
+Known all_known(const States& states, const std::vector<std::string>& of) {
+  Known out;
+  for (const std::string& name : of) {
+    const auto found = states.find(name);
+    if (found == states.end()) return {};
+    for (const auto& [stamp, value] : found->second) out[stamp].push_back(value);
   }
-};
+  std::erase_if(out, [&](const auto& each) { return each.second.size() != of.size(); });
+  return out;
+}
 
 struct Between {
   bool ok = false;
@@ -161,11 +146,11 @@ struct Between {
   std::vector<double> a, b;
 };
 
-Between between(const Oracle::Known& known, std::int64_t stamp) {
-  const auto after = known.lower_bound(stamp);
-  if (after == known.end()) return {};
+Between between(const Known& of, std::int64_t stamp) {
+  const auto after = of.lower_bound(stamp);
+  if (after == of.end()) return {};
   if (after->first == stamp) return {true, 0, 0.0, after->second, after->second};
-  if (after == known.begin()) return {};
+  if (after == of.begin()) return {};
   const auto before = std::prev(after);
   const std::int64_t gap = after->first - before->first;
   if (gap > kMaxGap) return {};
@@ -190,9 +175,7 @@ bool turns(const std::string& name) { return name == "j1" || name.ends_with("/ya
 
 class Fuzz {
  public:
-  Fuzz(Random& random, std::size_t& answered) : random_(random), answered_(answered) {
-    oracle_.names.assign(robot_.variables().begin(), robot_.variables().end());
-  }
+  Fuzz(Random& random, std::size_t& answered) : random_(random), answered_(answered) {}
 
   void insert_some() {
     const auto stamp = std::int64_t(below(random_, 600));
@@ -201,9 +184,9 @@ class Fuzz {
     const auto put = [&](const std::string& name, double value) {
       names.push_back(name);
       values.push_back(value);
-      oracle_.states[name][stamp] = value;
+      states_[name][stamp] = value;
     };
-    for (const std::string& name : oracle_.names)
+    for (const std::string& name : robot_.variables())
       if (name.find("/q") == std::string::npos && below(random_, 3) != 0)
         put(name, random_position(name));
     for (const char* joint : {"j2", "j5"})
@@ -220,13 +203,13 @@ class Fuzz {
     std::int64_t age = 0;
     std::size_t gaps = 0;
     bool any_missing = false;
-    for (std::size_t i = 0; i < oracle_.names.size(); ++i) {
-      const std::string& name = oracle_.names[i];
-      const Between found = between(oracle_.known(group_of(i)), stamp);
-      if (found.ok && !jumps(i, found)) {
+    for (std::size_t i = 0; i < robot_.variables().size(); ++i) {
+      const std::string& name = robot_.variables()[i];
+      const Between found = between(all_known(states_, group_of(name)), stamp);
+      if (found.ok && !jumps(name, found)) {
         age = std::max(age, found.age);
         if (answer.status == JointStatus::ok) {
-          EXPECT_NEAR(answer.positions[i], expected(i, found), kOracleTolerance) << name;
+          EXPECT_NEAR(answer.positions[i], expected(name, found), kOracleTolerance) << name;
         }
         continue;
       }
@@ -252,30 +235,24 @@ class Fuzz {
   // Its parts in any order.
   template <typename Put>
   void put_quaternion(const std::string& joint, const Put& put) {
-    double q[4];
-    double norm = 0.0;
-    for (double& part : q) {
-      part = uniform(random_, -0.4, 0.4);
-      if (&part == &q[3]) part = part < 0.0 ? -1.0 : 1.0;
-      norm += part * part;
-    }
-    const char* endings[] = {"/qx", "/qy", "/qz", "/qw"};
+    Eigen::Vector4d q;
+    for (int k = 0; k < 4; ++k) q[k] = uniform(random_, -0.4, 0.4);
+    q[3] = q[3] < 0.0 ? -1.0 : 1.0;
+    q.normalize();
     const std::size_t start = below(random_, 4);
     // A stamp's quaternion is given whole or not at all, so that no two are mixed.
-    for (std::size_t i = 0; i < 4; ++i)
-      put(joint + endings[(start + i) % 4], q[(start + i) % 4] / std::sqrt(norm));
+    for (std::size_t i = start; i < start + 4; ++i)
+      put(joint + "/q" + "xyzw"[i % 4], q[Eigen::Index(i % 4)]);
   }
 
-  std::vector<std::string> group_of(std::size_t i) const {
-    const std::string& name = oracle_.names[i];
+  static std::vector<std::string> group_of(const std::string& name) {
     const std::size_t at = name.find("/q");
     if (at == std::string::npos) return {name};
     const std::string joint = name.substr(0, at);
     return {joint + "/qx", joint + "/qy", joint + "/qz", joint + "/qw"};
   }
 
-  double expected(std::size_t i, const Between& found) const {
-    const std::string& name = oracle_.names[i];
+  static double expected(const std::string& name, const Between& found) {
     if (found.a.size() == 4)
       return slerp(found.a, found.b, found.t)[std::string("xyzw").find(name.back())];
     return found.a[0] + found.t * way(name, found);
@@ -290,8 +267,7 @@ class Fuzz {
   }
 
   // Whether what turns does so by more than a right angle.
-  bool jumps(std::size_t i, const Between& found) const {
-    const std::string& name = oracle_.names[i];
+  static bool jumps(const std::string& name, const Between& found) {
     const double most = std::numbers::pi / 2.0;
     if (found.a.size() == 1)
       return (turns(name) || name == "j0") && std::abs(way(name, found)) > most;
@@ -304,17 +280,17 @@ class Fuzz {
   bool expect_gap(const JointAnswer& answer, std::size_t i, std::int64_t stamp) const {
     const auto gap = std::find_if(answer.gaps.begin(), answer.gaps.end(),
                                   [&](const JointGap& g) { return g.variable == i; });
-    EXPECT_NE(gap, answer.gaps.end()) << oracle_.names[i] << " at " << stamp;
+    EXPECT_NE(gap, answer.gaps.end()) << robot_.variables()[i] << " at " << stamp;
     if (gap == answer.gaps.end()) return false;
-    const auto states = oracle_.states.find(oracle_.names[i]);
-    const bool missing = states == oracle_.states.end();
+    const auto states = states_.find(robot_.variables()[i]);
+    const bool missing = states == states_.end();
     EXPECT_EQ(gap->why, missing ? JointStatus::missing : JointStatus::stale);
     std::optional<std::int64_t> last, next;
-    if (!missing)
-      for (const auto& [s, value] : states->second) {
-        if (s <= stamp) last = s;
-        if (s > stamp && !next) next = s;
-      }
+    if (!missing) {
+      const auto after = states->second.upper_bound(stamp);
+      if (after != states->second.begin()) last = std::prev(after)->first;
+      if (after != states->second.end()) next = after->first;
+    }
     EXPECT_EQ(gap->last_seen, last);
     EXPECT_EQ(gap->next_seen, next);
     return missing;
@@ -323,7 +299,7 @@ class Fuzz {
   Random& random_;
   Robot robot_ = every_kind();
   JointBuffer buffer_{robot_, {.max_gap = double(kMaxGap) * 1e-9, .history = 1.0}};
-  Oracle oracle_;
+  States states_;
   std::size_t& answered_;
 };
 

@@ -243,56 +243,32 @@ TEST(JointSources, RotationsOfFloatingJointsAreCompared) {
   EXPECT_EQ(answer.disputes[0].values, (std::array{0.6, -0.6}));
 }
 
-TEST(JointSources, ManyAreKeptWithinBounds) {
-  // As in a bag where each joint state has a frame_id of its own.
-  OneJoint joint;
-  for (std::int64_t i = 0; i < 20000; ++i) joint.add(i * ms, 0.3, std::to_string(i));
-  EXPECT_EQ(joint.at(19999 * ms + ms / 2).status, JointStatus::stale);
-}
-
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : random_(seeded_random(seed)) {}
-  double number(double from, double to) { return uniform(random_, from, to); }
-  std::int64_t time(std::int64_t from, std::int64_t to) {
-    return std::uniform_int_distribution<std::int64_t>(from, to)(random_);
-  }
-  /// Swings of up to 3 rad/s and 40 rad/s^2.
-  Path path() {
+TEST(JointSources, NoPoseOffByMoreThanTheNoiseIsOk) {
+  // An arm leaves the pose of sliders, and passes it again; either is heard first. A frame that is
+  // ok has the arm's pose within the noise and what the arm moves until its next messages arrive.
+  std::mt19937_64 random = seeded_random(23);
+  const auto number = [&](double from, double to) { return uniform(random, from, to); };
+  const auto whole = [&](std::int64_t from, std::int64_t to) {
+    return std::uniform_int_distribution<std::int64_t>(from, to)(random);
+  };
+  int known = 0;
+  for (int round = 0; round < samples(300); ++round) {
     Path path = rest(number(-2.0, 2.0));
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < 3; ++i) {  // swings of up to 3 rad/s and 40 rad/s^2
       const double f = number(0.3, 12.0), phase = number(0.0, 6.28);
       const double size = number(0.2, 1.0) * std::min(3.0 / f, 40.0 / (f * f)) / 3.0;
       path = [=](double t) { return path(t) + size * std::sin(f * t + phase); };
     }
-    return path;
-  }
-  /// One message in twenty is lost.
-  std::vector<Message> sent(const std::vector<Publisher>& publishers) {
-    std::vector<Message> all = messages_of(publishers);
-    std::erase_if(all, [&](const Message&) { return time(0, 19) == 0; });
-    return all;
-  }
-
- private:
-  std::mt19937_64 random_;
-};
-
-TEST(JointSources, NoPoseOffByMoreThanTheNoiseIsOk) {
-  // An arm leaves the pose of sliders, and passes it again; either is heard first. A frame that is
-  // ok has the arm's pose within the noise and what the arm moves until its next messages arrive.
-  Draw draw(23);
-  int known = 0;
-  for (int round = 0; round < samples(300); ++round) {
-    const Path path = draw.path();
-    const double leaves = draw.number(0.5, 3.0);
+    const double leaves = number(0.5, 3.0);
     const Path arm = [=](double t) { return path(std::max(0.0, t - leaves)); };
-    const std::int64_t period = draw.time(2, 20), latency = draw.time(0, 20);
+    const std::int64_t period = whole(2, 20), latency = whole(0, 20);
     const Publisher driver{"driver", arm, period, 0, all_ends, latency};
-    const Publisher sliders{"sliders", rest(path(0.0)), draw.time(2, 100), draw.time(0, 20)};
+    const Publisher sliders{"sliders", rest(path(0.0)), whole(2, 100), whole(0, 20)};
     const double unheard = 3.0 * 1e-3 * double(3 * period + latency);
+    std::vector<Message> sent = messages_of({driver, sliders});
+    std::erase_if(sent, [&](const Message&) { return whole(0, 19) == 0; });  // lost
     OneJoint joint;
-    for (const auto& [stamp, answer] : joint.frames(draw.sent({driver, sliders})))
+    for (const auto& [stamp, answer] : joint.frames(std::move(sent)))
       if (stamp >= 150 * ms && answer.status == JointStatus::ok) {
         ASSERT_NEAR(answer.positions[0], arm(seconds(stamp)), JointRule::turn_noise + unheard);
       }

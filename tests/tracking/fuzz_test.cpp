@@ -3,48 +3,38 @@
 #include "../support/algebra.hpp"
 #include "tracks.hpp"
 
-#include <Eigen/Eigenvalues>
-
 namespace penumbra::test {
 namespace {
 
-class Chance {
- public:
-  explicit Chance(std::mt19937_64& random) : random_(random) {}
+bool one_of(std::mt19937_64& random, std::size_t n) { return below(random, n) == 0; }
 
-  [[nodiscard]] bool one_of(int n) { return below(n) == 0; }
-  [[nodiscard]] int below(int n) { return std::uniform_int_distribution<int>(0, n - 1)(random_); }
-  [[nodiscard]] double uniform(double low, double high) {
-    return test::uniform(random_, low, high);
-  }
-  [[nodiscard]] double any_number() {
-    const double odd[] = {0, 1e300, -1e300, 1e-300, inf, -1e9, 1e155, nan};
-    return odd[below(8)];
-  }
-  [[nodiscard]] std::int64_t stamp(double now) {
-    if (one_of(100)) return std::numeric_limits<std::int64_t>::min() + below(5);
-    if (one_of(20)) return stamp_at(std::round(now * 10) / 10);  // duplicates
-    return stamp_at(now - (one_of(3) ? uniform(0, 2) : 0.0));
-  }
-  [[nodiscard]] Verdict verdict() { return one_of(2) ? Verdict::visible : Verdict(below(5)); }
-  std::mt19937_64& random() { return random_; }
+double any_number(std::mt19937_64& random) {
+  const double odd[] = {0, 1e300, -1e300, 1e-300, inf, -1e9, 1e155, nan};
+  return odd[below(random, 8)];
+}
 
- private:
-  std::mt19937_64& random_;
-};
+Eigen::Index any_index(std::mt19937_64& random, std::size_t n) {
+  return Eigen::Index(below(random, n));
+}
 
-PoseEstimate any_estimate(Chance& chance, double now) {
-  PoseEstimate estimate{chance.stamp(now), random_pose(chance.random())};
-  if (!chance.one_of(4)) estimate.pose.translation() *= 0.01;
-  if (!chance.one_of(4)) estimate.pose.linear() = turn({0, 0, 0.01});
-  if (chance.one_of(10)) estimate.pose.translation()[chance.below(3)] = chance.any_number();
-  if (chance.one_of(10)) estimate.pose.linear()(chance.below(3), 1) = chance.any_number();
-  if (chance.one_of(5)) {
+std::int64_t any_stamp(std::mt19937_64& random, double now) {
+  if (one_of(random, 100)) return std::numeric_limits<std::int64_t>::min() + any_index(random, 5);
+  if (one_of(random, 20)) return stamp_at(std::round(now * 10) / 10);  // duplicates
+  return stamp_at(now - (one_of(random, 3) ? uniform(random, 0, 2) : 0.0));
+}
+
+PoseEstimate any_estimate(std::mt19937_64& random, double now) {
+  PoseEstimate estimate{any_stamp(random, now), random_pose(random)};
+  if (!one_of(random, 4)) estimate.pose.translation() *= 0.01;
+  if (!one_of(random, 4)) estimate.pose.linear() = turn({0, 0, 0.01});
+  if (one_of(random, 10)) estimate.pose.translation()[any_index(random, 3)] = any_number(random);
+  if (one_of(random, 10)) estimate.pose.linear()(any_index(random, 3), 1) = any_number(random);
+  if (one_of(random, 5)) {
     Matrix6d factor;
-    for (int i = 0; i < 6; ++i) factor.col(i) = normal<6>(chance.random());
-    const double scale = std::pow(10, chance.uniform(-9, 6));
+    for (int i = 0; i < 6; ++i) factor.col(i) = normal<6>(random);
+    const double scale = std::pow(10, uniform(random, -9, 6));
     estimate.covariance = scale * scale * factor * factor.transpose();
-    if (chance.one_of(5)) (*estimate.covariance)(chance.below(6), 2) = chance.any_number();
+    if (one_of(random, 5)) (*estimate.covariance)(any_index(random, 6), 2) = any_number(random);
   }
   return estimate;
 }
@@ -77,7 +67,6 @@ class PoseFuzz : public testing::TestWithParam<PoseTrackerConfig> {};
 
 TEST_P(PoseFuzz, StaysFiniteAndHonest) {
   auto random = seeded_random(461);
-  Chance chance(random);
   int accepted = 0;
   for (int run = 0; run < samples(20); ++run) {
     auto config = GetParam();
@@ -88,16 +77,16 @@ TEST_P(PoseFuzz, StaysFiniteAndHonest) {
     PoseTracker tracker(config);
     double now = 0;
     for (int i = 0; i < 400; ++i) {
-      now += chance.one_of(50) ? chance.uniform(0, 1e4) : chance.uniform(0, 0.1);
-      const Verdict verdict = chance.verdict();
-      const auto outcome = tracker.update(any_estimate(chance, now), verdict);
+      now += uniform(random, 0, one_of(random, 50) ? 1e4 : 0.1);
+      const auto verdict = Verdict(one_of(random, 2) ? 0 : below(random, 5));
+      const auto outcome = tracker.update(any_estimate(random, now), verdict);
       accepted += outcome == Outcome::accepted ? 1 : 0;
       if (outcome == Outcome::accepted || outcome == Outcome::refused_gate) {
         EXPECT_LE(verdict, config.worst);
       }
-      const double asked = now + chance.uniform(-2, 5);
+      const double asked = now + uniform(random, -2, 5);
       expect_honest(tracker.at(stamp_at(asked)), config.timeout);
-      if (chance.one_of(200)) tracker.reset();
+      if (one_of(random, 200)) tracker.reset();
       if (HasFailure()) return;
     }
     EXPECT_EQ(tracker.at(stamp_at(now + config.timeout + 0.1)).source, Source::lost);

@@ -58,33 +58,6 @@ TEST(PoseMotion, ConveyorKeepsItsDirection) {
   EXPECT_LT(known.covariance.trace(), estimated.covariance.trace());
 }
 
-TEST(PoseMotion, ConveyorOfKnownSpeedIsRightFromOneEstimate) {
-  PoseTracker tracker(  // against its direction
-      {.motion = Motion::along_direction, .direction = {0, -1, 0}, .speed = -0.4});
-  tracker.update({stamp_at(0), Isometry3d::Identity(), {}}, Verdict::visible);
-  EXPECT_LT((tracker.at(stamp_at(2)).pose.translation() - Vector3d(0, 0.8, 0)).norm(), 1e-12);
-}
-
-// On a circle of radius r at angular speed w the acceleration is w^2 r: a prediction of T seconds
-// that went on straight is off by r |e^(iwT) - 1 - iwT|, to which comes the lag of the velocity.
-TEST(PoseMotion, CircleIsLeftOnItsTangent) {
-  constexpr double radius = 0.3, speed = 0.8;
-  const auto circle = [](double t) {
-    Isometry3d pose = Isometry3d::Identity();
-    pose.translation() << radius * std::cos(speed * t), radius * std::sin(speed * t), 0.5;
-    pose.linear() = turn({0, 0, speed * t});
-    return pose;
-  };
-  const auto pose = follow({}, circle);
-  const double angle = speed * hidden;
-  const double tangent = radius * std::hypot(std::cos(angle) - 1, std::sin(angle) - angle);
-  const double off = (pose.pose.translation() - circle(seen_until + hidden).translation()).norm();
-  constexpr double lag = 0.35;  // of the tangent's error, as the filter averages over 0.2 s
-  EXPECT_NEAR(off, tangent, lag * tangent);
-  const Matrix3d turned = circle(seen_until + hidden).linear();
-  EXPECT_LT(turn_vector(pose.pose.linear() * turned.transpose()).norm(), converged);
-}
-
 TEST(PointMotion, HeldPointIsTheLastOneAndItsSigmaGrowsWithTime) {
   PointTracker tracker({.sigma = 0.02, .held_speed = 0.5});
   tracker.update({stamp_at(0), {1, 2, 3}, {}}, Verdict::visible);

@@ -108,27 +108,10 @@ TEST_F(LivePage, AFrameWithoutAPoseHasItsStatusAndItsDepth) {
   EXPECT_FALSE(packet->parts.contains("vdi"));
 }
 
-// Layers that a page turns on are in each frame that it is sent from then on.
-TEST_F(LivePage, AFrameOfBeforeAWishIsNotSent) {
-  const auto browser = client(R"(["labels"])");
-  bench_.tell_all();
-  judge(start);
-  EXPECT_TRUE(browser->take(R"({"type": "want", "with": ["labels", "links"]})"));
-  EXPECT_FALSE(next(*browser));
-  judge(start + 33 * milliseconds);
-  const auto packet = next(*browser);
-  ASSERT_TRUE(packet);
-  EXPECT_TRUE(packet->parts.contains("links"));
-  EXPECT_FALSE(packet->parts.contains("vdi"));
-}
-
 TEST(LiveScans, ShowTheirPointsWhereTheSensorWas) {
   io::LiveOptions options;
   options.clouds = {{.topic = "/points"}};
   LiveBench bench(options);
-  for (std::size_t i = 0; i < bench.inbox.topics().size(); ++i)
-    if (bench.inbox.topics()[i].name == "/points")
-      bench.inbox.set_type(i, io::message_type<io::PointCloud2Message>());
   io::LiveView view("live", true);
   const auto browser = view.open_channel("/api/live");
   EXPECT_TRUE(browser->take(R"({"type": "want", "with": ["cloud"]})"));

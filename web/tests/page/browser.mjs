@@ -129,11 +129,9 @@ export async function open(browser, url, options = desktop, beforeLoad = () => {
         history.replaceState(null, '', next); // goto loads nothing where only the hash differs
       }, address);
     faults.length = 0;
-    const start = performance.now();
     await (isOpen ? page.reload() : page.goto(address));
     await page.locator('#cover').waitFor({ state: 'hidden' });
     await drawn(page);
-    shown.seconds = (performance.now() - start) / 1000;
   };
   await shown.load(url);
   return shown;

@@ -1,48 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page of `penumbra cloud --port`: a sensor that measures points, without images.
 import assert from 'node:assert/strict';
-import { copyFile, cp, mkdir, mkdtemp, rm, writeFile } from 'node:fs/promises';
+import { cp, mkdir, mkdtemp, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { desktop, example, launch, open, phone, serve, showsFrame } from './browser.mjs';
 
 // Before the arm's base, behind it, and far from it, as seen from (1.5, 0, 0.1) in the base.
-const points = [
-  [-0.5, 0, 0],
-  [-2.5, 0, 0],
-  [0, 2, 0],
-];
+const cloud = `FIELDS x y z
+SIZE 4 4 4
+TYPE F F F
+WIDTH 3
+HEIGHT 1
+DATA ascii
+-0.5 0 0
+-2.5 0 0
+0 2 0
+`;
+const recording = `robot: {urdf: arm_description/arm.urdf, packages: {arm_description: arm_description}}
+sensor: {pose: pose.csv}
+frames: {joints: joint_states.csv, cloud: clouds/%d.pcd}
+`;
 
 async function makeRecording(folder) {
-  await cp(path.join(example, 'arm_description'), path.join(folder, 'arm_description'), {
-    recursive: true,
-  });
-  await copyFile(path.join(example, 'joint_states.csv'), path.join(folder, 'joint_states.csv'));
-  const pose = '1,0,0,1.5\n0,1,0,0\n0,0,1,0.1\n0,0,0,1\n';
-  await writeFile(path.join(folder, 'pose.csv'), pose);
+  for (const name of ['arm_description', 'joint_states.csv'])
+    await cp(path.join(example, name), path.join(folder, name), { recursive: true });
+  await writeFile(path.join(folder, 'pose.csv'), '1,0,0,1.5\n0,1,0,0\n0,0,1,0.1\n0,0,0,1\n');
+  await writeFile(path.join(folder, 'recording.yaml'), recording);
   await mkdir(path.join(folder, 'clouds'));
-  const pcd = [
-    'FIELDS x y z',
-    'SIZE 4 4 4',
-    'TYPE F F F',
-    'COUNT 1 1 1',
-    `WIDTH ${points.length}`,
-    'HEIGHT 1',
-    `POINTS ${points.length}`,
-    'DATA ascii',
-    ...points.map((point) => point.join(' ')),
-  ].join('\n');
   for (let frame = 0; frame < 12; ++frame)
-    await writeFile(path.join(folder, `clouds/${String(frame).padStart(6, '0')}.pcd`), `${pcd}\n`);
-  await writeFile(
-    path.join(folder, 'recording.yaml'),
-    [
-      'robot: {urdf: arm_description/arm.urdf, packages: {arm_description: arm_description}}',
-      'sensor: {pose: pose.csv}',
-      'frames: {joints: joint_states.csv, cloud: clouds/%06d.pcd}',
-    ].join('\n'),
-  );
+    await writeFile(path.join(folder, `clouds/${frame}.pcd`), cloud);
 }
 
 const shared = {};
@@ -71,9 +59,8 @@ for (const [name, device] of Object.entries({ desktop, phone }))
     for (const hidden of ['#image', '#view-tabs', '.row-head.stages', '[data-key=c]'])
       assert.equal(await page.locator(hidden).first().isVisible(), false, hidden);
     const numbers = page.locator('#frame-details');
-    assert.equal(await numbers.locator('[data-key=front]').getAttribute('data-value'), '1');
-    assert.equal(await numbers.locator('[data-key=beyond]').getAttribute('data-value'), '1');
-    assert.equal(await numbers.locator('[data-key=clear]').getAttribute('data-value'), '1');
+    for (const label of ['front', 'beyond', 'clear'])
+      assert.equal(await numbers.locator(`[data-key=${label}]`).getAttribute('data-value'), '1');
     await page.keyboard.press('w');
     await page.locator('#scene-canvas[data-points="2"]').waitFor();
     await page.keyboard.press('ArrowRight');

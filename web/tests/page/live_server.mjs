@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Simulates live frames from a stored one, with any age, rate, verdict or damage.
 
-/** Returns the JSON of a packet, and the bytes of its parts. */
-function headOf(packet) {
+/** Returns the JSON of a packet, read as documented, and the bytes of its parts. */
+export function headOf(packet) {
   const length = packet.readUInt32LE(0);
   const head = JSON.parse(packet.subarray(4, 4 + length).toString());
   return { head, parts: packet.subarray(4 + length) };
@@ -64,9 +64,11 @@ export async function playLive(page, url) {
 
   state.connected = (times) => until(() => state.connections >= times);
 
+  state.isAsked = () => until(() => state.requested > state.sent);
+
   /** Sends a frame after the page requested one. */
   state.send = async ({ age = 20, rate = 10, damage = false, verdict } = {}) => {
-    await until(() => state.requested > state.sent);
+    await state.isAsked();
     const targets = head.frame.targets.map((target) => ({
       ...target,
       verdict: verdict ?? target.verdict,

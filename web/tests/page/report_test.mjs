@@ -9,17 +9,18 @@ import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { desktop, example, launch, openFile, phone, program, smallButtons } from './browser.mjs';
 
-let browser, folder;
+let browser, folder, judged, frames;
 
 before(async () => {
   folder = await mkdtemp(path.join(os.tmpdir(), 'penumbra-report-'));
   const options = ['run', example, '-o', folder, '--report', '--targets', 'none'];
   execFileSync(program, options, { stdio: 'ignore' });
+  judged = path.join(folder, 'judged');
+  execFileSync(program, ['run', example, '-o', judged, '--report'], { stdio: 'ignore' });
+  frames = JSON.parse(await readFile(path.join(judged, 'report.json'), 'utf8')).frames;
   browser = await launch();
 });
-after(async () => {
-  await rm(folder, { recursive: true });
-});
+after(() => rm(folder, { recursive: true }));
 
 /** Returns the cells of the table of stages by stage, and the texts of the tiles. */
 async function stagesOf(file) {
@@ -64,13 +65,10 @@ test('keys move the playhead of a report', async () => {
 });
 
 test('a key frame selects its frame, and names are text', async () => {
-  const out = path.join(folder, 'judged');
-  execFileSync(program, ['run', example, '-o', out, '--report'], { stdio: 'ignore' });
-  const html = await readFile(path.join(out, 'report.html'), 'utf8');
-  const { frames } = JSON.parse(await readFile(path.join(out, 'report.json'), 'utf8'));
+  const html = await readFile(path.join(judged, 'report.html'), 'utf8');
   const { name } = frames[0].targets[0];
   const hostile = '<img src=x onerror=alert(1)>\\u003c/script>';
-  const file = path.join(out, 'hostile.html');
+  const file = path.join(judged, 'hostile.html');
   const escaped = JSON.stringify(hostile).replaceAll('<', '\\u003c');
   await writeFile(file, html.replaceAll(JSON.stringify(name), escaped));
   for (const options of [desktop, phone]) {
@@ -92,10 +90,7 @@ test('a key frame selects its frame, and names are text', async () => {
 });
 
 test('the first cards of a report are the targets, and its buttons fit a finger', async () => {
-  const out = path.join(folder, 'cards');
-  execFileSync(program, ['run', example, '-o', out, '--report'], { stdio: 'ignore' });
-  const { frames } = JSON.parse(await readFile(path.join(out, 'report.json'), 'utf8'));
-  const { page, close } = await openFile(browser, path.join(out, 'report.html'), phone);
+  const { page, close } = await openFile(browser, path.join(judged, 'report.html'), phone);
   const tiles = await page.locator('.tile').allTextContents();
   for (const [index, { name }] of frames[0].targets.entries()) {
     const verdicts = frames.map(({ targets }) => targets[index].verdict);

@@ -16,6 +16,7 @@ import {
   showsLayer,
   showsWithout,
 } from './browser.mjs';
+import { headOf } from './live_server.mjs';
 import { changedFraction } from './pictures.mjs';
 import { frameShown, served } from './served.mjs';
 
@@ -78,20 +79,13 @@ test('values under the pointer are those of the packet, in each layer', () =>
     assert.ok(frame.width > 300 && values.length === pixels.length);
   }));
 
-/** Reads a packet as documented, without the page's code. */
+/** Returns the parts of a packet, read without the page's code. */
 async function packetParts(names = 'labels,depth,cloud') {
-  const query = `/api/frames/3/packet?with=${names}&step=2`;
-  const address = new URL(query, shared.server.url);
-  const bytes = Buffer.from(await (await fetch(address)).arrayBuffer());
-  const length = bytes.readUInt32LE(0);
-  const head = JSON.parse(bytes.subarray(4, 4 + length).toString());
-  let at = 4 + length;
+  const address = new URL(`/api/frames/3/packet?with=${names}&step=2`, shared.server.url);
+  const packet = headOf(Buffer.from(await (await fetch(address)).arrayBuffer()));
+  let at = 0;
   return Object.fromEntries(
-    head.parts.map(({ name, size }) => {
-      const part = bytes.subarray(at, at + size);
-      at += size;
-      return [name, part];
-    }),
+    packet.head.parts.map(({ name, size }) => [name, packet.parts.subarray(at, (at += size))]),
   );
 }
 let parts;
@@ -274,17 +268,6 @@ test('the legend says what a label means, and its name behind it', () =>
       assert.match(text, new RegExp(`^\\w.+ \\w+ ${name}$`));
       assert.ok(isInside, text);
     }
-  }));
-
-test('a scene without robot and points says why', () =>
-  withPage('/#frame=3', desktop, async (page) => {
-    const note = page.locator('#scene-note');
-    await showsFrame(page, 3);
-    assert.ok(await note.isHidden());
-    for (const part of ['robot', 'cloud']) await page.click(`[data-part=${part}]`);
-    await note.waitFor();
-    await page.click('[data-part=cloud]');
-    await note.waitFor({ state: 'hidden' });
   }));
 
 const wide = path.join(root, '../shared/data/xarm7_realsense'); // 1280 x 720

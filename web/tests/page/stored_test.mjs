@@ -2,28 +2,14 @@
 // The page of a stored recording: frames, timeline, numbers.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { desktop, drawn, open, showsFrame, stopTime } from './browser.mjs';
+import { desktop, open, showsFrame, stopTime } from './browser.mjs';
 import { changedFraction } from './pictures.mjs';
 import { frameShown, served } from './served.mjs';
 
 const step = process.env.PENUMBRA_FULL ? 1 : 4; // compares the numbers of every step-th frame
-const maxSeconds = 2; // until the first frame is shown, on an idle machine
 
 const shared = served();
 const { withPage } = shared;
-
-const skip = !process.env.PENUMBRA_FULL && 'set PENUMBRA_FULL';
-test('loads in less than two seconds', { skip }, async () => {
-  // The first load includes the browser's start; of the others the best one counts.
-  const loads = [];
-  for (let i = 0; i < 4; ++i) {
-    const shown = await open(shared.browser, shared.server.url);
-    loads.push(shown.seconds);
-    await shown.close();
-  }
-  console.log(`first frame after ${loads.map((seconds) => seconds.toFixed(2)).join(', ')} s`);
-  assert.ok(Math.min(...loads.slice(1)) < maxSeconds, `${loads} s`);
-});
 
 test('the numbers of all targets are those of report.json', () =>
   withPage('/', desktop, async (page) => {
@@ -159,10 +145,9 @@ test('the address contains frame and target', () =>
     await page.waitForFunction(() => location.hash === '#frame=10&target=cube');
   }));
 
-test('list and details show how much is hidden and by what; for unknown targets the known part', () =>
+test('the list shows how much is hidden and by what; for unknown targets the known part', () =>
   withPage('/', desktop, async (page) => {
     let others = 0;
-    let least = 0;
     for (const frame of shared.report.frames) {
       await showsFrame(page, frame.index);
       const shown = await page
@@ -182,14 +167,8 @@ test('list and details show how much is hidden and by what; for unknown targets 
         );
         assert.ok(shown[i][1].endsWith(shown[i][0].replace('≥', 'at least')), shown[i][1]);
         others += isKnown && shown[i][0].includes('others') ? 1 : 0;
-        if (isKnown || !isShown || target.blame.length === 0) continue;
-        await page.click(`[data-target="${target.name}"]`);
-        const text_ = await page.locator('#target-details p').first().textContent();
-        assert.match(text_, new RegExp(`^at least ${percent} % behind .*${target.blame[0].link}`));
-        ++least;
       }
       await page.keyboard.press('ArrowRight');
     }
     assert.ok(others > 0, 'one is hidden by others');
-    assert.ok(least > 0, 'one is unknown and partly hidden');
   }));

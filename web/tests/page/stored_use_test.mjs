@@ -25,25 +25,6 @@ test('the theme is the system’s until the user selects one', async () => {
   });
 });
 
-test('the theme can be selected without browser storage', async () => {
-  const context = await shared.browser.newContext({ ...desktop, deviceScaleFactor: 1 });
-  const page = await context.newPage();
-  await page.addInitScript(() =>
-    Object.defineProperty(window, 'localStorage', {
-      get() {
-        throw new DOMException('off', 'SecurityError');
-      },
-    }),
-  );
-  await page.goto(shared.server.url);
-  await showsFrame(page, 0);
-  for (const theme of ['dark', 'light']) {
-    await page.click('#theme');
-    assert.equal(await page.locator('html').getAttribute('data-theme'), theme);
-  }
-  await context.close();
-});
-
 test('arrow keys select a layer or step frames', () =>
   withPage('/#frame=3', desktop, async (page) => {
     await showsFrame(page, 3);
@@ -111,17 +92,6 @@ test('panes are resized by pointer and keys, and keep their sizes', () =>
     for (const border of ['#timeline-border', '#details-border', '#scene-border'])
       await page.dblclick(border);
     near((await sizes())[0], scene);
-  }));
-
-test('the label of the play button', () =>
-  withPage('/', desktop, async (page) => {
-    const name = () => page.locator('#play').getAttribute('aria-label');
-    assert.equal(await name(), 'Play');
-    await page.selectOption('#speed', '0.25');
-    await page.click('#play');
-    assert.equal(await name(), 'Pause');
-    await page.click('#play');
-    assert.equal(await name(), 'Play');
   }));
 
 test('keyboard shortcuts, help, and tab order', () =>

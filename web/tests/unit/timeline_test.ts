@@ -8,10 +8,7 @@ import {
   hiddenFraction,
   hiddenText,
   hidersOf,
-  larger,
-  nextOnset,
   onsets,
-  runsOf,
   secondsOf,
   tracksOf,
   worse,
@@ -91,15 +88,6 @@ test('the text of what hides a target; for an unknown one the known part', () =>
   assert.equal(hiddenText(target('cup', 'out_of_view', { inside: 0 })), '–');
 });
 
-test('runs of equal values', () => {
-  assert.deepEqual(runsOf(['a', 'a', 'b', 'a']), [
-    { from: 0, to: 2, value: 'a' },
-    { from: 2, to: 3, value: 'b' },
-    { from: 3, to: 4, value: 'a' },
-  ]);
-  assert.deepEqual(runsOf([]), []);
-});
-
 test('seconds since the first stamp', () => {
   const frames = framesOf({ cup: 'vvv' });
   frames[1] = { ...(frames[1] as (typeof frames)[number]), stamp_ns: null };
@@ -109,21 +97,4 @@ test('seconds since the first stamp', () => {
 test('onsets of all targets', () => {
   const tracks = tracksOf(framesOf({ cup: 'vvphhvvuh', wrist: 'pvvvvvpuv' }));
   assert.deepEqual(onsets(tracks), [0, 2, 6, 8]);
-});
-
-test('the next onset', () => {
-  const tracks = tracksOf(framesOf({ cup: 'vvphhvvuh' }));
-  assert.equal(nextOnset(tracks, 0, 1), 2);
-  assert.equal(nextOnset(tracks, 2, 1), 8);
-  assert.equal(nextOnset(tracks, 8, 1), undefined);
-  assert.equal(nextOnset(tracks, 8, -1), 2);
-  assert.equal(nextOnset(tracks, 2, -1), undefined);
-  assert.equal(nextOnset([], 0, 1), undefined);
-});
-
-test('the larger of two values, which may be unknown', () => {
-  assert.equal(larger(1, 7), 7);
-  assert.equal(larger(null, -1), -1);
-  assert.equal(larger(-1, null), -1);
-  assert.equal(larger(null, null), null);
 });

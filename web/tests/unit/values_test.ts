@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { parseJson, type Packet } from '../../src/api/packet';
-import type { Summary } from '../../src/api/types';
+import { parseJson } from '../../src/api/packet';
 import { depthColors, depthRange } from '../../src/model/depth_colors';
 import { count, metres, milliseconds, percent, stamp } from '../../src/model/format';
-import { FrameCache } from '../../src/model/frame_cache';
 import { labelColor, labelStyles } from '../../src/model/labels';
-import { notesOf } from '../../src/model/notes';
 import { waitOf } from '../../src/model/timeline';
 import { lessSeen, moreSeen } from '../../src/report/parts';
 import { niceStep } from '../../src/timeline/charts';
-
-const packet = { byteLength: 100 } as Packet;
 
 test('replaces direction marks', () => {
   const text = '{"name": "a\u202ecod.exe\u2066\u200f", "other": "\u05d0 \u8155 caf\u00e9"}';
@@ -65,28 +60,11 @@ test('ticks are at round numbers', () => {
   assert.deepEqual([0.7, 1, 1.2, 2, 3, 6, 11, 51].map(niceStep), [1, 1, 2, 2, 5, 10, 20, 100]);
 });
 
-test('the cache fetches a frame once, and deletes the least recently used', async () => {
-  const fetched: number[] = [];
-  const cache = new FrameCache((index) => {
-    fetched.push(index);
-    return Promise.resolve(packet);
-  }, 250);
-  for (const index of [1, 1, 2, 1, 3, 1, 2]) await cache.get(index, ['color']);
-  assert.deepEqual(fetched, [1, 2, 3, 2]);
-});
-
 test('invalid labels are visible, and differ from all labels', () => {
   const colors = labelStyles.map((_, label) => labelColor(label));
   assert.equal(new Set(colors).size, colors.length);
   assert.equal(colors[0], null, 'clear');
   for (const label of [6, 17, 255]) assert.ok(!colors.includes(labelColor(label)), `${label}`);
-});
-
-test('the diagnosis is not among the notes', () => {
-  const message = 'the camera is elsewhere';
-  const summary = { notes: [message, 'another'], diagnosis: { message } } as unknown as Summary;
-  assert.deepEqual(notesOf(summary), ['another']);
-  assert.deepEqual(notesOf(null), []);
 });
 
 test('of several verdicts a bar shows the one in which least is seen, a set of cameras most', () => {
