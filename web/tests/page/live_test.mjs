@@ -123,53 +123,49 @@ async function residentOf({ pid }) {
   return 1024 * Number(status.match(/VmRSS:\s+(\d+)/)[1]);
 }
 
-test(
-  'shows frames, keeps its memory, and reconnects to a restarted server',
-  { skip },
-  async () => {
-    const view = await serveLive();
-    const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
-    const page = await context.newPage();
-    const faults = [];
-    page.on('pageerror', (error) => faults.push(error.message));
-    page.on('console', (message) => {
-      if (message.type() === 'error' && !/WebSocket|ERR_CONNECTION/.test(message.text()))
-        faults.push(message.text());
-    });
-    let scenes = 0;
-    page.on('request', (request) => (scenes += request.url().includes('/api/scene.bin') ? 1 : 0));
-    await page.goto(view.url);
-    await page.getByText('Waiting for the first frame').waitFor();
-    const playing = () => start('play', bag, '--loop', '--restamp', '--rate', rate);
-    const camera = playing();
+test('shows frames, keeps its memory, and reconnects to a restarted server', { skip }, async () => {
+  const view = await serveLive();
+  const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
+  const page = await context.newPage();
+  const faults = [];
+  page.on('pageerror', (error) => faults.push(error.message));
+  page.on('console', (message) => {
+    if (message.type() === 'error' && !/WebSocket|ERR_CONNECTION/.test(message.text()))
+      faults.push(message.text());
+  });
+  let scenes = 0;
+  page.on('request', (request) => (scenes += request.url().includes('/api/scene.bin') ? 1 : 0));
+  await page.goto(view.url);
+  await page.getByText('Waiting for the first frame').waitFor();
+  const playing = () => start('play', bag, '--loop', '--restamp', '--rate', rate);
+  const camera = playing();
 
-    await showsLive(page);
-    await draws(page, 10); // buffers grow to the size of a frame
-    const [heap, resident] = [await heapOf(page), await residentOf(view.child)];
-    await (full ? watch(page) : draws(page, leastFrames));
-    const growth = (await heapOf(page)) - heap;
-    const served = (await residentOf(view.child)) - resident;
-    console.log(`page's heap ${mebibytes(growth)} MiB more, server ${mebibytes(served)} MiB more`);
-    assert.ok(growth < maxHeapGrowth, `${growth} bytes`);
-    assert.ok(served < maxServerGrowth, `${served} bytes`);
+  await showsLive(page);
+  await draws(page, 10); // buffers grow to the size of a frame
+  const [heap, resident] = [await heapOf(page), await residentOf(view.child)];
+  await (full ? watch(page) : draws(page, leastFrames));
+  const growth = (await heapOf(page)) - heap;
+  const served = (await residentOf(view.child)) - resident;
+  console.log(`page's heap ${mebibytes(growth)} MiB more, server ${mebibytes(served)} MiB more`);
+  assert.ok(growth < maxHeapGrowth, `${growth} bytes`);
+  assert.ok(served < maxServerGrowth, `${served} bytes`);
 
-    await stop(camera);
-    await page.locator('#state', { hasText: /no new frame for \d+ s/ }).waitFor();
-    await page.locator('#notes-button.fault').waitFor();
-    await page.locator('#notes', { hasText: 'no publisher of' }).waitFor({ state: 'attached' });
-    await page.locator('html.stale').waitFor(); // also after the last frames arrived
-    playing();
-    await showsLive(page);
-    await page.locator('html:not(.stale)').waitFor();
+  await stop(camera);
+  await page.locator('#state', { hasText: /no new frame for \d+ s/ }).waitFor();
+  await page.locator('#notes-button.fault').waitFor();
+  await page.locator('#notes', { hasText: 'no publisher of' }).waitFor({ state: 'attached' });
+  await page.locator('html.stale').waitFor(); // also after the last frames arrived
+  playing();
+  await showsLive(page);
+  await page.locator('html:not(.stale)').waitFor();
 
-    await stop(view.child);
-    await page.locator('#state', { hasText: 'no connection: trying again' }).waitFor();
-    const fetched = page.waitForRequest((request) => request.url().includes('/api/scene.bin'));
-    await serveLive(new URL(view.url).port);
-    await showsLive(page);
-    await fetched; // the robot may come after the first frame
-    assert.equal(scenes, 2, 'the new server’s robot is fetched, although its version is the same');
-    assert.deepEqual(faults, []);
-    await context.close();
-  },
-);
+  await stop(view.child);
+  await page.locator('#state', { hasText: 'no connection: trying again' }).waitFor();
+  const fetched = page.waitForRequest((request) => request.url().includes('/api/scene.bin'));
+  await serveLive(new URL(view.url).port);
+  await showsLive(page);
+  await fetched; // the robot may come after the first frame
+  assert.equal(scenes, 2, 'the new server’s robot is fetched, although its version is the same');
+  assert.deepEqual(faults, []);
+  await context.close();
+});
