@@ -202,7 +202,7 @@ many="AnyNumberGivesTheSameBits|RandomPosesAndCameras/.*_visual|$scenes/(gl|cpu_
 many+='|cpu_SSE4|RenderersMadeAndDropped'
 # A single thread has no races, and one robot is enough for the threads.
 one_thread='/(reference|gl|cpu_[A-Z0-9]+_threads1)|RobotAgainstEmbree|AgreementTest'
-one_thread+='|GlEnvironment|ShortMemory|Gl[.](FramesHold|DevicesTell|OnlyThe)'
+one_thread+='|GlEnvironment|Gl[.](FramesHold|DevicesTell|OnlyThe)'
 one_thread+='|RenderersMadeAndDropped'
 if $full; then many=$made_again one_thread=$made_again; fi
 ! $asan_is_built || run_tests asan -E "$many"

@@ -2,8 +2,6 @@
 // Recordings, options and bags that `penumbra run` cannot take.
 #include "fixtures.hpp"
 
-#include <cstdint>
-
 namespace penumbra::test {
 namespace {
 

@@ -198,12 +198,9 @@ class BagDrivers : public BagTest {
 };
 
 TEST_F(BagDrivers, EachImageIsJudgedByItsOwnCameraOrNot) {
-  struct Case {
-    const char *why, *script, *statuses;  ///< `o`: ok, `b`: bad_depth
-  };
   const TinyBag bare = bag_;
-  for (const auto& [why, script, wanted] :
-       {Case{"another camera's info is not taken", "fof", "obo"},
+  for (const auto& [why, script, wanted] :  // `o`: ok, `b`: bad_depth
+       {std::array{"another camera's info is not taken", "fof", "obo"},
         {"nor one that comes late", "FOF", "obo"},
         {"another camera's topic is heard some images late", "ffff--ooo", "oooobbbbb"},
         {"the first camera comes again", "ffffooo--fff", "oooobbbbbooo"},

@@ -3,8 +3,6 @@
 #include "../io/bag_files.hpp"
 #include "real_recording.hpp"
 
-#include <algorithm>
-#include <cstring>
 #include <limits>
 
 #include <io/files/camera_info.hpp>

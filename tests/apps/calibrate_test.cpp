@@ -4,8 +4,6 @@
 #include "../support/pixels.hpp"
 #include "real_recording.hpp"
 
-#include <algorithm>
-
 #include <io/files/camera_info.hpp>
 
 namespace penumbra::test {

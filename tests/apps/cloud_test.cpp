@@ -3,8 +3,6 @@
 #include "fixtures.hpp"
 #include "tiny_clouds.hpp"
 
-#include <cmath>
-
 #include <io/cloud/cloud_file.hpp>
 
 namespace penumbra::test {

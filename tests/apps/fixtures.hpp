@@ -6,13 +6,8 @@
 #include "tiny_bag.hpp"
 #include "tiny_recording.hpp"
 
-#include <filesystem>
 #include <regex>
-#include <string>
 #include <type_traits>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/base/image.hpp>
 
@@ -156,10 +151,6 @@ class BagTest : public TinyTest {
           << i;
   }
 
-  void add_to_bag_robot(const std::string& urdf) {
-    bag_.edit<io::StringMessage>(
-        [&](auto& text) { text.data.insert(text.data.rfind("</robot>"), urdf); });
-  }
   Outcome expect_recorded(const Words& options = {}) const {
     Outcome outcome = succeed(run(options));
     expect_recorded_labels();

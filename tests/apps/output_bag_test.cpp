@@ -4,8 +4,6 @@
 #include "reference_bag.hpp"
 
 #include <cstring>
-#include <map>
-#include <type_traits>
 
 namespace penumbra::test {
 namespace {
@@ -134,8 +132,10 @@ TEST_F(OutputBagTest, FramesWithoutPoseHaveNoVirtualDepth) {
 }
 
 TEST_F(OutputBagTest, WithoutALinkNothingIsTrusted) {
-  add_to_bag_robot(fixed_link("hand", "base", R"(<collision><geometry>
-      <mesh filename="file:///nowhere.stl"/></geometry></collision>)"));
+  const std::string hand = fixed_link("hand", "base", R"(<collision><geometry>
+      <mesh filename="file:///nowhere.stl"/></geometry></collision>)");
+  bag_.edit<io::StringMessage>(
+      [&](auto& text) { text.data.insert(text.data.rfind("</robot>"), hand); });
   expect_has(succeed(run("results.mcap", {"--allow-missing-meshes"})).err, {"trusts nothing"});
   expect_nothing_trusted();
   for_each<io::PointCloud2Message>(

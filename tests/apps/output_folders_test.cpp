@@ -5,7 +5,6 @@
 #include "tiny_clouds.hpp"
 
 #include <csignal>
-#include <map>
 #include <ostream>
 #include <set>
 

@@ -4,8 +4,6 @@
 #include "../support/child_process.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -13,7 +11,6 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 namespace penumbra::test {
 Words split(const std::string& text) {

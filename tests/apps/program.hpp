@@ -5,9 +5,7 @@
 #include "../support/temporary_folder.hpp"
 
 #include <cstddef>
-#include <filesystem>
 #include <functional>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -4,8 +4,6 @@
 #include "../support/data.hpp"
 #include "fixtures.hpp"
 
-#include <Eigen/Geometry>
-
 #include <io/files/pose_file.hpp>
 
 namespace penumbra::test {

@@ -8,10 +8,6 @@
 #include <cstdio>
 #include <span>
 #include <sstream>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include <io/mcap/compression.hpp>
 

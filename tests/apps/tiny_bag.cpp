@@ -5,9 +5,6 @@
 #include "program.hpp"
 #include "tiny_recording.hpp"
 
-#include <algorithm>
-#include <map>
-#include <type_traits>
 #include <variant>
 
 #include <io/files/frame_reader.hpp>
@@ -52,18 +49,6 @@ void add_joints(TinyBag& bag) {
 }
 
 }  // namespace
-
-io::CameraInfoMessage camera_info_of(const Intrinsics& of, const io::MessageHeader& header) {
-  io::CameraInfoMessage info{.header = header,
-                             .height = static_cast<std::uint32_t>(of.height()),
-                             .width = static_cast<std::uint32_t>(of.width()),
-                             .distortion_model = "plumb_bob",
-                             .d = {0, 0, 0, 0, 0}};
-  info.k = {of.fx(), 0, of.cx(), 0, of.fy(), of.cy(), 0, 0, 1};
-  info.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info.p = {of.fx(), 0, of.cx(), 0, 0, of.fy(), of.cy(), 0, 0, 0, 1, 0};
-  return info;
-}
 
 std::map<std::string, std::size_t> topic_counts(const std::filesystem::path& file) {
   std::map<std::string, std::size_t> counts;

@@ -1,36 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../io/messages.hpp"
+
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
-#include <vector>
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
-
-#include <penumbra/camera/camera.hpp>
 
 #include <io/bag/bag_reader.hpp>
-#include <io/ros/message_decoder.hpp>
-#include <io/ros/message_encoder.hpp>
-#include <io/ros/messages.hpp>
 
 namespace penumbra::test {
-
-/// Returns what the driver of a camera without distortion publishes.
-[[nodiscard]] io::CameraInfoMessage camera_info_of(const Intrinsics& of,
-                                                   const io::MessageHeader& header);
-
-template <typename M>
-M decoded(const std::vector<std::byte>& data) {
-  M message;
-  EXPECT_EQ(io::Decoder<M>().decode(data, message), std::nullopt);
-  return message;
-}
 
 /// Calls `call(message, log_time, number)` with each message of a topic of a bag, in their order,
 /// and returns their count.

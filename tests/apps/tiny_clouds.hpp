@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <vector>
 
 #include <io/cloud/cloud_points.hpp>
 

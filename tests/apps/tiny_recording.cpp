@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tiny_recording.hpp"
 
+#include "../support/pixels.hpp"
 #include "program.hpp"
-
-#include <cstdint>
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/mesh/primitives.hpp>
@@ -49,18 +48,13 @@ p: [60.0, 0.0, 31.3, 0.0, 0.0, 60.0, 23.7, 0.0, 0.0, 0.0, 1.0, 0.0]
 
 Image<std::uint16_t> depth_image(double board) {
   Image<std::uint16_t> depth(tiny_width, tiny_height, 3000);
-  for (int v = 0; v < tiny_height; ++v) {
-    for (int u = 0; u < tiny_width; ++u) {
-      const double x = (u - 31.3) / 60.0 * board;
-      const double y = (v - 23.7) / 60.0 * board;
-      const bool on_board = x > -0.2 && x < 0.2 && y > -0.1 && y < 0.1;
-      const bool object = u >= 24 && u < 32 && v >= 20 && v < 28;
-      const bool hole = u >= 36 && u < 40 && v >= 20 && v < 28;
-      if (on_board) depth(u, v) = static_cast<std::uint16_t>(1000.0 * board);
-      if (object) depth(u, v) = 500;
-      if (hole) depth(u, v) = 0;
-    }
+  for (const auto [u, v] : each_pixel(depth)) {
+    const double x = (u - 31.3) / 60.0 * board, y = (v - 23.7) / 60.0 * board;
+    const bool on_board = x > -0.2 && x < 0.2 && y > -0.1 && y < 0.1;
+    if (on_board) depth(u, v) = static_cast<std::uint16_t>(1000.0 * board);
   }
+  for (const auto [u, v] : each_pixel(24, 20, 32, 28)) depth(u, v) = 500;  // an object
+  for (const auto [u, v] : each_pixel(36, 20, 40, 28)) depth(u, v) = 0;    // a hole
   return depth;
 }
 

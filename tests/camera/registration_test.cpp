@@ -268,12 +268,10 @@ TEST(Registration, SeesTheSceneAsTheOtherCameraDoes) {
     expect_right(judge(
         std::get<ImageView<const float>>(registration.warp(metres.view(), pair.T_to_from)), 1.0));
 
-    Image<std::uint16_t> millimetres(metres.width(), metres.height());
-    std::transform(metres.data(), metres.data() + metres.size(), millimetres.data(),
-                   [](float z) { return std::uint16_t(std::lround(1e3F * z)); });
+    const Image<std::uint16_t> millimetres = to_millimetres(metres);
     const Judge coarse(pair, scene, metres, millimetre_rounding);
     expect_right(coarse(std::get<ImageView<const std::uint16_t>>(
-                            registration.warp(std::as_const(millimetres).view(), pair.T_to_from)),
+                            registration.warp(millimetres.view(), pair.T_to_from)),
                         1e-3));
   }
 }

@@ -143,11 +143,3 @@ def test_options_in_the_text_are_the_programs():
             continue  # another program's
         wrong += [f"{document}: `{code}`: {option}" for option in sorted(options - of_command)]
     assert not wrong, "\n".join(wrong)
-
-
-def test_what_is_not_run_is_still_there():
-    """An entry of the list that no document needs any more goes."""
-    texts = [command.text for document in DOCUMENTS for block in shell_blocks(document)
-             for command in commands_of(block)]
-    for pattern in NOT_RUN:
-        assert any(re.match(pattern, text) for text in texts), pattern

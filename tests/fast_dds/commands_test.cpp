@@ -7,11 +7,7 @@
 #include "listening.hpp"
 #include "lone_domain.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <future>
-
-#include <gtest/gtest.h>
 
 #include <io/ros/moveit_messages.hpp>
 

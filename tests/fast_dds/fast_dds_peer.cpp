@@ -19,8 +19,6 @@
 // with stdin.
 #include "pattern.hpp"
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -103,8 +101,10 @@ EntityQos entity_qos(const Qos& qos) {
   return made;
 }
 
-/// 127.0.0.1 alone, without multicast or shared memory.
-void stay_here(dds::DomainParticipantQos& qos) {
+/// On 127.0.0.1 alone, without multicast or shared memory.
+dds::DomainParticipantQos participant_qos() {
+  dds::DomainParticipantQos qos;
+  qos.name("fast_dds_peer");
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   udp->interfaceWhiteList.emplace_back("127.0.0.1");
   udp->sendBufferSize = udp->receiveBufferSize = 4 << 20;
@@ -113,36 +113,14 @@ void stay_here(dds::DomainParticipantQos& qos) {
   qos.transport().use_builtin_transports = false;
   rtps::Locator_t here;
   rtps::IPLocator::setIPv4(here, "127.0.0.1");
-  qos.wire_protocol().builtin.initialPeersList.push_back(here);
-  qos.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(here);
+  auto& builtin = qos.wire_protocol().builtin;
+  builtin.initialPeersList.push_back(here);
+  builtin.metatrafficUnicastLocatorList.push_back(here);
+  builtin.discovery_config.initial_announcements.period = {0, 50'000'000};
+  builtin.discovery_config.leaseDuration = {3, 0};
+  builtin.discovery_config.leaseDuration_announcementperiod = {1, 0};
+  return qos;
 }
-
-class Peer {
- public:
-  Peer(const std::string& domain, const std::string& topic, const std::string& type) {
-    dds::DomainParticipantQos qos;
-    qos.name("fast_dds_peer");
-    stay_here(qos);
-    qos.wire_protocol().builtin.discovery_config.initial_announcements.period = {0, 50'000'000};
-    qos.wire_protocol().builtin.discovery_config.leaseDuration = {3, 0};
-    qos.wire_protocol().builtin.discovery_config.leaseDuration_announcementperiod = {1, 0};
-    participant = dds::DomainParticipantFactory::get_instance()->create_participant(
-        static_cast<std::uint32_t>(std::stoul(domain)), qos);
-    if (participant == nullptr) throw std::runtime_error("no participant");
-    dds::TypeSupport(new BytesType(type)).register_type(participant);
-    this->topic = participant->create_topic(topic, type, dds::TOPIC_QOS_DEFAULT);
-    if (this->topic == nullptr) throw std::runtime_error("no topic");
-  }
-  ~Peer() {
-    participant->delete_contained_entities();
-    dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
-  }
-  Peer(const Peer&) = delete;
-  Peer& operator=(const Peer&) = delete;
-
-  dds::DomainParticipant* participant = nullptr;
-  dds::Topic* topic = nullptr;
-};
 
 bool stdin_ended() {
   pollfd in{STDIN_FILENO, POLLIN, 0};
@@ -241,22 +219,27 @@ void subscribe(dds::DataReader& reader, const std::string& mode) {
 }
 
 int run(const std::vector<std::string>& words) {
-  const std::string& mode = words.at(1);
+  const std::string &mode = words.at(1), &type = words.at(3);
   const Qos qos(words.at(4));
-  Peer peer(words[0], words[2], words[3]);
+  auto* const factory = dds::DomainParticipantFactory::get_instance();
+  auto* const participant = factory->create_participant(
+      static_cast<std::uint32_t>(std::stoul(words[0])), participant_qos());
+  if (participant == nullptr) return 1;
+  dds::TypeSupport(new BytesType(type)).register_type(participant);
+  auto* const topic = participant->create_topic(words[2], type, dds::TOPIC_QOS_DEFAULT);
   if (mode == "publish" || mode == "repeat") {
-    auto* const publisher = peer.participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
-    auto* const writer =
-        publisher->create_datawriter(peer.topic, entity_qos<dds::DataWriterQos>(qos));
+    auto* const publisher = participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+    auto* const writer = publisher->create_datawriter(topic, entity_qos<dds::DataWriterQos>(qos));
     if (writer == nullptr) return 1;
     publish(*writer, words);
-    return 0;
+  } else {
+    auto* const subscriber = participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+    auto* const reader = subscriber->create_datareader(topic, entity_qos<dds::DataReaderQos>(qos));
+    if (reader == nullptr) return 1;
+    subscribe(*reader, mode);
   }
-  auto* const subscriber = peer.participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
-  auto* const reader =
-      subscriber->create_datareader(peer.topic, entity_qos<dds::DataReaderQos>(qos));
-  if (reader == nullptr) return 1;
-  subscribe(*reader, mode);
+  participant->delete_contained_entities();
+  factory->delete_participant(participant);
   return 0;
 }
 

@@ -4,10 +4,6 @@
 #include "listening.hpp"
 #include "lone_domain.hpp"
 
-#include <cstdlib>
-
-#include <gtest/gtest.h>
-
 #include <io/dds/graph_names.hpp>
 #include <io/dds/type_hash.hpp>
 #include <io/ros/message_definition.hpp>

@@ -6,18 +6,11 @@
 #include "pattern.hpp"
 #include "peer_process.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <sstream>
-#include <string>
 #include <thread>
-#include <vector>
 
 namespace penumbra::test {
 
@@ -63,8 +56,7 @@ class LabelWatch {
   }
   [[nodiscard]] std::size_t known_count() {
     const std::lock_guard lock(mutex_);
-    return static_cast<std::size_t>(
-        std::count_if(heard_.begin(), heard_.end(), std::mem_fn(&HeardLabels::is_known)));
+    return static_cast<std::size_t>(std::ranges::count_if(heard_, &HeardLabels::is_known));
   }
   /// The sequence number of the last one; 0: none was heard.
   [[nodiscard]] std::uint64_t newest_number() {
@@ -90,14 +82,11 @@ class LabelWatch {
       ++all.wrong;
       all.first_wrong = one.stamp;
     }
-    const auto is_known = [](const HeardLabels& one) { return one.is_known; };
-    const auto first = std::find_if(heard_.begin(), heard_.end(), is_known);
-    all.lost_again = static_cast<std::size_t>(heard_.end() - first -
-                                              std::count_if(first, heard_.end(), is_known));
-    const auto is_behind = [](const HeardLabels& before, const HeardLabels& one) {
-      return one.number <= before.number;
-    };
-    all.in_order = std::adjacent_find(heard_.begin(), heard_.end(), is_behind) == heard_.end();
+    const auto first = std::ranges::find_if(heard_, &HeardLabels::is_known);
+    all.lost_again = static_cast<std::size_t>(
+        std::ranges::count(first, heard_.end(), false, &HeardLabels::is_known));
+    all.in_order = std::ranges::adjacent_find(heard_, std::ranges::greater_equal(),
+                                              &HeardLabels::number) == heard_.end();
     return all;
   }
 

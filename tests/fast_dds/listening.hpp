@@ -3,10 +3,6 @@
 
 #include "pattern.hpp"
 
-#include <chrono>
-#include <cstdint>
-#include <vector>
-
 #include <io/dds/participant.hpp>
 
 namespace penumbra::test {

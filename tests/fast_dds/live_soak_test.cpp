@@ -14,12 +14,6 @@
 #include "listening.hpp"
 #include "lone_domain.hpp"
 
-#include <algorithm>
-#include <map>
-#include <random>
-#include <thread>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace penumbra::test {

@@ -9,9 +9,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <stdexcept>
-#include <string>
-#include <vector>
 
 #include <fcntl.h>
 #include <poll.h>

@@ -5,7 +5,6 @@
 #include "lone_domain.hpp"
 #include "peer_process.hpp"
 
-#include <algorithm>
 #include <functional>
 
 #include <gtest/gtest.h>

@@ -4,9 +4,6 @@
 
 #include "mcap_files.hpp"
 
-#include <string>
-#include <vector>
-
 #include <sqlite3.h>
 
 #include <io/bag/bag_reader.hpp>

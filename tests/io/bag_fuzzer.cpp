@@ -5,11 +5,6 @@
 #include "bag_files.hpp"
 #include "memory_file.hpp"
 
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <string>
-
 #include <penumbra/base/error.hpp>
 
 #include <io/bag/bag_file.hpp>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "files.hpp"
 
-#include <algorithm>
-
 #include <io/files/camera_info.hpp>
 
 namespace penumbra::io {

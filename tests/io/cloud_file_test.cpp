@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cloud_samples.hpp"
 
-#include <cmath>
 #include <tuple>
 
 #include <io/cloud/cloud_file.hpp>

@@ -4,10 +4,6 @@
 
 #include "files.hpp"
 
-#include <string>
-#include <utility>
-#include <vector>
-
 namespace penumbra::test {
 
 /// As raw(), in the other byte order.

@@ -26,8 +26,7 @@ class DepthFiles : public testing::Test {
   /// The first channel is depth, the others are 9.
   void write_exr(const std::vector<std::string>& channels, Imf::PixelType type = Imf::FLOAT) const {
     std::vector<float> depth, other(columns * rows, 9.0F);
-    for (int v = 0; v < rows; ++v)
-      for (int u = 0; u < columns; ++u) depth.push_back(depth_at(u, v));
+    for (const auto [u, v] : test::each_pixel(0, 0, columns, rows)) depth.push_back(depth_at(u, v));
     std::vector<std::uint16_t> half(columns * rows, 0x3E00);  // 1.5, 1.5, ...
     Imf::Header header(columns, rows);
     Imf::FrameBuffer pixels;
@@ -66,8 +65,8 @@ class DepthFiles : public testing::Test {
   }
   void expect_the_depth() {
     ASSERT_EQ(read().message, "");
-    for (int v = 0; v < rows; ++v)
-      for (int u = 0; u < columns; ++u) EXPECT_EQ(pixel(u, v), depth_at(u, v));
+    for (const auto [u, v] : test::each_pixel(0, 0, columns, rows))
+      EXPECT_EQ(pixel(u, v), depth_at(u, v));
   }
   test::TemporaryFolder folder_;
   SharedDepth depth_;

@@ -3,15 +3,12 @@
 #pragma once
 
 #include "../support/errors.hpp"
+#include "../support/pixels.hpp"
 #include "../support/random.hpp"
 #include "../support/temporary_folder.hpp"
 
 #include <cstring>
-#include <initializer_list>
-#include <string>
 #include <utility>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/base/image.hpp>
 

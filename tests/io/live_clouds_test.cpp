@@ -49,7 +49,8 @@ struct LidarScan {
 
 /// Points of a labelled cloud whose label is wrong, more than 1 cm from the board's rim: poses are
 /// looked up so that no link moves by more meanwhile.
-std::size_t wrong_labels(const io::PointCloud2Message& cloud) {
+std::size_t wrong_labels(const KeptResults::Published& one) {
+  const auto cloud = decoded<io::PointCloud2Message>(one.payload);
   constexpr double rim = 0.01;
   std::size_t wrong = 0;
   for (std::size_t i = 0; i < cloud.width; ++i) {
@@ -124,12 +125,6 @@ class LiveClouds : public testing::Test {
       return io::cloud_fault(inbox, 0, links, *inbox.cloud(0).arrivals().last());
     });
   }
-  static io::PointCloud2Message decoded(const KeptResults::Published& one) {
-    io::PointCloud2Message cloud;
-    const auto fault = io::Decoder<io::PointCloud2Message>().decode(one.payload, cloud);
-    EXPECT_FALSE(fault) << *fault;
-    return cloud;
-  }
 
   io::LiveOptions options_;
   SharedResults kept_;
@@ -147,8 +142,8 @@ TEST_F(LiveClouds, FollowTheRobotThroughEachScan) {
   ASSERT_EQ(labelled.size(), 5U);
   ASSERT_EQ(clean.size(), 5U);
   for (std::size_t i = 0; i < labelled.size(); ++i) {
-    EXPECT_EQ(wrong_labels(decoded(labelled[i])), 0U) << "scan " << i;
-    const io::PointCloud2Message cloud = decoded(clean[i]);
+    EXPECT_EQ(wrong_labels(labelled[i]), 0U) << "scan " << i;
+    const auto cloud = decoded<io::PointCloud2Message>(clean[i].payload);
     EXPECT_EQ(cloud.header.frame_id, "optical");
     std::size_t on_wall = 0;
     for (std::size_t p = 0; p < cloud.width; ++p) {
@@ -165,7 +160,7 @@ TEST_F(LiveClouds, OfOnePoseAreWrongWhereTheRobotMoved) {
   scan(2);
   run_->stop();
   ASSERT_EQ(kept_.kept(io::Result::labelled).size(), 2U);
-  EXPECT_GT(wrong_labels(decoded(kept_.kept(io::Result::labelled)[1])), 50U);
+  EXPECT_GT(wrong_labels(kept_.kept(io::Result::labelled)[1]), 50U);
 }
 
 TEST_F(LiveClouds, JudgeTheTargetsOfTheirStampThatComeLater) {
@@ -178,8 +173,7 @@ TEST_F(LiveClouds, JudgeTheTargetsOfTheirStampThatComeLater) {
   run_->stop();
   const auto kept = kept_.kept(io::Result::targets);
   ASSERT_EQ(kept.size(), 1U);
-  io::TargetsMessage targets;
-  ASSERT_FALSE(io::Decoder<io::TargetsMessage>().decode(kept[0].payload, targets));
+  const auto targets = decoded<io::TargetsMessage>(kept[0].payload);
   EXPECT_EQ(targets.header.stamp, test::start + 3 * scan_time);
   ASSERT_EQ(targets.targets.size(), 1U);
   EXPECT_EQ(targets.targets[0].name, "/knob");
@@ -204,7 +198,8 @@ TEST_F(LiveClouds, GoOnWithTargetsAfterTheClockJumpedBack) {
 TEST_F(LiveClouds, WithoutJointStatesAreUnknownAndSaySo) {
   start();
   say_scan(LidarScan(test::start));
-  EXPECT_EQ(decoded(kept_.kept(io::Result::without_robot).at(0)).width, 0U);
+  const auto clean = kept_.kept(io::Result::without_robot);
+  EXPECT_EQ(decoded<io::PointCloud2Message>(clean.at(0).payload).width, 0U);
   EXPECT_TRUE(holds(fault().why, "missing_joints"));
 }
 

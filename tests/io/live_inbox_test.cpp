@@ -12,11 +12,7 @@ constexpr std::ptrdiff_t part_pixels = 100;  // at least, next to the board
 
 class LiveInboxTest : public testing::Test {
  protected:
-  /// Expects the last images to be of one camera.
-  std::size_t true_labels(LiveTruth& truth) {
-    return expect_true_labels(bench_.results.published, truth);
-  }
-  std::size_t true_labels() { return true_labels(truth_); }
+  std::size_t true_labels() { return expect_true_labels(bench_.results.published, truth_); }
   /// Judges one image that waited for so long.
   void expect_all_unknown(const std::string& status, std::int64_t waited = 200 * milliseconds) {
     bench_.now += waited;
@@ -251,7 +247,7 @@ TEST_F(LiveInboxTest, NoImageIsJudgedByTheCameraInfoOfTheDriverBefore) {
   EXPECT_EQ(drive(start + 2 * seconds, 3, 90.0, 2), 3U);
   EXPECT_EQ(bench_.inbox.camera(0).without_info(), 0U);
   LiveTruth other({.focal = 90.0});
-  EXPECT_EQ(true_labels(other), 3U);
+  EXPECT_EQ(expect_true_labels(bench_.results.published, other), 3U);
   // Again after the clock was reset: earlier stamps are larger than all later ones.
   bench_.results.published.clear();
   EXPECT_EQ(drive(start - 900 * seconds, 10, 0.0, 3), 0U);

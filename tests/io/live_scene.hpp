@@ -3,24 +3,21 @@
 // before a camera, with the messages of both on ROS 2's topics.
 #pragma once
 
+#include "messages.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <map>
 #include <numbers>
-#include <span>
 #include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include <penumbra/pipeline/pipeline.hpp>
 
 #include <io/live/live_inbox.hpp>
 #include <io/live/live_worker.hpp>
 #include <io/ros/image_codec.hpp>
-#include <io/ros/message_encoder.hpp>
 
 namespace penumbra::test {
 
@@ -70,23 +67,7 @@ inline double spin_at(std::int64_t stamp) {
 }
 
 inline io::CameraInfoMessage live_info(std::int64_t stamp, const LiveLens& lens = {}) {
-  io::CameraInfoMessage info{.header = {stamp, "optical"},
-                             .height = static_cast<std::uint32_t>(lens.height),
-                             .width = static_cast<std::uint32_t>(lens.width),
-                             .distortion_model = "plumb_bob",
-                             .d = {0, 0, 0, 0, 0}};
-  const double f = lens.focal, cx = lens.cx, cy = lens.cy;
-  info.k = {f, 0, cx, 0, f, cy, 0, 0, 1};
-  info.r = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  info.p = {f, 0, cx, 0, 0, f, cy, 0, 0, 0, 1, 0};
-  return info;
-}
-
-template <typename M>
-std::vector<std::byte> encoded(const M& message) {
-  std::vector<std::byte> payload;
-  io::encode(message, payload);
-  return payload;
+  return camera_info_of(lens.camera().intrinsics, {stamp, "optical"});
 }
 
 inline std::vector<std::byte> live_joints(std::int64_t stamp, double angle) {
@@ -182,16 +163,13 @@ class KeptResults final : public io::ResultSink {
   /// Returns the last result of a kind.
   template <typename M>
   M last(io::Result result) {
-    M message;
     for (auto one = published.rbegin(); one != published.rend(); ++one) {
       if (one->result != result) continue;
       last_ = one->payload;
-      const auto fault = io::Decoder<M>().decode(last_, message);
-      EXPECT_FALSE(fault) << *fault;
-      return message;
+      return decoded<M>(last_);
     }
     ADD_FAILURE() << "nothing was published";
-    return message;
+    return M();
   }
 
  private:
@@ -317,9 +295,7 @@ inline std::size_t expect_true_labels(const std::vector<KeptResults::Published>&
   std::size_t known = 0;
   for (const auto& one : published) {
     if (one.result != io::Result::labels) continue;
-    io::ImageMessage image;
-    const auto fault = io::Decoder<io::ImageMessage>().decode(one.payload, image);
-    EXPECT_FALSE(fault) << *fault;
+    const auto image = decoded<io::ImageMessage>(one.payload);
     const bool says_nothing = std::all_of(
         image.data.begin(), image.data.end(),
         [](std::byte label) { return label == static_cast<std::byte>(Label::unknown); });

@@ -2,6 +2,8 @@
 // Targets of an inbox: the image that they come with, and the cameras that they are for.
 #include "live_scene.hpp"
 
+#include <tuple>
+
 namespace penumbra::test {
 namespace {
 
@@ -95,10 +97,6 @@ TEST(LiveTargets, GoToTheCamerasThatKnowTheirFrame) {
   show("/left", "optical", start - seconds);
   tell_part("aside", start - seconds);  // of the right camera, which is not known yet
   show("/right", "aside", start - seconds);
-  struct Case {
-    const char* frame;
-    std::size_t left, right;
-  };
   std::int64_t stamp = start;
   const auto judge = [&] {
     stamp += 100 * milliseconds;
@@ -110,7 +108,7 @@ TEST(LiveTargets, GoToTheCamerasThatKnowTheirFrame) {
   };
   EXPECT_EQ(judge(), std::pair(0UL, 0UL)) << "the left camera did not take it";
   for (const auto& [frame, left, right] :
-       {Case{"optical", 1, 0}, {"/aside", 0, 1}, {"board", 1, 1}, {"none", 1, 1}}) {
+       {std::tuple("optical", 1UL, 0UL), {"/aside", 0, 1}, {"board", 1, 1}, {"none", 1, 1}}) {
     tell_part(frame, stamp + 100 * milliseconds);
     EXPECT_EQ(judge(), std::pair(left, right)) << frame;
   }

@@ -4,13 +4,8 @@
 
 #include "files.hpp"
 
-#include <algorithm>
-#include <cstdint>
-#include <initializer_list>
 #include <sstream>
-#include <string>
 #include <type_traits>
-#include <vector>
 
 #include <zlib.h>
 

@@ -3,9 +3,6 @@
 // the file is read to its end.
 #include "memory_file.hpp"
 
-#include <cstdint>
-#include <cstdlib>
-
 #include <penumbra/base/error.hpp>
 
 #include <io/mcap/reader.hpp>

@@ -22,15 +22,6 @@ class ResultFolderTest : public testing::Test {
             .report = {"found.json", json_begin},
             .others = {{"pose.csv"}, {"part_*.stl"}}};
   }
-  /// As a command that succeeds.
-  void write_results() const {
-    ResultFolder results(options());
-    results.begin();
-    results.add_text("part_a.stl", "a");
-    results.add_text("pose.csv", "pose");
-    results.add_text("found.json", json_begin);
-    results.finish();
-  }
 
   test::TemporaryFolder folder_;
 };
@@ -44,7 +35,14 @@ TEST_F(ResultFolderTest, AnEmptyFolderOfItsOwnGoes) {
 }
 
 TEST_F(ResultFolderTest, AnInputStaysUntilItIsMadeAgain) {
-  write_results();
+  {
+    ResultFolder former(options());
+    former.begin();
+    former.add_text("part_a.stl", "a");
+    former.add_text("pose.csv", "pose");
+    former.add_text("found.json", json_begin);
+    former.finish();
+  }
   ResultFolder results(options());
   const fs::path inputs[] = {folder_.path() / "nowhere", out() / "." / "pose.csv"};
   results.begin(inputs);

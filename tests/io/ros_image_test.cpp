@@ -10,6 +10,7 @@ namespace penumbra::io {
 namespace {
 
 using test::bytes_of;
+using test::each_pixel;
 using test::same_pixels;
 
 // An image as it lies in a message: rows of `step` bytes, `offset` bytes from an aligned place.
@@ -18,17 +19,16 @@ class Laid {
   template <typename T>
   Laid(const Image<T>& image, std::string encoding, std::size_t step, std::size_t offset, bool big)
       : memory_(offset + step * static_cast<std::size_t>(image.height())) {
-    for (int v = 0; v < image.height(); ++v)
-      for (int u = 0; u < image.width(); ++u) {
-        T value = image(u, v);
-        if (big) {
-          auto* bytes = reinterpret_cast<std::byte*>(&value);
-          std::reverse(bytes, bytes + sizeof value);
-        }
-        const std::size_t at =
-            offset + step * static_cast<std::size_t>(v) + sizeof(T) * static_cast<std::size_t>(u);
-        std::memcpy(memory_.data() + at, &value, sizeof(T));
+    for (const auto [u, v] : each_pixel(image)) {
+      T value = image(u, v);
+      if (big) {
+        auto* bytes = reinterpret_cast<std::byte*>(&value);
+        std::reverse(bytes, bytes + sizeof value);
       }
+      const std::size_t at =
+          offset + step * static_cast<std::size_t>(v) + sizeof(T) * static_cast<std::size_t>(u);
+      std::memcpy(memory_.data() + at, &value, sizeof(T));
+    }
     message_.encoding = std::move(encoding);
     message_.width = static_cast<std::uint32_t>(image.width());
     message_.height = static_cast<std::uint32_t>(image.height());
@@ -159,10 +159,9 @@ TEST(RosImage, YuvIsBt601) {
 
 Image<Rgb8> smooth_colours(int width, int height) {
   Image<Rgb8> image(width, height);
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u)
-      image(u, v) = {static_cast<std::uint8_t>(4 * u), static_cast<std::uint8_t>(6 * v),
-                     static_cast<std::uint8_t>(2 * u + 2 * v)};
+  for (const auto [u, v] : each_pixel(image))
+    image(u, v) = {static_cast<std::uint8_t>(4 * u), static_cast<std::uint8_t>(6 * v),
+                   static_cast<std::uint8_t>(2 * u + 2 * v)};
   return image;
 }
 
@@ -176,12 +175,11 @@ TEST(RosImage, Jpeg) {
     const auto fault = decode_color(message, read);
     ASSERT_FALSE(fault) << *fault;
     ASSERT_EQ(read.width(), 40);
-    for (int v = 0; v < 30; ++v)
-      for (int u = 0; u < 40; ++u) {
-        EXPECT_NEAR(read(u, v).r, image(u, v).r, loss);
-        EXPECT_NEAR(read(u, v).g, image(u, v).g, loss);
-        EXPECT_NEAR(read(u, v).b, image(u, v).b, loss);
-      }
+    for (const auto [u, v] : each_pixel(image)) {
+      EXPECT_NEAR(read(u, v).r, image(u, v).r, loss);
+      EXPECT_NEAR(read(u, v).g, image(u, v).g, loss);
+      EXPECT_NEAR(read(u, v).b, image(u, v).b, loss);
+    }
     expect_cuts_are_faults(
         file, [&](auto cut) { return decode_color(CompressedImageMessage{.data = cut}, read); });
   }
@@ -207,12 +205,11 @@ TEST(RosImage, CompressedDepth) {
         CompressedImageMessage{.format = "32FC1; compressedDepth" + codec, .data = data}, depth);
     ASSERT_FALSE(fault) << *fault;
     const auto metres = std::get<ImageView<const float>>(depth.view);
-    for (int v = 0; v < image.height(); ++v)
-      for (int u = 0; u < image.width(); ++u) {
-        const std::uint16_t q = image(u, v);
-        const float wanted = a / (static_cast<float>(q) - b);
-        EXPECT_TRUE(q == 0 ? std::isnan(metres(u, v)) : metres(u, v) == wanted) << q;
-      }
+    for (const auto [u, v] : each_pixel(image)) {
+      const std::uint16_t q = image(u, v);
+      const float wanted = a / (static_cast<float>(q) - b);
+      EXPECT_TRUE(q == 0 ? std::isnan(metres(u, v)) : metres(u, v) == wanted) << q;
+    }
     const std::string format = "16UC1; compressedDepth" + codec;
     expect_cuts_are_faults(data, [&](auto cut) {
       return decode_depth(CompressedImageMessage{.format = format, .data = cut}, depth);

@@ -4,10 +4,7 @@
 #include "files.hpp"
 #include "mini_png.hpp"
 
-#include <random>
 #include <span>
-#include <string>
-#include <vector>
 
 #include <penumbra/base/image.hpp>
 
@@ -21,11 +18,10 @@ inline std::vector<std::byte> bytes_of(std::string_view text) {
 /// Surfaces with noise and holes.
 inline Image<std::uint16_t> depth_image(int width, int height, std::mt19937_64& random) {
   Image<std::uint16_t> image(width, height);
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u)
-      image(u, v) = (u / 5 + v / 3) % 4 == 0
-                        ? std::uint16_t{0}
-                        : static_cast<std::uint16_t>(700 + 30 * (u / 7) + random() % 9);
+  for (const auto [u, v] : each_pixel(image))
+    image(u, v) = (u / 5 + v / 3) % 4 == 0
+                      ? std::uint16_t{0}
+                      : static_cast<std::uint16_t>(700 + 30 * (u / 7) + random() % 9);
   return image;
 }
 

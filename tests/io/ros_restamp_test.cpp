@@ -76,12 +76,8 @@ TEST(Restamp, TellsOfHeadersThatItLeaves) {
   const std::string
       header = "std_msgs/Header header\n",
       definition = "===\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n";
-  struct Case {
-    std::string text;
-    bool changes, leaves;
-  };
   for (const auto& [text, changes, leaves] :
-       {Case{header + "wstring text\n" + definition, true, false},
+       {std::tuple(header + "wstring text\n" + definition, true, false),
         {header + "C[] more\n===\nMSG: a/C\n" + header + definition, true, true},
         {"int32 count\n" + header + definition, false, true},
         {"std_msgs/Header[] headers\n" + definition, false, true},

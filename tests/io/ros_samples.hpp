@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "messages.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <memory>
-#include <span>
 #include <tuple>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include <io/ros/cdr_writer.hpp>
 #include <io/ros/lidar_messages.hpp>
-#include <io/ros/message_decoder.hpp>
-#include <io/ros/message_encoder.hpp>
-#include <io/ros/messages.hpp>
 
 // One message of each type that is written, with odd lengths, so that alignment matters.
 namespace penumbra::test {
@@ -151,21 +145,6 @@ M sample() {
 template <typename F>
 void for_each_sample(const F& call) {
   std::apply([&](const auto&... message) { (call(message), ...); }, all_samples());
-}
-
-template <typename M>
-std::vector<std::byte> encoded(const M& message) {
-  std::vector<std::byte> payload;
-  io::encode(message, payload);
-  return payload;
-}
-
-template <typename M>
-M decoded(std::span<const std::byte> payload) {
-  M message;
-  const auto fault = io::Decoder<M>().decode(payload, message);
-  EXPECT_FALSE(fault) << *fault;
-  return message;
 }
 
 /// A copy that ends where its memory ends, so that sanitizers see each byte read past it.

@@ -96,9 +96,8 @@ TEST_F(TargetsFileTest, MasksAreReadFromFiles) {
     const auto& region = std::get<RegionTarget>(target.shape);
     const auto& image = std::get<PixelMask>(region.region).mask.view;
     std::vector<Eigen::Vector2i> set;
-    for (int v = 0; v < image.height; ++v)
-      for (int u = 0; u < image.width; ++u)
-        if (image(u, v) != 0) set.emplace_back(u, v);
+    for (const auto [u, v] : each_pixel(image))
+      if (image(u, v) != 0) set.emplace_back(u, v);
     return set;
   };
   const auto targets = file.of_frame(1);

@@ -27,16 +27,6 @@ struct Scene {
     return {.depth = robot.view(), .links = {}, .touched = &tiles};
   }
 
-  [[nodiscard]] Image<std::uint16_t> millimetres() const {
-    Image<std::uint16_t> image(width(), height());
-    for (std::size_t i = 0; i < image.size(); ++i) {
-      const float d = metres.data()[i];
-      image.data()[i] =
-          d > 0.0f && d < 65.0f ? std::uint16_t(std::lround(1000.0f * d)) : std::uint16_t{0};
-    }
-    return image;
-  }
-
   Image<float> robot;
   Image<float> metres;
   TileMask tiles;

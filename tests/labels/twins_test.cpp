@@ -125,13 +125,6 @@ class LabelReference {
   Image<Label> labels_;
 };
 
-std::vector<std::uint8_t> pixels(const LabelView& view) {
-  std::vector<std::uint8_t> all;
-  for (int v = 0; v < view.labels.height; ++v)
-    all.insert(all.end(), view.labels.row(v), view.labels.row(v) + view.labels.width);
-  return all;
-}
-
 /// A copy of the image with another stride, upside down if that is negative.
 template <typename T>
 struct Strided {
@@ -155,7 +148,7 @@ void expect_same(const Scene& scene, std::vector<Classifier>& classifiers, std::
   const Strided<T> measured(depth, stride);
   const VirtualDepthView view{.depth = robot.view, .links = {}, .touched = &scene.tiles};
   Classifier fresh(scene.width(), scene.height(), rule, classifiers.front().isa());
-  std::vector<std::uint8_t> expected = pixels(fresh.classify(view, measured.view));
+  std::vector<std::uint8_t> expected = pixels_of(fresh.classify(view, measured.view).labels);
   if (rule.fringe_reach == 0) {
     const LabelReference<T> reference(rule, robot.view, measured.view);
     std::transform(reference.labels().data(), reference.labels().data() + expected.size(),
@@ -165,7 +158,7 @@ void expect_same(const Scene& scene, std::vector<Classifier>& classifiers, std::
   for (const std::uint8_t label : expected) ++counts[label];
   for (Classifier& classifier : classifiers) {
     const LabelView got = classifier.classify(view, measured.view);
-    ASSERT_EQ(pixels(got), expected)
+    ASSERT_EQ(pixels_of(got.labels), expected)
         << classifier.isa() << ' ' << scene.width() << 'x' << scene.height() << " width "
         << rule.front_min_width << " margin " << rule.edge_margin;
     ASSERT_EQ(got.pixels, counts) << classifier.isa();
@@ -200,7 +193,7 @@ void expect_same(std::mt19937_64& random, int width, int height, const LabelRule
     if (i % 3 == 0)
       expect_same(scene, classifiers, stride, scene.metres);
     else
-      expect_same(scene, classifiers, stride, scene.millimetres());
+      expect_same(scene, classifiers, stride, to_millimetres(scene.metres));
     if (testing::Test::HasFatalFailure()) return;
   }
 }

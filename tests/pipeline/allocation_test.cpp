@@ -12,29 +12,13 @@ constexpr int warm_up = 40;
 /// A target's report has names and a reason of its own.
 constexpr std::size_t strings_of_a_target = 4;
 
-struct Case {
-  const char* name;
-  bool distorted;
-  ImageSpace image;
-  double history = 0;
-};
-
-class AllocationTest : public testing::TestWithParam<Case> {};
-INSTANTIATE_TEST_SUITE_P(Images, AllocationTest,
-                         testing::Values(Case{"Pinhole", false, ImageSpace::raw},
-                                         Case{"PinholeKept", false, ImageSpace::raw, 0.1},
-                                         Case{"Raw", true, ImageSpace::raw},
-                                         Case{"RawKept", true, ImageSpace::raw, 0.1},
-                                         Case{"Rectified", true, ImageSpace::rectified}),
-                         [](const auto& test) { return test.param.name; });
-
-TEST_P(AllocationTest, OnlyStringsOfTargetsAreAllocated) {
+void expect_only_strings(bool distorted, ImageSpace image, double history) {
   Camera camera = slab_camera();
   const double coefficients[] = {-0.2, 0.05, 0.001, -0.001, 0.0};
-  if (GetParam().distorted) camera.distortion = Distortion("plumb_bob", coefficients);
+  if (distorted) camera.distortion = Distortion("plumb_bob", coefficients);
   PipelineConfig config;
-  config.image = GetParam().image;
-  config.target_history = GetParam().history;
+  config.image = image;
+  config.target_history = history;
   Pipeline pipeline(slab_robot(), camera, config);
   const Image<float> metres = scene_depth(camera, 0.0);
   const Image<std::uint16_t> millimetres = to_millimetres(metres);
@@ -51,7 +35,7 @@ TEST_P(AllocationTest, OnlyStringsOfTargetsAreAllocated) {
                    {.name = "late", .shape = RegionTarget{PixelBox{30, 40, 60, 30}}}};
   for (int i = 0; i < 120; ++i) {
     if (i == 80) frame.targets.clear();
-    if (GetParam().history > 0 && i < 80) frame.targets.back().stamp = (i - 5) * 10'000'000;
+    if (history > 0 && i < 80) frame.targets.back().stamp = (i - 5) * 10'000'000;
     frame.stamp = i * 10'000'000;
     frame.pose.positions[0] = 0.01 * i;
     if (i < 80) std::get<BoxTarget>(frame.targets[2].shape).size.x() = 0.05 + 0.001 * i;  // jitters
@@ -63,6 +47,13 @@ TEST_P(AllocationTest, OnlyStringsOfTargetsAreAllocated) {
     if (i < warm_up) continue;
     ASSERT_LE(after - before, strings_of_a_target * frame.targets.size()) << "frame " << i;
   }
+}
+
+TEST(Allocation, IsOfStringsOfTargetsAlone) {
+  for (const double history : {0.0, 0.1})
+    for (const bool distorted : {false, true})
+      expect_only_strings(distorted, ImageSpace::raw, history);
+  expect_only_strings(true, ImageSpace::rectified, 0.0);
 }
 
 }  // namespace

@@ -45,10 +45,7 @@ class RenderedCalibration : public testing::Test {
  protected:
   RenderedCalibration() {
     state.joint_offsets.resize(robot.variables().size());
-    const Vector3d eye(1.4, 0.5, 0.9), forward = (Vector3d(0, 0, 0.4) - eye).normalized();
-    const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();
-    state.T_parent_camera.linear() << right, forward.cross(right), forward;
-    state.T_parent_camera.translation() = eye;
+    state.T_parent_camera = looking_at({1.4, 0.5, 0.9}, {0, 0, 0.4});
     std::vector<double> joints = robot.rest_positions();
     std::copy_n(std::array{0.3, 0.2, 1.0, 0.3, 0.6}.begin(), 5, joints.begin());
     for (const double seconds : {-0.1, 0.0, 0.1}) {
@@ -185,13 +182,8 @@ TEST_F(RenderedCalibration, ClocksThatDifferAreNamed) {
   EXPECT_LT(off(one_way.T_parent_camera), 1.2 * one_way.position_error());  // on the border
 }
 
-/// A frame at a time (ns); without an image unless there is depth.
-Frame frame_at(std::int64_t stamp, std::vector<double> joints, const Image<float>* depth) {
-  Frame frame;
-  frame.stamp = stamp;
-  frame.pose.positions = std::move(joints);
-  if (depth != nullptr) frame.depth = depth->view();
-  return frame;
+Frame frame_at(std::int64_t stamp, const std::vector<double>& joints, const DepthView& depth) {
+  return {.stamp = stamp, .depth = depth, .pose = {.positions = joints}};
 }
 
 class KeptFramesTest : public testing::Test {
@@ -205,7 +197,7 @@ class KeptFramesTest : public testing::Test {
   }
 
   Robot robot = load_arm();
-  Image<float> depth{8, 6};
+  const Image<float> depth{8, 6};
   std::vector<double> joints = robot.rest_positions();
   std::optional<KeptFrames> frames;
 };
@@ -214,7 +206,7 @@ TEST_F(KeptFramesTest, PosesWithoutImagesTellTheTimeOfImagesThatAreSecondsApart)
   choose(KeptFrames::Choice::moving);
   for (int i = 0; i <= 130; ++i) {  // 6.5 s, images each 2 s
     joints[1] = 0.015 * i;          // rad: the tip moves by 0.2 m/s
-    pass(frame_at(i * 50 * ms, joints, i % 40 == 39 ? &depth : nullptr));
+    pass(frame_at(i * 50 * ms, joints, i % 40 == 39 ? DepthView(depth.view()) : DepthView()));
   }
   ASSERT_EQ(frames->chosen().size(), 3U);
   for (const KeptFrame& frame : frames->chosen()) EXPECT_GE(frame.nearby.size(), 5U);
@@ -229,7 +221,7 @@ TEST_F(KeptFramesTest, PosesBetweenImagesOfABagAreLookedUp) {
     return joints;
   };
   const auto at = [&](std::int64_t stamp) {
-    Frame frame = frame_at(stamp, joints_at(stamp), &depth);
+    Frame frame = frame_at(stamp, joints_at(stamp), depth.view());
     frame.pose_at = [&](std::int64_t other, RobotPose& pose) { pose.positions = joints_at(other); };
     return frame;
   };
@@ -250,7 +242,7 @@ TEST_F(KeptFramesTest, FramesAtRestAreTakenBeforeOthers) {
   choose(KeptFrames::Choice::rest_first);
   for (int i = 0; i < 40; ++i) {
     if (i % 10 >= 3) joints[1] += 0.05;  // rests for three frames of ten
-    pass(frame_at(i * 100 * ms, joints, &depth));
+    pass(frame_at(i * 100 * ms, joints, depth.view()));
   }
   ASSERT_EQ(frames->chosen().size(), 4U);
   for (const KeptFrame& frame : frames->chosen()) EXPECT_LT(frame.index % 10, 3U);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int width = 64, height = 48;
 const Intrinsics intrinsics(width, height, 60.0, 60.0, 31.5, 23.5);
-const Camera camera{intrinsics, {}, {}, {}};
+const Camera pinhole{intrinsics, {}, {}, {}};
 
 /// From 1 m on the left to 3 m on the right; nothing in the first row.
 DepthImage wall() {
@@ -21,7 +21,7 @@ DepthImage wall() {
 
 PointCloud points_of(const PointsRule& rule, const Isometry3d& T = Isometry3d::Identity()) {
   PointCloud cloud;
-  CloudMaker maker(camera, rule);
+  CloudMaker maker(pinhole, rule);
   for (int again = 0; again < 2; ++again) maker.make(wall(), cloud, T);
   return cloud;
 }
@@ -67,10 +67,10 @@ TEST(Points, OfVoxelsAreTheFirstOfEachCube) {
 }
 
 TEST(Points, AreRefusedForARuleOutOfRange) {
-  EXPECT_THROW(CloudMaker(camera, {.stride = 0}), InputError);
-  EXPECT_THROW(CloudMaker(camera, {.range = -1.0}), InputError);
-  EXPECT_THROW(CloudMaker(camera, {.voxel = nan}), InputError);
-  EXPECT_THROW(CloudMaker(camera, {.voxel = 1e-30}), InputError);
+  EXPECT_THROW(CloudMaker(pinhole, {.stride = 0}), InputError);
+  EXPECT_THROW(CloudMaker(pinhole, {.range = -1.0}), InputError);
+  EXPECT_THROW(CloudMaker(pinhole, {.voxel = nan}), InputError);
+  EXPECT_THROW(CloudMaker(pinhole, {.voxel = 1e-30}), InputError);
 }
 
 }  // namespace

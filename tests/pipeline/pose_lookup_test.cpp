@@ -206,9 +206,7 @@ TEST_F(PoseLookupTest, OfTheCameraInTF) {
   EXPECT_TRUE(answer_.T_parent_camera->isApprox(at(0.1, 0.2, 1.1)));
 }
 
-class PoseHistoryTest : public PoseLookupTest {};
-
-TEST_F(PoseHistoryTest, StatesWithoutAStampAreRefused) {
+TEST_F(PoseLookupTest, StatesWithoutAStampAreRefused) {
   add_joint(0, 0.1);
   add_joint(-7, 0.1);
   add_slab(0, 0.1);
@@ -217,7 +215,7 @@ TEST_F(PoseHistoryTest, StatesWithoutAStampAreRefused) {
   EXPECT_EQ(ask(0, {}).status, FrameStatus::missing_joints);
 }
 
-TEST_F(PoseHistoryTest, AJumpOfTheClockForgetsWhatWasBefore) {
+TEST_F(PoseLookupTest, AJumpOfTheClockForgetsWhatWasBefore) {
   history_.add_static_transform("base", "optical", at(1, 0, 0));
   add_joint(5000 * ms, 0.5);
   add_slab(5000 * ms, 0.5);

@@ -99,13 +99,6 @@ inline Frame frame_of(const Image<float>& depth, double slide = 0.0,
           .targets = std::move(targets)};
 }
 
-inline Image<std::uint16_t> to_millimetres(const Image<float>& metres) {
-  Image<std::uint16_t> image(metres.width(), metres.height());
-  std::transform(metres.data(), metres.data() + metres.size(), image.data(),
-                 [](float z) { return std::uint16_t(std::lround(z * 1000.0F)); });
-  return image;
-}
-
 /// Expects every pixel to show what `cast` says of its ray.
 template <typename Cast>
 void expect_drawn(const VirtualDepthView& drawn, Cast&& cast_ray) {
@@ -172,14 +165,5 @@ class TargetsTest : public testing::Test {
   std::vector<double> positions_{0.0};
   Pipeline pipeline_;
 };
-
-/// A copy of a view.
-template <typename T>
-[[nodiscard]] std::vector<T> pixels_of(ImageView<const T> view) {
-  std::vector<T> pixels;
-  for (int v = 0; v < view.height; ++v)
-    pixels.insert(pixels.end(), view.row(v), view.row(v) + view.width);
-  return pixels;
-}
 
 }  // namespace penumbra::test

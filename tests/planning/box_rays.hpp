@@ -18,24 +18,11 @@ inline Camera forecast_camera() {
   return {Intrinsics(640, 480, 600, 600, 319.5, 239.5), {}, {}, {}};
 }
 
-inline Isometry3d looking_at(const Vector3d& from, const Vector3d& at) {
-  const Vector3d z = (at - from).normalized();
-  const Vector3d x = z.cross(Vector3d::UnitZ()).normalized();
-  Isometry3d T = Isometry3d::Identity();
-  T.linear() << x, z.cross(x), z;
-  T.translation() = from;
-  return T;
-}
-
 /// A camera around a robot's base that looks at it.
 inline Isometry3d random_viewpoint(std::mt19937_64& random) {
   const double around = uniform(random, 0.0, 6.28), away = uniform(random, 1.2, 2.2);
   return looking_at({away * std::cos(around), away * std::sin(around), uniform(random, 0.2, 1.2)},
                     {0.0, 0.0, uniform(random, 0.2, 0.5)});
-}
-
-inline Vector3d random_offset(std::mt19937_64& random) {
-  return {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
 }
 
 /// A box of random edges that is turned at random.

@@ -42,8 +42,8 @@ struct Scene {
     robot.forward_kinematics(positions, T);
     const Vector3d from = T_root_camera.translation();
     const Vector3d at = T[random() % T.size()].translation();
-    const Vector3d place =
-        at + uniform(random, 0.1, 0.6) * (at - from).normalized() + 0.1 * random_offset(random);
+    const Vector3d place = at + uniform(random, 0.1, 0.6) * (at - from).normalized() +
+                           0.1 * random_triple(random, 1.0);
     boxes.push_back(random_box(random, place, 0.04, 0.14));
   }
 

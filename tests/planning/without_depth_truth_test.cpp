@@ -86,7 +86,7 @@ void judge_scenes(const Robot& robot, int scenes, std::mt19937_64& random, Count
     config.T_parent_camera = random_viewpoint(random);
     const Vector3d from = config.T_parent_camera.translation();
     const Vector3d link = T[random() % T.size()].translation();
-    const Vector3d beside = random_offset(random);
+    const Vector3d beside = random_triple(random, 1.0);
     const Vector3d at =
         link + uniform(random, -0.3, 0.6) * (link - from).normalized() + 0.1 * beside;
     const std::vector<Placed> placed =

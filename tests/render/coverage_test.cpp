@@ -19,20 +19,15 @@ std::size_t covered_inside(const Frame& frame, int u0, int v0, int u1, int v1) {
 }
 
 TEST_P(Coverage, PixelCentresAreAtIntegers) {
-  // Edges half-way between centres, and moved by just less than half a pixel: the same pixels.
-  for (const double shift : {0.0, 0.49, -0.49}) {
+  // Edges half-way between centres, moved by just less than half a pixel and by just more.
+  for (const auto& [shift, first] : {std::pair(0.0, 0), {0.49, 0}, {-0.49, 0}, {0.51, 1}}) {
     Scene scene;
     scene.add(
         image_rectangle(exact_camera, 9.5 + shift, 4.5 + shift, 19.5 + shift, 14.5 + shift, 1.0));
     const Frame frame = render(exact_camera, scene);
     EXPECT_EQ(frame.covered(), 100U) << shift;
-    EXPECT_EQ(covered_inside(frame, 10, 5, 19, 14), 100U) << shift;
+    EXPECT_EQ(covered_inside(frame, 10 + first, 5 + first, 19 + first, 14 + first), 100U) << shift;
   }
-  Scene scene;
-  scene.add(image_rectangle(exact_camera, 10.01, 5.01, 20.01, 15.01, 1.0));
-  const Frame frame = render(exact_camera, scene);
-  EXPECT_EQ(covered_inside(frame, 11, 6, 20, 15), 100U);
-  EXPECT_EQ(frame.covered(), 100U);
 }
 
 /// A grid over a rectangle in the image whose inner corners are moved about: onto pixel centres, by

@@ -13,15 +13,12 @@ namespace {
 PENUMBRA_RENDER_TEST(NearPlane, 2);
 
 TEST_P(NearPlane, NothingNearerThanTheNearPlane) {
-  for (const double z : {-1.0, 0.0, 0.005, 0.00999}) {
+  for (const double z : {-1.0, 0.0, 0.005, 0.00999, 0.0101}) {
     Scene scene;
     scene.add(quad({-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}), at(0, 0, z));
-    EXPECT_EQ(render(near_camera, scene).covered(), 0U) << z;
+    const Frame frame = render(near_camera, scene);
+    EXPECT_EQ(frame.covered(), z > DepthRenderer::near_plane ? frame.depth.size() : 0U) << z;
   }
-  Scene scene;
-  scene.add(quad({-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}), at(0, 0, 0.0101));
-  const Frame frame = render(near_camera, scene);
-  EXPECT_EQ(frame.covered(), frame.depth.size());
 }
 
 TEST_P(NearPlane, ClosedBodiesGrazedByTheNearPlane) {

@@ -113,10 +113,6 @@ inline std::string exact(const Vector3d& t) {
   return exact(t[0]) + " " + exact(t[1]) + "  " + exact(t[2]);
 }
 
-inline Vector3d random_triple(Random& random, double size) {
-  return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
-}
-
 inline bool has_one_value(const PlainJoint& joint) {
   return joint.type == "revolute" || joint.type == "continuous" || joint.type == "prismatic";
 }

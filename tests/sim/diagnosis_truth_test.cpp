@@ -145,9 +145,8 @@ TEST_F(DiagnosisTruth, DepthInAnotherUnitAndCameraInfoOfOtherImages) {
     });
   expect(Cause::depth_ray, [](Given& given) {
     for (Image<float>& depth : given.depth)
-      for (int v = 0; v < depth.height(); ++v)
-        for (int u = 0; u < depth.width(); ++u)
-          depth(u, v) *= static_cast<float>(given.camera.ray(u, v).norm());
+      for (const auto [u, v] : each_pixel(depth))
+        depth(u, v) *= static_cast<float>(given.camera.ray(u, v).norm());
   });
   const auto scaled = [](double focal, double centre) {
     return [=](Given& given) {

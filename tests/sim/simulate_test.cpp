@@ -197,13 +197,6 @@ TEST_F(SimulateTest, ABagOfTwoCamerasIsJudgedTogether) {
   expect_failed(judged("none", {"--camera", "a=/camera/none"}), {"/camera/none"});
 }
 
-/// Messages of a bag as the reference library reads them, by topic.
-std::map<std::string, std::vector<Json>> decoded(const fs::path& bag) {
-  std::map<std::string, std::vector<Json>> messages;
-  for (const Json& one : decoded_messages(bag)) messages[one["topic"]].push_back(one);
-  return messages;
-}
-
 void expect_joints(const Json& message, const std::map<std::string, std::string>& row) {
   EXPECT_EQ(message["name"].size(), row.size() - 2);
   for (std::size_t i = 0; i < message["name"].size(); ++i)
@@ -234,7 +227,8 @@ TEST_F(SimulateTest, TheReferenceLibraryReadsWhatTheFolderHolds) {
   const Words options = {"--second-camera", "--joint-sigma", "0.001"};
   succeed(simulate(scene, "folder", options));
   succeed(simulate(scene, "bag.mcap", options));
-  const auto messages = decoded(path("bag.mcap"));
+  std::map<std::string, std::vector<Json>> messages;
+  for (const Json& one : decoded_messages(path("bag.mcap"))) messages[one["topic"]].push_back(one);
   const auto& descriptions = messages.at("/robot_description");
   ASSERT_EQ(descriptions.size(), 1U);
   EXPECT_EQ(descriptions[0]["message"]["data"],

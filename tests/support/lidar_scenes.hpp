@@ -108,7 +108,6 @@ class LidarWorld {
   LidarWorld(const LidarRobot& robot, LidarMount mount, std::uint64_t seed);
 
   [[nodiscard]] const Robot& robot() const { return robot_; }
-  [[nodiscard]] const LidarMount& mount() const { return mount_; }
   /// Places the objects before and behind the robot, with a gap of 5 to 50 cm at the time `middle`.
   void place_objects(const JointMotion& motion, double begin, double end);
   /// Casts each ray at its own time. `noise`: standard deviation along the ray, metres.

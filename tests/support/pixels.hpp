@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include <penumbra/base/image.hpp>
+
 namespace penumbra::test {
 
 /// The pixels of a window row by row, for a range-based loop.
@@ -39,6 +46,24 @@ PixelRange each_pixel(const Image& image) {
     return {0, 0, image.width(), image.height()};
   else
     return {0, 0, image.width, image.height};
+}
+
+/// A copy of a view.
+template <typename T>
+[[nodiscard]] std::vector<T> pixels_of(ImageView<const T> view) {
+  std::vector<T> pixels;
+  for (int v = 0; v < view.height; ++v)
+    pixels.insert(pixels.end(), view.row(v), view.row(v) + view.width);
+  return pixels;
+}
+
+/// 0 where nothing is measured.
+[[nodiscard]] inline Image<std::uint16_t> to_millimetres(const Image<float>& metres) {
+  Image<std::uint16_t> image(metres.width(), metres.height());
+  std::transform(metres.data(), metres.data() + metres.size(), image.data(), [](float z) {
+    return z > 0.0F && z < 65.0F ? std::uint16_t(std::lround(1e3F * z)) : std::uint16_t{0};
+  });
+  return image;
 }
 
 }  // namespace penumbra::test

@@ -55,6 +55,15 @@ inline constexpr std::int64_t ms = 1'000'000;  // nanoseconds
 }
 [[nodiscard]] inline Isometry3d at(double x, double y, double z) { return at(Vector3d(x, y, z)); }
 
+/// A camera that looks at a point, the root's z upwards in its image.
+[[nodiscard]] inline Isometry3d looking_at(const Vector3d& from, const Vector3d& to) {
+  const Vector3d z = (to - from).normalized();
+  const Vector3d x = z.cross(Vector3d::UnitZ()).normalized();
+  Isometry3d T = at(from);
+  T.linear() << x, z.cross(x), z;
+  return T;
+}
+
 /// Where a ray enters a box about the origin, in lengths of the ray; nothing if it does not, 0 if
 /// it begins inside.
 [[nodiscard]] inline std::optional<double> enter_box(const Vector3d& from, const Vector3d& ray,
@@ -72,6 +81,11 @@ inline double uniform(std::mt19937_64& random, double low, double high) {
 /// A number from 0 to end - 1.
 inline std::size_t below(std::mt19937_64& random, std::size_t end) {
   return std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
+}
+
+/// Each part between -size and size.
+inline Vector3d random_triple(std::mt19937_64& random, double size) {
+  return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
 }
 
 inline Vector3d random_direction(std::mt19937_64& random) {

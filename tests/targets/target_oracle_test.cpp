@@ -372,7 +372,7 @@ TEST_F(TargetOracle, AgreesOnRandomFrames) {
     if (frame % 5 == 0) scene.robot = Image<float>(width, height), scene.mark_tiles();
     LabelRule rule = frame % 3 == 0 ? LabelRule::paper() : LabelRule{};
     if (frame % 4 == 0) rule.range = {0.4, 1.45};
-    const Image<std::uint16_t> millimetres = scene.millimetres();
+    const Image<std::uint16_t> millimetres = to_millimetres(scene.metres);
     const bool in_metres = frame % 2 == 0;
     const DepthView depth =
         in_metres ? DepthView(scene.metres.view()) : DepthView(millimetres.view());

@@ -132,9 +132,61 @@ class TargetSearch : public testing::Test {
         frame.add_robot(u, v, u + 1, v + 1, part.z, link, false);
   }
 
-  void run(World world);
-  void judge(Way way, const World& world, const Truth& truth, TargetJudge& judge);
-  TargetView view(Way way, const World& world, const Truth& truth);
+  TargetView view(Way way, const World& world, const Truth& truth) {
+    TargetView target;
+    target.thresholds = thresholds;
+    target.region = PixelMask{(way < modal ? truth.whole : truth.seen).view()};
+    target.extent = way < modal ? Extent::amodal : Extent::modal;
+    if (way == amodal_with_depth || (way >= modal && has_depth))
+      target.expected_depth = double(world.object.z);
+    if (way == modal_with_motion)
+      target.motion = Vector2d(world.object.u - last[way].u, world.object.v - last[way].v);
+    return target;
+  }
+
+  void judge(Way way, const World& world, const Truth& truth, TargetJudge& judge) {
+    const TargetView target = view(way, world, truth);
+    const Verdict verdict = judge.judge(target, memories[way]).verdict;
+    const bool is_seen = verdict == Verdict::visible || verdict == Verdict::partial;
+    behind[way] += truth.share() > most ? 1 : 0;
+    if (!world.is_there && target.expected_depth) {
+      EXPECT_FALSE(is_seen) << way_names[way] << ", where nothing is";
+      ++absent;
+    }
+    if (verdict != Verdict::visible) return;
+    ++visible[way];
+    EXPECT_LE(truth.share(), most + rounding)
+        << way_names[way] << ", " << truth.hidden << " of " << truth.inside << " pixels hidden";
+    last[way] = world.object;
+    was_whole[way] = was_whole[way] || truth.is_clear;
+  }
+
+  void run(World world) {
+    LabelRule rule = with(0.5) ? LabelRule{} : TargetFrame::without_cleanup();
+    if (with(0.3)) rule.range = {0.3, 1.8};  // the wall is out of it
+    thresholds.unknown_limit.reset();
+    if (with(0.5)) thresholds.unknown_limit = 0;
+    // What is unknown may be hidden, up to its limit.
+    most = thresholds.partial_enter + thresholds.unknown_limit.value_or(thresholds.partial_enter);
+    has_depth = with(0.5);
+    const int gap = with(0.3) ? number(1, wide_gap) : 0;
+    was_whole.fill(false);
+    memories.fill({});
+    last.fill(world.object);
+    TargetJudge judge_all(TargetFrame::camera(), rule, 2);
+    for (int i = 0; i < frames; ++i) {
+      TargetFrame frame(rule);
+      draw(world, frame);
+      judge_all.begin(frame.images());
+      for (const Way way : {amodal, amodal_with_depth, modal, modal_with_motion}) {
+        const Truth truth(world, was_whole[way] ? gap : 0);
+        const bool is_found = way < modal ? truth.inside > 0 : truth.left > 0 && !with(0.1);
+        if (is_found) judge(way, world, truth, judge_all);
+      }
+      world.object.move();
+      for (Moving& part : world.robot) part.move();
+    }
+  }
 
   std::mt19937_64 random = seeded_random(7);
   TargetThresholds thresholds;
@@ -146,62 +198,6 @@ class TargetSearch : public testing::Test {
   std::array<std::size_t, ways> visible{}, behind{};  // verdicts; truths: hidden by more than that
   std::size_t absent = 0;
 };
-
-TargetView TargetSearch::view(Way way, const World& world, const Truth& truth) {
-  TargetView target;
-  target.thresholds = thresholds;
-  target.region = PixelMask{(way < modal ? truth.whole : truth.seen).view()};
-  target.extent = way < modal ? Extent::amodal : Extent::modal;
-  if (way == amodal_with_depth || (way >= modal && has_depth))
-    target.expected_depth = double(world.object.z);
-  if (way == modal_with_motion)
-    target.motion = Vector2d(world.object.u - last[way].u, world.object.v - last[way].v);
-  return target;
-}
-
-void TargetSearch::judge(Way way, const World& world, const Truth& truth, TargetJudge& judge) {
-  const TargetView target = view(way, world, truth);
-  const Verdict verdict = judge.judge(target, memories[way]).verdict;
-  const bool is_seen = verdict == Verdict::visible || verdict == Verdict::partial;
-  behind[way] += truth.share() > most ? 1 : 0;
-  if (!world.is_there && target.expected_depth) {
-    EXPECT_FALSE(is_seen) << way_names[way] << ", where nothing is";
-    ++absent;
-  }
-  if (verdict != Verdict::visible) return;
-  ++visible[way];
-  EXPECT_LE(truth.share(), most + rounding)
-      << way_names[way] << ", " << truth.hidden << " of " << truth.inside << " pixels hidden";
-  last[way] = world.object;
-  was_whole[way] = was_whole[way] || truth.is_clear;
-}
-
-void TargetSearch::run(World world) {
-  LabelRule rule = with(0.5) ? LabelRule{} : TargetFrame::without_cleanup();
-  if (with(0.3)) rule.range = {0.3, 1.8};  // the wall is out of it
-  thresholds.unknown_limit.reset();
-  if (with(0.5)) thresholds.unknown_limit = 0;
-  // What is unknown may be hidden, up to its limit.
-  most = thresholds.partial_enter + thresholds.unknown_limit.value_or(thresholds.partial_enter);
-  has_depth = with(0.5);
-  const int gap = with(0.3) ? number(1, wide_gap) : 0;
-  was_whole.fill(false);
-  memories.fill({});
-  last.fill(world.object);
-  TargetJudge judge_all(TargetFrame::camera(), rule, 2);
-  for (int i = 0; i < frames; ++i) {
-    TargetFrame frame(rule);
-    draw(world, frame);
-    judge_all.begin(frame.images());
-    for (const Way way : {amodal, amodal_with_depth, modal, modal_with_motion}) {
-      const Truth truth(world, was_whole[way] ? gap : 0);
-      const bool is_found = way < modal ? truth.inside > 0 : truth.left > 0 && !with(0.1);
-      if (is_found) judge(way, world, truth, judge_all);
-    }
-    world.object.move();
-    for (Moving& part : world.robot) part.move();
-  }
-}
 
 TEST_F(TargetSearch, NothingHiddenIsCalledVisible) {
   const int sequences = measures_in_full() ? 5000 : samples(100);

@@ -34,19 +34,14 @@ TEST_F(ViewRunTest, ShowsTheReport) {
   EXPECT_EQ(first.json["camera_pose"], nullptr);
 }
 
-TEST_F(ViewRunTest, SavedImagesAreShownAsTheyAre) {
-  succeed(run({"--save", "labels"}));
-  Image<std::uint8_t> painted(tiny_width, tiny_height, 4);
-  io::write_png(out("labels/000001.png"), std::as_const(painted).view());
-  const ViewerProcess viewer({out("report.json")});
-  EXPECT_EQ(viewer.complete_session()["frames"], tiny_frames);
-  EXPECT_EQ(viewer.packet(1, all_parts).parts.at("labels"), std::string(painted.size(), '\x04'));
-}
-
-TEST_F(ViewRunTest, ThePageSaysHowToGetTheRest) {
+TEST_F(ViewRunTest, SavedImagesAreShownAsTheyAreAndThePageSaysHowToGetTheRest) {
   succeed(run({"--save", "labels,overlay"}));
-  const ViewerProcess viewer({out()});
+  const Image<std::uint8_t> painted(tiny_width, tiny_height, 4);
+  io::write_png(out("labels/000001.png"), painted.view());
+  const ViewerProcess viewer({out("report.json")});
   const json session = viewer.complete_session();
+  EXPECT_EQ(session["frames"], tiny_frames);
+  EXPECT_EQ(viewer.packet(1, all_parts).parts.at("labels"), std::string(painted.size(), '\x04'));
   EXPECT_EQ(session["parts"], json({"overlay", "labels"}));
   ASSERT_EQ(session["missing"].size(), 2U);
   expect_has(session["missing"][0], {"links, vdi", "--save overlay,labels,links,vdi"});

@@ -237,20 +237,17 @@ TEST(SlowClients, CostNoMemoryAndHoldNobodyUp) {
   }
 }
 
-TEST_F(ServerTest, HalfRequestsLockNobodyOut) {
+TEST_F(ServerTest, HalfRequestsAndIdleWebSocketsLockNobodyOut) {
   WebClient user = client();
   EXPECT_EQ(user.get("/a").status, 200);
-  std::vector<WebClient> halves;
+  std::vector<WebClient> idle;
   for (int i = 0; i < 300; ++i) {
-    halves.push_back(client());
-    halves.back().send("GET / HTTP/1.1\r\nHost: 127.");
+    idle.push_back(client());
+    idle.back().send("GET / HTTP/1.1\r\nHost: 127.");
   }
   EXPECT_EQ(client().get("/a").status, 200);
   EXPECT_EQ(user.get("/a").status, 200);
-}
-
-TEST_F(ServerTest, IdleWebSocketsLockNobodyOut) {
-  std::vector<WebClient> idle;
+  idle.clear();
   for (int i = 0; i < 300; ++i) idle.push_back(talker());
   EXPECT_EQ(client().get("/a").status, 200);
   EXPECT_EQ(client().upgrade("/say").status, 101);

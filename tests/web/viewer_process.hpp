@@ -7,12 +7,7 @@
 #include "web_client.hpp"
 
 #include <chrono>
-#include <cstdint>
-#include <string>
 #include <thread>
-#include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace penumbra::test {
 

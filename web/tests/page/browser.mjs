@@ -190,6 +190,10 @@ export async function showsWithout(page, part) {
   await drawn(page);
 }
 
+/** Returns by how many pixels the page is wider than the screen. */
+export const overflow = (page) =>
+  page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
+
 /** Returns the visible buttons and choices that are smaller than a finger, 44 pixels. */
 export const smallButtons = (page) =>
   page

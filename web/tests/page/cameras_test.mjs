@@ -17,7 +17,6 @@ after(() => rmSync(cell, { recursive: true }));
 const { frames } = JSON.parse(readFileSync(path.join(cell, 'out/views.json'), 'utf8'));
 const { withPage } = served(cell);
 
-const fusedShown = (page) => page.locator('#cameras p').textContent();
 const fusedWanted = ({ name, verdict, best, reason }) =>
   `${name} over all cameras: ${verdict.replaceAll('_', ' ')}` +
   `${best ? `, best from ${best}` : ''}${reason ? `: ${reason}` : ''}`;
@@ -30,7 +29,7 @@ test('all cameras and their common verdict', () =>
         .evaluateAll((tiles) => tiles.map((tile) => tile.dataset.camera)),
       ['left', 'right'],
     );
-    const [name] = [frames[0].targets[0].name];
+    const { name } = frames[0].targets[0];
     await page.locator(`[data-target="${name}"]`).click();
     for (const [index, { targets }] of frames.slice(0, 3).entries()) {
       await showsFrame(page, index);
@@ -39,7 +38,7 @@ test('all cameras and their common verdict', () =>
         (text) => document.querySelector('#cameras p').textContent.trim().endsWith(text),
         wanted.slice(name.length),
       );
-      assert.ok((await fusedShown(page)).includes(wanted));
+      assert.ok((await page.locator('#cameras p').textContent()).includes(wanted));
       await page.keyboard.press('ArrowRight');
     }
     const drawn = await page.locator('.camera canvas').evaluateAll(

@@ -161,21 +161,20 @@ test('another program on the same port is reported, and its frames are not displ
 });
 
 test('an incomplete run is reported, with its note', async () => {
-  const context = await browser.newContext({ ...desktop, deviceScaleFactor: 1 });
-  const page = await context.newPage();
   const note = 'frame 3 and later ones are not judged: the device failed';
-  await page.route('**/api/report*', async (route) => {
-    const report = JSON.parse((await (await route.fetch()).body()).toString());
-    const summary = { ...report.summary, notes: [note] };
-    await route.fulfill({ json: { ...report, frames: report.frames.slice(0, 3), summary } });
-  });
-  await page.goto(server.url);
+  const { page, close } = await open(browser, server.url, desktop, (one) =>
+    one.route('**/api/report*', async (route) => {
+      const report = JSON.parse((await (await route.fetch()).body()).toString());
+      const summary = { ...report.summary, notes: [note] };
+      await route.fulfill({ json: { ...report, frames: report.frames.slice(0, 3), summary } });
+    }),
+  );
   await showsFrame(page, 0);
   assert.equal(await page.locator('#state').textContent(), '3 of 12 frames');
   assert.ok(await page.locator('#notes', { hasText: note }).isVisible(), 'without a click');
   await page.click('#notes-button');
   assert.ok(await page.locator('#notes').isHidden());
-  await context.close();
+  await close();
 });
 
 test('a wrong setup is said at once, with the frame that shows it', async () => {

@@ -2,7 +2,7 @@
 // The live page with simulated frames: old, late, damaged, or none.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { desktop, drawn, phone, stopTime } from './browser.mjs';
+import { desktop, drawn, overflow, phone, stopTime } from './browser.mjs';
 import { playLive } from './live_server.mjs';
 import { served } from './served.mjs';
 
@@ -240,14 +240,9 @@ test('a phone shows the state in full', () =>
   live({ ...phone, viewport: { width: 360, height: 780 } }, async (page, camera) => {
     const state = page.locator('#state');
     const isWhole = async () => {
-      const [scroll, client, page_, width] = await state.evaluate((node) => [
-        node.scrollWidth,
-        node.clientWidth,
-        document.documentElement.scrollWidth,
-        document.documentElement.clientWidth,
-      ]);
-      assert.ok(scroll <= client, `${await state.textContent()}: ${scroll} > ${client}`);
-      assert.equal(page_, width);
+      const more = await state.evaluate((node) => node.scrollWidth - node.clientWidth);
+      assert.ok(more <= 0, `${await state.textContent()}: ${more} pixels more`);
+      assert.equal(await overflow(page), 0);
     };
     await showsNumber(page, await camera.send({ age: 12_345, rate: 29.97 }));
     await isWhole();

@@ -86,7 +86,7 @@ function boxesOf(selectors) {
 
 /**
  * Compares the page with its baseline; PENUMBRA_BASELINES=write replaces the baseline.
- * @param panels selector by name
+ * @param panels by name: a selector first
  * @returns by visible panel the fraction of its blocks that changed
  */
 export async function againstBaseline(page, name, panels) {
@@ -98,7 +98,8 @@ export async function againstBaseline(page, name, panels) {
     await writeFile(file, small);
   }
   if (!existsSync(file)) throw new Error(`${file} does not exist`);
-  const boxes = await page.evaluate(boxesOf, Object.values(panels));
+  const selectors = Object.values(panels).map(([selector]) => selector);
+  const boxes = await page.evaluate(boxesOf, selectors);
   const seen = Object.keys(panels).filter((_, index) => boxes[index]);
   const kept = base64(await readFile(file));
   const all = [kept, base64(small), boxes.filter((box) => box)];

@@ -54,15 +54,9 @@ const hideTimes = (page) =>
 
 /** Returns the panels that differ from the baseline. */
 async function faultyPanels(page, name, panels) {
-  const selectors = Object.entries(panels).map(([panel, [selector]]) => [panel, selector]);
-  const fractions = await againstBaseline(page, name, Object.fromEntries(selectors));
-  const percents = Object.entries(fractions).map(([panel, fraction]) => [
-    panel,
-    (100 * fraction).toFixed(2),
-  ]);
-  console.log(
-    `${name}: ${percents.map(([panel, percent]) => `${panel} ${percent} %`).join(', ')} differ`,
-  );
+  const fractions = await againstBaseline(page, name, panels);
+  for (const [panel, fraction] of Object.entries(fractions))
+    console.log(`${name}: ${(100 * fraction).toFixed(2)} % of ${panel} differ`);
   return Object.keys(fractions).filter((panel) => fractions[panel] > panels[panel][1]);
 }
 

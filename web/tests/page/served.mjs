@@ -6,15 +6,13 @@ import { example, launch, open, serve } from './browser.mjs';
 
 const all = new Map();
 
-/**
- * @param input what is served
- * Returns an object that has `browser`, `server` and the server's `report` when the tests run. */
-export function served(input = example) {
+/** Returns an object that has `browser`, `server` and the server's `report` when the tests run. */
+export function served(input = example, command = 'view') {
   if (all.has(input)) return all.get(input);
   const shared = { browser: null, server: null, report: null };
   const pages = new Map();
   before(async () => {
-    [shared.browser, shared.server] = await Promise.all([launch(), serve(input)]);
+    [shared.browser, shared.server] = await Promise.all([launch(), serve(input, '0', command)]);
     shared.report = await (await fetch(new URL('/api/report', shared.server.url))).json();
   });
   after(() => shared.server?.stop());

@@ -47,7 +47,6 @@ test('the divider compares the colour image with the layer', () =>
 test('values under the pointer are those of the packet, in each layer', () =>
   withPage('/#frame=3', desktop, async (page) => {
     await showsFrame(page, 3);
-    const frame = await page.locator('#image-frame').boundingBox();
     const layers = ['overlay', 'labels', 'links', 'vdi', 'depth'];
     const names = ['clear', 'front', 'occluded', 'unknown', 'beyond', 'fringe'];
     const pixels = [
@@ -57,7 +56,6 @@ test('values under the pointer are those of the packet, in each layer', () =>
       [265, 290],
       [250, 170],
     ];
-    const values = await valuesOf(pixels);
     for (const [index, [u, v]] of pixels.entries()) {
       await page.keyboard.press(String(index + 1));
       await showsLayer(page, layers[index]); // the legend may move the image
@@ -76,7 +74,6 @@ test('values under the pointer are those of the packet, in each layer', () =>
       assert.equal(await read('label'), names[label]);
       assert.equal(await read('measured'), depth > 0 ? `${depth.toFixed(3)} m` : 'none');
     }
-    assert.ok(frame.width > 300 && values.length === pixels.length);
   }));
 
 /** Returns the parts of a packet, read without the page's code. */
@@ -94,7 +91,6 @@ async function valueAt(u, v) {
   const at = v * 640 + u;
   return { label: parts.labels[at], depth: parts.depth.readFloatLE(4 * at) };
 }
-const valuesOf = (pixels) => Promise.all(pixels.map(([u, v]) => valueAt(u, v)));
 
 test('residuals are blue before the robot, red behind it, striped without measurement', () =>
   withPage('/#frame=3', desktop, async (page) => {
@@ -156,10 +152,7 @@ test('without the robot, only clear and front points and pixels remain', () =>
     await shownPoints(kept);
     assert.equal(await button.getAttribute('aria-pressed'), 'true');
     assert.equal(await robot.getAttribute('aria-pressed'), 'false', 'hides the model, too');
-    for (const [key, layer] of [
-      ['1', 'overlay'],
-      ['5', 'depth'],
-    ]) {
+    for (const [key, layer] of Object.entries({ 1: 'overlay', 5: 'depth' })) {
       await page.keyboard.press(key);
       await showsLayer(page, layer);
       for (const id of ['image-below', 'image-above']) {
@@ -352,17 +345,9 @@ async function robotOverlap() {
   const context = flat.getContext('2d');
   document.querySelector('[data-key=c]').click(); // drawn in this frame
   await new Promise((done) => requestAnimationFrame(done));
-  context.drawImage(
-    canvas,
-    ((width - 640 * focal) / 2) * (canvas.width / width),
-    ((height - 480 * focal) / 2) * (canvas.height / height),
-    640 * focal * (canvas.width / width),
-    480 * focal * (canvas.height / height),
-    0,
-    0,
-    640,
-    480,
-  );
+  const shown = [(width - 640 * focal) / 2, (height - 480 * focal) / 2, 640 * focal, 480 * focal];
+  const ratio = canvas.width / width;
+  context.drawImage(canvas, ...shown.map((length) => length * ratio), 0, 0, 640, 480);
   const { data } = context.getImageData(0, 0, 640, 480);
   const isRobot = (i) =>
     Math.max(data[i], data[i + 1], data[i + 2]) < 205 || data[i] > data[i + 2] + 25;

@@ -2,7 +2,7 @@
 // The page of a stored recording: themes, keys, touch, accessibility.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { desktop, drawn, phone, showsFrame, smallButtons } from './browser.mjs';
+import { desktop, drawn, overflow, phone, showsFrame, smallButtons } from './browser.mjs';
 import { changedFraction } from './pictures.mjs';
 import { frameShown, served } from './served.mjs';
 
@@ -85,10 +85,7 @@ test('panes are resized by pointer and keys, and keep their sizes', () =>
     assert.equal(await frameShown(page), 0, 'steps no frame');
     await page.keyboard.press('End');
     assert.ok((await boxOf('#image')).width > 100, 'panes keep a minimum size');
-    const overflow = await page.evaluate(
-      () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
-    );
-    assert.equal(overflow, 0);
+    assert.equal(await overflow(page), 0);
     for (const border of ['#timeline-border', '#details-border', '#scene-border'])
       await page.dblclick(border);
     near((await sizes())[0], scene);
@@ -154,10 +151,7 @@ test('a phone shows the targets, and then the scene or image, without scrolling'
 for (const width of [360, 390])
   test(`a phone of ${width} pixels, by touch`, () =>
     withPage('/', { ...phone, viewport: { width, height: 780 } }, async (page) => {
-      const overflow = await page.evaluate(
-        () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
-      );
-      assert.equal(overflow, 0, 'no horizontal overflow');
+      assert.equal(await overflow(page), 0, 'no horizontal overflow');
       const state = await page.locator('#state').evaluate((node) => ({
         whole: node.scrollWidth <= node.clientWidth,
         text: node.textContent,

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "../support/shapes.hpp"
 #include "mesh_oracle.hpp"
 
 #include <penumbra/mesh/prepared_mesh.hpp>
@@ -74,23 +75,16 @@ TEST(MeshPrimitives, RoundOnes) {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-TriangleMesh unit_cube() {
-  TriangleMesh cube;
-  for (int i = 0; i < 8; ++i)
-    cube.vertices.emplace_back(float(i & 1), float(i >> 1 & 1), float(i >> 2));
-  cube.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return cube;
-}
+const TriangleMesh unit_cube = box({0.5F, 0.5F, 0.5F});
 
 TEST(Weld, DegenerateTrianglesAndUnusedVerticesGo) {
-  TriangleMesh cube = unit_cube();
+  TriangleMesh cube = unit_cube;
   cube.vertices.emplace_back(9, 9, 9);
   cube.vertices.push_back(cube.vertices[0]);
-  cube.vertices.emplace_back(0.5F, 0.5F, 0.0F);
+  cube.vertices.emplace_back(0.0F, 0.0F, -0.5F);  // between 1 and 2
   cube.triangles.push_back({0, 0, 1});
   cube.triangles.push_back({0, 9, 1});
-  cube.triangles.push_back({0, 10, 3});
+  cube.triangles.push_back({1, 10, 2});
   const TriangleMesh welded = weld(cube);
   EXPECT_EQ(welded.triangles.size(), 12U);
   EXPECT_TRUE(PreparedMesh(welded).watertight);
@@ -100,13 +94,13 @@ TEST(Weld, TrianglesWithoutAreaGoWithoutOpeningTheirPiece) {
   // The cube's edge 0-1 is cut at one and at two points, on one of its sides only; slivers close
   // it.
   for (const bool two : {false, true}) {
-    TriangleMesh cube = unit_cube();
-    cube.vertices.emplace_back(0.25F, 0.0F, 0.0F);
-    cube.vertices.emplace_back(0.75F, 0.0F, 0.0F);
-    ASSERT_EQ(cube.triangles[4], (Triangle{0, 1, 4}));
-    const auto more = two ? std::vector<Triangle>{{8, 9, 4}, {9, 1, 4}, {0, 1, 9}, {0, 9, 8}}
-                          : std::vector<Triangle>{{8, 1, 4}, {0, 1, 8}};
-    cube.triangles[4] = {0, 8, 4};
+    TriangleMesh cube = unit_cube;
+    cube.vertices.emplace_back(-0.25F, -0.5F, -0.5F);
+    cube.vertices.emplace_back(0.25F, -0.5F, -0.5F);
+    ASSERT_EQ(cube.triangles[4], (Triangle{0, 1, 5}));
+    const auto more = two ? std::vector<Triangle>{{8, 9, 5}, {9, 1, 5}, {0, 1, 9}, {0, 9, 8}}
+                          : std::vector<Triangle>{{8, 1, 5}, {0, 1, 8}};
+    cube.triangles[4] = {0, 8, 5};
     cube.triangles.insert(cube.triangles.end(), more.begin(), more.end());
     const TriangleMesh welded = weld(cube);
     EXPECT_EQ(welded.triangles.size(), two ? 16U : 14U);
@@ -114,6 +108,54 @@ TEST(Weld, TrianglesWithoutAreaGoWithoutOpeningTheirPiece) {
     EXPECT_TRUE(PreparedMesh(welded).watertight);
     EXPECT_DOUBLE_EQ(signed_volume(welded), 1.0);
   }
+}
+
+/// The triangles of one patch.
+TriangleMesh mesh_of(const PreparedMesh& mesh, const SurfacePatch& patch) {
+  TriangleMesh part{mesh.vertices, {}};
+  for (const std::uint32_t i : patch.triangles) part.triangles.push_back(mesh.triangles[i]);
+  return part;
+}
+
+TEST(PreparedMesh, RaysFromOutsideMeetOuterSidesFirstOrGoThroughHoles) {
+  std::mt19937_64 random = seeded_random(311);
+  std::uniform_real_distribution<double> near(-0.4, 0.4);
+  int known = 0, backs = 0;
+  for (int round = 0; round < samples(40); ++round) {
+    TriangleMesh mesh = torus(48, 32, 0.3, 0.1);
+    for (int i = 0; i < 1 + round % 6; ++i) {
+      const auto victim = std::ptrdiff_t(random() % mesh.triangles.size());
+      auto& t = mesh.triangles[std::size_t(victim)];
+      if (random() % 3 == 0) std::swap(t[0], t[1]);
+      if (random() % 2 == 0) mesh.triangles.erase(mesh.triangles.begin() + victim);
+    }
+    const PreparedMesh prepared(mesh);
+    for (std::size_t number = 0; number < prepared.patches.size(); ++number) {
+      const auto& [facing, holes] = prepared.orientations()[number];
+      if (facing == Facing::unknown) continue;
+      ++known;
+      const TriangleMesh patch = mesh_of(prepared, prepared.patches[number]);
+      for (int i = 0; i < 200; ++i) {
+        // Half of the rays aim at a hole, where backs are to be seen.
+        Vector3d aim(near(random), near(random), 0.3 * near(random));
+        if (i % 2 == 0 && !holes.empty()) {
+          const Ball& hole = holes[random() % holes.size()];
+          aim = hole.centre + hole.radius * aim;
+        }
+        const Vector3d origin = 2.0 * random_direction(random);
+        const Vector3d ray = aim - origin;
+        const auto met = crossings(patch, origin, ray);
+        const auto first = std::ranges::min_element(met, {}, &Crossing::t);
+        if (first == met.end() || first->leaves == (facing == Facing::inwards)) continue;
+        ++backs;
+        EXPECT_TRUE(std::any_of(holes.begin(), holes.end(), [&](const Ball& hole) {
+          return (hole.centre - origin).cross(ray).norm() <= hole.radius * ray.norm();
+        }));
+      }
+    }
+  }
+  EXPECT_GT(known, samples(20));
+  EXPECT_GT(backs, samples(100));
 }
 
 }  // namespace
