@@ -104,6 +104,25 @@ TEST(Distortion, UndistortUndoesDistort) {
 // Inside the radius no fold: the derivative keeps a positive determinant. And what lies outside of
 // the image of the disc is refused, also with tangential terms: such points have no inverse within
 // the radius, as a dense search finds.
+TEST(Distortion, DerivativeAgreesWithDifferences) {
+  constexpr double h = 1e-5;
+  constexpr double close = 1e-6;  // third derivatives of up to some 1e3, times h^2
+  auto random = seeded_random(6);
+  for (int i = 0; i < 1000; ++i) {
+    const Lens sample = random_lens(random);
+    const Distortion lens = sample.distortion();
+    const Vector2d p = random_point_inside(lens, 0.9, random);
+    for (int axis = 0; axis < 2; ++axis) {
+      const Vector2d step = h * Vector2d::Unit(axis);
+      const Vector2d difference = (lens.distort(p + step) - lens.distort(p - step)) / (2 * h);
+      EXPECT_LT((lens.derivative(p).col(axis) - difference).norm(), close)
+          << sample.model << ' ' << p.transpose();
+    }
+  }
+  for (const Lens& sample : typical_lenses())
+    EXPECT_EQ(sample.distortion().derivative({0, 0}), Eigen::Matrix2d::Identity());
+}
+
 TEST(Distortion, IsOneToOneInsideAndSilentOutside) {
   auto random = seeded_random(5);
   std::uniform_real_distribution<double> angle(0, 2 * std::numbers::pi);

@@ -158,5 +158,69 @@ TEST(PreparedMesh, RaysFromOutsideMeetOuterSidesFirstOrGoThroughHoles) {
   EXPECT_GT(backs, samples(100));
 }
 
+/// Slow and plain twin of PreparedMesh::patches: floods over a map of edges.
+std::vector<std::pair<std::vector<std::uint32_t>, bool>> flood(const TriangleMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::pair<std::uint32_t, bool>>>
+      edges;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto from = mesh.triangles[i][k];
+      const auto to = mesh.triangles[i][(k + 1) % 3];
+      edges[std::minmax(from, to)].emplace_back(i, from < to);
+    }
+  std::vector<std::set<std::uint32_t>> neighbours(mesh.triangles.size());
+  std::vector<bool> open(mesh.triangles.size());
+  for (const auto& [edge, uses] : edges)
+    for (const auto& [a, forward] : uses) {
+      const bool regular = uses.size() == 2 && uses[0].second != uses[1].second;
+      if (!regular) open[a] = true;
+      for (const auto& [b, ignored] : uses)
+        if (regular) neighbours[a].insert(b);
+    }
+  std::vector<std::pair<std::vector<std::uint32_t>, bool>> result;
+  std::vector<bool> seen(mesh.triangles.size());
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (seen[i]) continue;
+    std::vector<std::uint32_t> members, todo{i};
+    seen[i] = true;
+    while (!todo.empty()) {
+      members.push_back(todo.back());
+      todo.pop_back();
+      for (const std::uint32_t n : neighbours[members.back()])
+        if (!seen[n]) seen[n] = true, todo.push_back(n);
+    }
+    std::sort(members.begin(), members.end());
+    const bool closed =
+        std::none_of(members.begin(), members.end(), [&](auto m) { return open[m]; });
+    result.emplace_back(members, closed);
+  }
+  return result;
+}
+
+TEST(Weld, AgreesWithAFloodOnRandomSoups) {
+  auto random = seeded_random(20);
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto vertices = std::uint32_t(4 + random() % 30);
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < vertices; ++i)
+      mesh.vertices.emplace_back(float(random() % 9), float(random() % 9), float(random() % 9));
+    const std::size_t triangles = 1 + random() % 60;
+    for (std::size_t i = 0; i < triangles; ++i)
+      mesh.triangles.push_back({std::uint32_t(random() % vertices),
+                                std::uint32_t(random() % vertices),
+                                std::uint32_t(random() % vertices)});
+    TriangleMesh apart = unit_cube;
+    for (auto& vertex : apart.vertices) vertex.array() += 20.0F;
+    if (trial % 4 == 0) append(mesh, apart);
+    const PreparedMesh prepared(mesh);
+    const auto expected = flood(prepared);
+    ASSERT_EQ(prepared.patches.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_EQ(prepared.patches[i].triangles, expected[i].first);
+      EXPECT_EQ(prepared.patches[i].closed, expected[i].second);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace penumbra::test

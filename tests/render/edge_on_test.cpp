@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faces whose plane passes the camera's centre.
+// Faces whose plane passes the camera's centre, and triangles of next to no area.
 #include "render_test.hpp"
 #include "shapes.hpp"
 
@@ -101,6 +101,100 @@ TEST_P(EdgeOn, FacesInThePlaneOfTheCamerasCentre) {
     SCOPED_TRACE(::testing::Message() << "scene " << i << ", cx " << camera.cx());
     expect_like_reference(render(camera, scene), scene, camera);
   }
+}
+
+TEST_P(EdgeOn, SpheresSmallerThanAPixel) {
+  for (const Intrinsics& camera : cameras)
+    for (const float radius : {1e-9F, 1e-8F, 1e-7F, 1e-6F, 1e-5F, 1e-4F, 1e-3F})
+      for (const double shift : {0.0, 0.3}) {
+        Scene scene;
+        scene.add(sphere(radius, 12), at(camera.ray(70 + shift, 50) * 2.0));
+        const Frame frame = render(camera, scene);
+        EXPECT_LE(frame.covered(), 1U) << radius;
+        EXPECT_EQ(impossible_depths(frame, scene), 0U) << radius;
+        if (shift > 0.0) {
+          EXPECT_EQ(frame.covered(), 0U) << radius;
+        } else if (radius > 1e-4F) {
+          EXPECT_EQ(frame.covered(), 1U) << radius;
+        }
+      }
+}
+
+/// A triangle in the image, with its corners' depths.
+struct ImageTriangle {
+  std::array<Vector3d, 3> corners;  // in the camera's frame
+
+  [[nodiscard]] double distance(const Intrinsics& camera, const Vector2d& p) const {
+    std::array<Vector2d, 3> q;
+    for (std::size_t i = 0; i < 3; ++i) q[i] = camera.project(corners[i]);
+    double nearest = inf;
+    int left = 0, right = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector2d edge = q[(i + 1) % 3] - q[i];
+      const Vector2d to = p - q[i];
+      const double cross = edge.x() * to.y() - edge.y() * to.x();
+      (cross >= 0 ? left : right) += 1;
+      const double t = std::clamp(to.dot(edge) / std::max(edge.squaredNorm(), 1e-30), 0.0, 1.0);
+      nearest = std::min(nearest, (to - edge * t).norm());
+    }
+    return left == 3 || right == 3 ? 0.0 : nearest;
+  }
+};
+
+/// A triangle whose plane passes the camera's centre, or very nearly: its image lies along a line
+/// through pixel centres, or anyhow.
+ImageTriangle random_edge_on(std::mt19937_64& random, const Intrinsics& camera) {
+  const std::array<Vector2d, 6> along{
+      Vector2d(1, 0),  Vector2d(0, 1), Vector2d(1, 1),
+      Vector2d(1, -1), Vector2d(2, 1), Vector2d(uniform(random, -1, 1), uniform(random, -1, 1))};
+  const Vector2d& direction = along[random() % along.size()];
+  const Vector2d start(std::floor(uniform(random, 40, 120)), std::floor(uniform(random, 30, 90)));
+  const double extent = std::pow(10.0, uniform(random, -3.0, 2.0));
+  const std::array<double, 5> heights{0.0, 1e-6, 1e-4, 1e-3, 1e-2};
+  const double height = heights[random() % heights.size()];
+  const bool whole = random() % 3 == 0;  // corners on pixel centres too
+  ImageTriangle result;
+  for (Vector3d& corner : result.corners) {
+    double t = uniform(random, -extent, extent);
+    if (whole) t = std::round(t);
+    const Vector2d across = Vector2d(-direction.y(), direction.x()) * uniform(random, 0.0, height);
+    const Vector2d q = start + direction * t + across;
+    corner = camera.ray(q.x(), q.y()) * uniform(random, 0.3, 3.0);
+  }
+  return result;
+}
+
+TEST_P(EdgeOn, RandomTrianglesStayOnTheirLines) {
+  if (GetParam().backend == Backend::gl) GTEST_SKIP() << "the device's own depths and pixel grid";
+  // The reference looks one pixel around what it projects.
+  const double reach = GetParam().backend == Backend::cpu ? 1e-3 : 1.5;  // pixels
+  std::mt19937_64 random = seeded_random(72);
+  std::size_t drawn = 0;
+  for (int i = 0; i < samples(300); ++i) {
+    const Intrinsics& camera = cameras[random() % cameras.size()];
+    const ImageTriangle triangle_of = random_edge_on(random, camera);
+    const auto& [a, b, c] = triangle_of.corners;
+    Scene scene;
+    // In the frame of a body that is turned, so that no coordinate is a round number.
+    const Isometry3d pose = i % 2 == 0 ? Isometry3d::Identity()
+                                       : random_pose(random, {-0.5, -0.5, 0.5}, {0.5, 0.5, 1.5});
+    const Isometry3d back = pose.inverse();
+    scene.add(
+        triangle((back * a).cast<float>(), (back * b).cast<float>(), (back * c).cast<float>()),
+        pose);
+    const Frame frame = render(camera, scene);
+    SCOPED_TRACE(::testing::Message() << "triangle " << i);
+    EXPECT_EQ(impossible_depths(frame, scene), 0U);
+    std::size_t astray = 0;
+    for (const auto [u, v] : each_pixel(camera)) {
+      if (frame.depth(u, v) == 0.0F) continue;
+      ++drawn;
+      astray += triangle_of.distance(camera, Vector2d(u, v)) > reach ? 1 : 0;
+    }
+    EXPECT_EQ(astray, 0U);
+  }
+  std::cout << drawn << " pixels\n";
+  EXPECT_GT(drawn, 0U);
 }
 
 TEST_P(EdgeOn, SolidsOfSliversTurnedAboutTheCamera) {

@@ -13,12 +13,15 @@ class MoveIt {
  public:
   explicit MoveIt(bool with_box) : node(std::make_shared<rclcpp::Node>("move_group")) {
     using moveit_msgs::srv::GetPlanningScene;
+    scenes_ =
+        node->create_publisher<moveit_msgs::msg::PlanningScene>("monitored_planning_scene", 10);
     service_ = node->create_service<GetPlanningScene>(
         "get_planning_scene",
         [this, with_box](const std::shared_ptr<rclcpp::Service<GetPlanningScene>> service,
                          const std::shared_ptr<rmw_request_id_t> id,
                          const GetPlanningScene::Request::SharedPtr /*request*/) {
-          ++asked;
+          if (++asked <= lost) return;
+          if (is_busy) scenes_->publish(moveit_msgs::msg::PlanningScene());
           GetPlanningScene::Response answer;
           auto& state = answer.scene.robot_state;
           state.joint_state.name = {"shoulder_pan"};
@@ -30,6 +33,8 @@ class MoveIt {
 
   rclcpp::Node::SharedPtr node;
   int asked = 0;
+  int lost = 0;          ///< the first requests that it does not answer
+  bool is_busy = false;  ///< publishes a scene before it answers
 
  private:
   static moveit_msgs::msg::AttachedCollisionObject box() {
@@ -45,6 +50,7 @@ class MoveIt {
     return box;
   }
 
+  rclcpp::Publisher<moveit_msgs::msg::PlanningScene>::SharedPtr scenes_;
   rclcpp::ServiceBase::SharedPtr service_;
 };
 

@@ -42,5 +42,24 @@ TEST_F(NodeTest, WhatWasAttachedBeforeIsAskedForWheneverMoveItComes) {
   EXPECT_TRUE(spin_until([&] { return robot_pixels() == arm; })) << next.asked;
 }
 
+TEST_F(NodeTest, MoveItIsAskedAgainIfItsAnswerIsLostAndMayPublishMeanwhile) {
+  MoveIt moveit(true);
+  moveit.lost = 1;
+  moveit.is_busy = true;
+  executor_->add_node(moveit.node);
+  start();
+  EXPECT_EQ(moveit.asked, 2);
+}
+
+TEST_F(NodeTest, NothingIsJudgedBeforeMoveItSaysWhatIsAttached) {
+  MoveIt moveit(true);
+  executor_->add_node(moveit.node);
+  start();
+  EXPECT_EQ(moveit.asked, 1);
+  const auto first = received_.begin()->second, later = labels_of(0);
+  ASSERT_TRUE(later);
+  EXPECT_EQ(first->data, later->data) << "the box was there from the first image on";
+}
+
 }  // namespace
 }  // namespace penumbra_ros::test

@@ -53,7 +53,7 @@ class NodeTest : public testing::Test {
 
   /// Starts a node and a player, and plays frames until the first labels arrive.
   void start(const std::vector<rclcpp::Parameter>& parameters = {}) {
-    player_ = std::make_unique<Player>(example);
+    player_ = std::make_unique<Player>(example, true);
     node_ = std::make_shared<PenumbraNode>(options(parameters));
     executor_->add_node(player_->node);
     executor_->add_node(node_->get_node_base_interface());

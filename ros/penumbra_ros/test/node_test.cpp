@@ -3,8 +3,10 @@
 #include "node_fixture.hpp"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <map>
+#include <mutex>
 
 #include <class_loader/class_loader.hpp>
 #include <diagnostic_msgs/msg/diagnostic_array.hpp>
@@ -99,6 +101,11 @@ TEST_F(NodeTest, CalibratesWhileItRunsAndAppliesWhenAsked) {
     request->again = again;
     return call<Calibrate>("calibrate", request);
   };
+  const auto early = apply();
+  ASSERT_TRUE(early);
+  EXPECT_FALSE(early->success);
+  EXPECT_NE(early->message.find("no calibration was begun"), std::string::npos) << early->message;
+
   const auto begun = ask(false, false);
   ASSERT_TRUE(begun);
   EXPECT_TRUE(begun->success) << begun->message;
@@ -136,39 +143,45 @@ TEST_F(NodeTest, CalibratesWhileItRunsAndAppliesWhenAsked) {
   ASSERT_TRUE(applied);
   EXPECT_TRUE(applied->success) << applied->message;
   EXPECT_TRUE(labels_of(2)) << "judged with the found pose";
+  const auto again = apply();
+  ASSERT_TRUE(again);
+  EXPECT_FALSE(again->success) << again->message;
 }
 
-TEST_F(NodeTest, HasALifecycleAndReadsItsParametersWhenItIsConfigured) {
+TEST_F(NodeTest, HasALifecycle) {
   using lifecycle_msgs::msg::State;
   start();
   EXPECT_EQ(node_->get_current_state().id(), State::PRIMARY_STATE_ACTIVE);
-  const auto listens_to = [&](const std::string& topic) {
-    return node_->set_parameter({"depth_topic", topic}).successful;
-  };
-  EXPECT_FALSE(listens_to("/other"));
   node_->deactivate();
   EXPECT_FALSE(labels_of(2, 5s));
-  EXPECT_FALSE(listens_to("/other"));
   node_->cleanup();
   EXPECT_TRUE(spin_until([&] { return labels_->get_publisher_count() == 0; }));
-  EXPECT_TRUE(listens_to("/other"));
-  EXPECT_TRUE(node_->set_parameter({"poses", "none"}).successful);
-  EXPECT_EQ(node_->configure().id(), State::PRIMARY_STATE_UNCONFIGURED) << "there is no such value";
-  EXPECT_TRUE(node_->set_parameter({"poses", "joints"}).successful);
-  EXPECT_EQ(node_->configure().id(), State::PRIMARY_STATE_INACTIVE);
-  EXPECT_EQ(node_->activate().id(), State::PRIMARY_STATE_ACTIVE);
-  EXPECT_TRUE(spin_until([&] { return player_->node->count_subscribers("/other") == 1; }));
-  node_->deactivate();
-  node_->cleanup();
-  EXPECT_TRUE(listens_to("depth/image"));
+  EXPECT_TRUE(node_->set_parameter({"publish", std::vector<std::string>{"labels"}}).successful);
   node_->configure();
-  node_->activate();
+  EXPECT_FALSE(labels_of(2, 5s));
+  EXPECT_EQ(node_->activate().id(), State::PRIMARY_STATE_ACTIVE);
   EXPECT_TRUE(spin_until([&] { return player_->is_heard(); }));
   EXPECT_TRUE(labels_of(3));
   EXPECT_EQ(node_->shutdown().id(), State::PRIMARY_STATE_FINALIZED);
 
   const PenumbraNode waiting(options({{"autostart", false}}));
   EXPECT_EQ(waiting.get_current_state().id(), State::PRIMARY_STATE_UNCONFIGURED);
+}
+
+TEST_F(NodeTest, ReadsItsParametersWhenItIsConfigured) {
+  using lifecycle_msgs::msg::State;
+  start();
+  EXPECT_FALSE(node_->set_parameter({"depth_topic", "/other"}).successful);
+  node_->deactivate();
+  EXPECT_FALSE(node_->set_parameter({"depth_topic", "/other"}).successful);
+  node_->cleanup();
+  EXPECT_TRUE(node_->set_parameter({"depth_topic", "/other"}).successful);
+  EXPECT_TRUE(node_->set_parameter({"poses", "none"}).successful);
+  EXPECT_EQ(node_->configure().id(), State::PRIMARY_STATE_UNCONFIGURED) << "there is no such value";
+  EXPECT_TRUE(node_->set_parameter({"poses", "joints"}).successful);
+  EXPECT_EQ(node_->configure().id(), State::PRIMARY_STATE_INACTIVE);
+  EXPECT_EQ(node_->activate().id(), State::PRIMARY_STATE_ACTIVE);
+  EXPECT_TRUE(spin_until([&] { return player_->node->count_subscribers("/other") == 1; }));
 }
 
 TEST_F(NodeTest, HoldsAJointOfNoTopicAndReadsOtherNamesAndUnits) {
@@ -236,11 +249,39 @@ TEST_F(NodeTest, LooksAheadAtMotions) {
 
   auto unknown = turn(0.0);
   unknown.joint_names = {"no_joint"};
-  const auto refused = ask({turn(0.3), unknown});
-  ASSERT_TRUE(refused);
-  EXPECT_FALSE(refused->success);
-  EXPECT_NE(refused->message.find("trajectories[1]"), std::string::npos) << refused->message;
+  for (const auto& [motions, word] :
+       {std::pair{std::vector{turn(0.3), unknown}, "trajectories[1]"},
+        std::pair{std::vector<trajectory_msgs::msg::JointTrajectory>(), "no trajectories"}}) {
+    const auto refused = ask(motions);
+    ASSERT_TRUE(refused);
+    EXPECT_FALSE(refused->success);
+    EXPECT_TRUE(refused->forecasts.empty());
+    EXPECT_NE(refused->message.find(word), std::string::npos) << refused->message;
+  }
   EXPECT_TRUE(labels_of(1)) << "images are judged as before";
+}
+
+TEST_F(NodeTest, ForecastsAPlanThatIsPublished) {
+  start({{"target_topics", std::vector<std::string>{"/boxes"}},
+         {"plan_topics", std::vector<std::string>{"/plan"}}});
+  const auto plan =
+      player_->node->create_publisher<trajectory_msgs::msg::JointTrajectory>("/plan", 10);
+  std::map<std::string, penumbra_msgs::msg::Target> heard;
+  const auto targets = player_->node->create_subscription<penumbra_msgs::msg::Targets>(
+      "/penumbra/targets", 10, [&](penumbra_msgs::msg::Targets::ConstSharedPtr message) {
+        for (const auto& target : message->targets) heard[target.name] = target;
+      });
+  ASSERT_TRUE(spin_until(
+      [&] { return plan->get_subscription_count() > 0 && targets->get_publisher_count() > 0; }));
+  const auto& can = heard["/boxes/can"];
+  EXPECT_TRUE(spin_until([&] { return labels_of(0) && can.verdict != can.UNKNOWN; }));
+  EXPECT_EQ(can.forecast_seconds, 0) << "there is no plan";
+  plan->publish(turn(0.3));
+  ASSERT_TRUE(spin_until([&] { return labels_of(0) && can.forecast_seconds > 0; }));
+  EXPECT_NEAR(can.forecast_seconds, 2.0, 0.1);
+  // The can has no expected depth: what the arm passes is unknown, with the reason.
+  EXPECT_TRUE(std::isnan(can.hidden_in));
+  EXPECT_NE(can.forecast_reason, "");
 }
 
 TEST_F(NodeTest, HandledTargetsAreDetectionsAndFrames) {
@@ -264,6 +305,44 @@ TEST_F(NodeTest, HandledTargetsAreDetectionsAndFrames) {
   }));
   EXPECT_EQ(detected, "/boxes/can");
   EXPECT_EQ(frame, "boxes/can");
+}
+
+/// Keeps where the pixels of the judged images lie.
+class AddressWatcher final : public penumbra::io::FrameWatcher, public penumbra::io::ResultSink {
+ public:
+  [[nodiscard]] bool wants_color() const override { return false; }
+  void take(const penumbra::io::AssembledFrame& job, const penumbra::FrameReport& /*report*/,
+            const penumbra::Drift& /*drift*/) override {
+    address = job.image.image->data.data();
+  }
+  [[nodiscard]] bool wants(penumbra::io::Result /*result*/) const override { return false; }
+  void write(penumbra::io::Result /*result*/, std::int64_t /*stamp*/,
+             std::span<const std::byte> /*payload*/) override {}
+
+  std::atomic<const void*> address = nullptr;
+};
+
+TEST_F(NodeTest, DepthOfTheSameProcessIsNotCopied) {
+  Player player(example, true);
+  const auto node = std::make_shared<rclcpp_lifecycle::LifecycleNode>("penumbra", options());
+  const Settings settings = read_settings(*node);
+  AddressWatcher watcher;
+  penumbra::io::LiveRunner runner(settings.live, settings.pipeline, {&watcher});
+  runner.watch(0, watcher);
+  Inputs inputs(*node, runner);
+  inputs.follow(false, true);
+  runner.start();
+  executor_->add_node(node->get_node_base_interface());
+  executor_->add_node(player.node);
+  ASSERT_TRUE(spin_until([&] { return player.is_heard(); }));
+  std::int64_t later = 0;
+  const void* published = nullptr;
+  EXPECT_TRUE(spin_until([&] {
+    published = player.play(0, later += 1'000'000'000);
+    return spin_until([&] { return watcher.address != nullptr; }, 1s);
+  }));
+  EXPECT_EQ(watcher.address.load(), published);
+  runner.stop();
 }
 
 TEST_F(NodeTest, ImagesAreReliableWhereAllPublishersAre) {
@@ -316,7 +395,7 @@ TEST_F(NodeTest, ServesSeveralCamerasAndClouds) {
   const Parameters several{{"cameras.left.depth_topic", "depth/image"},
                            {"cameras.right.depth_topic", "depth/image"},
                            {"clouds", std::vector<std::string>{"points tolerance=0.03,0,0"}}};
-  player_ = std::make_unique<Player>(example);
+  player_ = std::make_unique<Player>(example, true);
   node_ = std::make_shared<PenumbraNode>(options(several));
   executor_->add_node(player_->node);
   executor_->add_node(node_->get_node_base_interface());

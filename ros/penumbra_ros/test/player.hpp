@@ -27,9 +27,9 @@ using sensor_msgs::msg::Image;
 /// Publishes the frames of the shipped recording as a robot's and a camera's drivers do.
 class Player {
  public:
-  explicit Player(const std::string& folder)
-      : node(std::make_shared<rclcpp::Node>("player",
-                                            rclcpp::NodeOptions().use_intra_process_comms(true))),
+  Player(const std::string& folder, bool intra_process)
+      : node(std::make_shared<rclcpp::Node>(
+            "player", rclcpp::NodeOptions().use_intra_process_comms(intra_process))),
         recording(penumbra::io::Recording::open(folder)),
         robot(recording.load_robot()),
         reader(recording, robot) {
@@ -71,8 +71,9 @@ class Player {
            info_->get_subscription_count() > 0;
   }
 
-  /// Publishes a frame `later` nanoseconds after its recorded stamp.
-  void play(std::size_t index, std::int64_t later = 0) {
+  /// Publishes a frame `later` nanoseconds after its recorded stamp. Returns the address of its
+  /// pixels.
+  const void* play(std::size_t index, std::int64_t later = 0) {
     const penumbra::Frame data = reader.read(index, false);
     const rclcpp::Time stamp(*data.stamp + later);
     sensor_msgs::msg::JointState joints;
@@ -104,6 +105,7 @@ class Player {
     image->step = 2 * image->width;
     const auto* first = reinterpret_cast<const std::uint8_t*>(pixels.data);
     image->data.assign(first, first + image->step * image->height);
+    const void* address = image->data.data();
     vision_msgs::msg::Detection2DArray boxes;
     boxes.header = info.header;
     auto& box = boxes.detections.emplace_back();  // of a can on the table
@@ -115,6 +117,7 @@ class Player {
     detections_->publish(boxes);
     if (points_->get_subscription_count() > 0) points_->publish(points_of(info.header, pixels));
     depth_->publish(std::move(image));
+    return address;
   }
 
   /// Returns the depth image's points, in rows as it has them; NaN where it has no depth.
