@@ -196,10 +196,10 @@ export const overflow = (page) =>
 
 /** Returns the visible buttons and choices that are smaller than a finger, 44 pixels. */
 export const smallButtons = (page) =>
-  page
-    .locator('button:visible, select:visible, label:has(input):visible')
-    .evaluateAll((nodes) =>
-      nodes
-        .filter(({ offsetWidth, offsetHeight }) => offsetWidth < 44 || offsetHeight < 44)
-        .map((node) => `${node.textContent} ${node.offsetWidth} x ${node.offsetHeight}`),
-    );
+  page.evaluate(() =>
+    // At one moment: a list that is drawn anew has no sizes.
+    [...document.querySelectorAll('button, select, label:has(input)')]
+      .filter((node) => node.checkVisibility({ checkVisibilityCSS: true }))
+      .filter(({ offsetWidth, offsetHeight }) => offsetWidth < 44 || offsetHeight < 44)
+      .map((node) => `${node.textContent} ${node.offsetWidth} x ${node.offsetHeight}`),
+  );
