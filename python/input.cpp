@@ -144,6 +144,7 @@ void bind_bag_options(py::module_& m) {
       Field{"poses", &B::poses, "None: joints, or transforms if there are no joint states."},
       Field{"robot", &B::robot, "URDF in place of /robot_description."},
       Field{"packages", &B::packages, "package://NAME to its folder."},
+      Field{"arguments", &B::arguments, "Of a xacro file: name to value."},
       Field{"frame_prefix", &B::frame_prefix, "Before link names in tf, without a leading /."},
       Field{"camera_frame", &B::camera_frame, "In place of the images' frame_id."},
       Field{"parent", &B::parent, "Link that the camera sits on."},

@@ -94,6 +94,7 @@ void bind_options(py::module_& m) {
   using O = RobotOptions;
   bind_fields(
       options, Field{"packages", &O::packages, "package://NAME to its folder."},
+      Field{"arguments", &O::arguments, "Of a xacro file: name to value."},
       Field{"geometry", &O::geometry,
             "Which geometry is drawn; None: collision, and visual for links that have no other."},
       Field{"geometry_of_links", &O::geometry_of_links, "By pattern, in place of geometry."},

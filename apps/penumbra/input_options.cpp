@@ -122,7 +122,7 @@ void add_bag_robot(CLI::App& app, io::BagOptions& bag, const BagHelp& help) {
            });
   for (const char* const of_one : {"--robot", "--joint-topic"})
     app.get_option("--robot-namespace")->excludes(app.get_option(of_one));
-  add_packages(app, bag.packages);
+  add_packages(app, bag.packages, bag.arguments);
   add_option(app, "--frame-prefix",
              "before link names in tf, as robot_state_publisher's frame_prefix: left/", "TEXT",
              [&](const std::string& text) {

@@ -68,6 +68,7 @@ io::LiveOptions live_options(const LiveArguments& arguments, const io::NameResol
   options.points = arguments.points;
   options.points_rate = arguments.points_rate;
   options.robot.robot.packages = topics.packages;
+  options.robot.robot.arguments = topics.arguments;
   arguments.session.input.apply_to(options.robot.robot);
   options.robot.compare_sources = !topics.first_publisher;
   options.robot.joint_names = topics.joint_names;

@@ -30,7 +30,8 @@ std::pair<std::string, std::string> to_pair(const std::string& option, const std
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& packages) {
+void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& packages,
+                  std::map<std::string, std::string>& arguments) {
   const auto take = [&packages](const std::string& text) {
     const auto [name, folder] = to_pair("--package", text, "NAME=DIR");
     std::error_code error;
@@ -41,10 +42,18 @@ void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& p
   };
   add_list(app, "--package", "where package://NAME is; may be given several times", "NAME=DIR",
            take);
+  add_list(app, "--arg", "an argument of a xacro file; may be given several times", "NAME:=VALUE",
+           [&arguments](const std::string& text) {
+             const std::size_t colon = text.find(":=");
+             if (colon == 0 || colon == std::string::npos)
+               refuse_option("--arg", text, "NAME:=VALUE");
+             if (!arguments.emplace(text.substr(0, colon), text.substr(colon + 2)).second)
+               throw InputError("--arg " + text + ": the argument is given twice");
+           });
 }
 
 void add_robot(CLI::App& app, RobotOptions& options) {
-  add_packages(app, options.packages);
+  add_packages(app, options.packages, options.arguments);
   add_drawn(app, options, "collision");
 }
 

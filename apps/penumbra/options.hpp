@@ -111,7 +111,8 @@ CLI::Option* add_choice(CLI::App& app, const std::string& names, const std::stri
 }
 
 // Options that several commands have.
-void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& packages);
+void add_packages(CLI::App& app, std::map<std::string, std::filesystem::path>& packages,
+                  std::map<std::string, std::string>& arguments);
 void add_renderer(CLI::App& app, Backend& backend, RendererOptions& renderer);
 void add_links(CLI::App& app, std::vector<ExtraMesh>& extra,
                std::vector<std::string>& ignore_links);

@@ -27,6 +27,7 @@ struct BagOptions {
   std::optional<PoseSource> poses;             ///< nothing: joints, or tf where there are none
   std::optional<std::filesystem::path> robot;  ///< in place of /robot_description
   std::map<std::string, std::filesystem::path> packages;
+  std::map<std::string, std::string> arguments;  ///< of a xacro file
   /// Of several robots: NS/robot_description, NS/joint_states, frames NS/LINK; empty: one robot.
   std::vector<std::string> robot_namespaces;
   std::string frame_prefix;                   ///< before link names in tf, without a leading "/"

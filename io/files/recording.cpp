@@ -50,6 +50,9 @@ RobotOptions robot_options_of(const YamlNode& robot, const std::filesystem::path
   RobotOptions options;
   if (const YamlNode* packages = robot.find("packages"))
     options.packages = packages_of(*packages, folder);
+  if (const YamlNode* arguments = robot.find("arguments"))
+    for (const YamlNode& argument : arguments->entries())
+      options.arguments.emplace(argument.key(), argument.text());
   if (const YamlNode* geometry = robot.find("geometry")) {
     if (!geometry->is_map())
       options.geometry = geometry_of(*geometry);
@@ -77,8 +80,8 @@ RobotOptions robot_options_of(const YamlNode& robot, const std::filesystem::path
 }
 
 RecordedRobot robot_of(const YamlNode& robot, const std::filesystem::path& folder) {
-  robot.allow_only({"urdf", "packages", "geometry", "ignore_links", "only_links", "margins",
-                    "joints", "extra", "pose"});
+  robot.allow_only({"urdf", "packages", "arguments", "geometry", "ignore_links", "only_links",
+                    "margins", "joints", "extra", "pose"});
   return {.name = {},
           .urdf = file_of(robot.at("urdf"), folder),
           .options = robot_options_of(robot, folder)};

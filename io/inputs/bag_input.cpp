@@ -143,6 +143,7 @@ std::vector<RunInput> open_bag_clouds(const InputOptions& options, const CloudIn
   reader.read_robot_and_camera();
   RobotOptions robot_options;
   robot_options.packages = options.bag.packages;
+  robot_options.arguments = options.bag.arguments;
   options.apply_to(robot_options);
   const Robot robot = load_robot(options, reader, robot_options);
   const bool is_of_one = options.bag.pose || options.bag.parent || clouds.is_in_other_frame();
@@ -199,6 +200,7 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
   JudgedCameras cameras = cameras_of(options, reader.topics(), reader.scene());
   RobotOptions robot_options;
   robot_options.packages = options.bag.packages;
+  robot_options.arguments = options.bag.arguments;
   options.apply_to(robot_options);
   const Robot robot = load_robot(options, reader, robot_options);
   const CameraMount mount = mount_in_bag(options, reader, robot, cameras.judged.frame_id);

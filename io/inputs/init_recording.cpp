@@ -257,12 +257,10 @@ fs::path robot_file(const InitOptions& options, const std::vector<fs::path>& fil
   if (options.robot) return fs::relative(*options.robot, options.folder);
   std::vector<fs::path> robots;
   for (const fs::path& file : files)
-    if (ends_with(file, {".urdf"})) robots.push_back(file);
+    if (ends_with(file, {".urdf", ".urdf.xacro"})) robots.push_back(file);
   if (robots.empty())
-    throw InputError(
-        options.folder.string() +
-        ": holds no URDF; name the robot's by --robot URDF (of xacro: xacro robot.xacro "
-        "> robot.urdf)");
+    throw InputError(options.folder.string() +
+                     ": holds no URDF or .urdf.xacro; name the robot's by --robot FILE");
   if (robots.size() > 1)
     throw InputError(options.folder.string() + ": holds several URDFs, " + robots[0].string() +
                      " and " + robots[1].string() + "; choose one by --robot");
@@ -286,10 +284,12 @@ void check_folder(const InitOptions& options) {
 void write_robot(Draft& draft, const InitOptions& options, const fs::path& urdf) {
   draft.line("robot:");
   draft.value("urdf", urdf.string());
-  if (options.packages.empty()) return;
-  draft.line("  packages:");
+  if (!options.packages.empty()) draft.line("  packages:");
   for (const auto& [name, folder] : options.packages)
     draft.line("    " + name + ": " + yaml_text(fs::relative(folder, options.folder).string()));
+  if (!options.arguments.empty()) draft.line("  arguments:");
+  for (const auto& [name, value] : options.arguments)
+    draft.line("    " + yaml_text(name) + ": " + yaml_text(value));
 }
 
 /// Returns whether there is a pose.
@@ -387,6 +387,7 @@ InitResult init_recording(const InitOptions& options) {
   const fs::path urdf = robot_file(options, files);
   RobotOptions robot_options;
   robot_options.packages = options.packages;
+  robot_options.arguments = options.arguments;
   robot_options.allow_missing_meshes = true;
   const Robot robot = Robot::load(options.folder / urdf, robot_options);
   Draft draft;

@@ -13,7 +13,8 @@ struct InitOptions {
   std::filesystem::path folder;
   std::optional<std::filesystem::path> robot = {};  ///< the URDF; null: the one in the folder
   std::map<std::string, std::filesystem::path> packages = {};
-  bool force = false;  ///< replace a recording.yaml
+  std::map<std::string, std::string> arguments = {};  ///< of a xacro file
+  bool force = false;                                 ///< replace a recording.yaml
 };
 
 /// What init_recording did.

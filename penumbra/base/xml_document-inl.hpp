@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,12 +16,14 @@ struct XmlAttribute {
 /// An element of an XML file, without comments and processing instructions.
 struct XmlElement {
   std::string name;
+  std::shared_ptr<const std::string> file;  ///< for messages
   int line = 0;
   std::vector<XmlAttribute> attributes;
   std::vector<XmlElement> children;
   std::string text;  ///< all text between the children, joined with spaces
 
   [[nodiscard]] const std::string* attribute(std::string_view key) const;
+  [[nodiscard]] std::string place() const { return *file + ":" + std::to_string(line); }
 };
 
 /// Reads well-formed XML with one root element, nested no deeper than tinyxml2 allows. Throws

@@ -44,6 +44,11 @@ fs::path existing(const fs::path& folder, std::string_view rest) {
   return is_file(as_written) ? as_written : folder / decoded(rest);
 }
 
+/// Whether a package's folder has the file; without a name, whether it is a folder.
+bool has_file(const fs::path& folder, const fs::path& file) {
+  return file.empty() ? is_folder(folder) : is_file(existing(folder, file.string()));
+}
+
 /// Returns the folders in an environment variable, which are separated by ':'.
 std::vector<fs::path> folders_in(const char* variable) {
   std::vector<fs::path> folders;
@@ -145,8 +150,9 @@ const fs::path& FileLocator::package_folder(const std::string& name, const fs::p
   const auto [folder, how] = search(name, file);
   if (folder.empty())
     throw InputError("package " + in_quotes(name) + " was not found by AMENT_PREFIX_PATH, by " +
-                     "ROS_PACKAGE_PATH, or next to or above the URDF with " + file.string() +
-                     " in it; give its folder: --package " + name + "=DIR");
+                     "ROS_PACKAGE_PATH, or next to or above the URDF" +
+                     (file.empty() ? "" : " with " + file.string() + " in it") +
+                     "; give its folder: --package " + name + "=DIR");
   notes_.push_back("package " + name + ": taken from " + folder.string() + " (" + how + ")");
   return packages_[name] = folder;
 }
@@ -160,13 +166,12 @@ std::pair<fs::path, std::string> FileLocator::search(const std::string& name,
                                                            {"IGN_GAZEBO_RESOURCE_PATH", name}};
   for (const auto& [variable, below] : variables)
     for (const fs::path& prefix : folders_in(variable))
-      if (is_file(existing(prefix / below, file.string())))
-        return {prefix / below, std::string("by ") + variable};
+      if (has_file(prefix / below, file)) return {prefix / below, std::string("by ") + variable};
   for (const fs::path& near : folders_near(folder_, name))
-    if (is_file(existing(near, file.string()))) return {near, "found next to or above the URDF"};
+    if (has_file(near, file)) return {near, "found next to or above the URDF"};
   // Folders of several models have files of the same names.
   const std::vector<fs::path> in_meshes = folders_in_meshes(folder_, name);
-  if (in_meshes.size() == 1 && is_file(existing(in_meshes.front(), file.string())))
+  if (in_meshes.size() == 1 && has_file(in_meshes.front(), file))
     return {in_meshes.front(), "no package has this name; found in the URDF's own"};
   return {};
 }

@@ -10,8 +10,8 @@
 
 namespace penumbra::detail {
 
-/// Finds the files that a URDF names: package://NAME/..., model://NAME/..., file://..., and paths
-/// relative to the URDF's folder.
+/// Finds the files that a robot description names: package://NAME/..., model://NAME/...,
+/// file://..., and paths relative to the URDF's folder.
 ///
 /// A package that was not given is searched in AMENT_PREFIX_PATH, ROS_PACKAGE_PATH and Gazebo's
 /// model paths, then next to the URDF and next to each folder above it. If it is nowhere, NAME may
@@ -24,6 +24,11 @@ class FileLocator {
   /// Returns the file's path, which exists. Throws InputError that names the URI, the places that
   /// were searched and a remedy.
   [[nodiscard]] std::filesystem::path locate(const std::string& uri);
+
+  /// Returns a package's folder. Throws InputError likewise.
+  [[nodiscard]] const std::filesystem::path& find_package(const std::string& name) {
+    return package_folder(name, "");
+  }
 
   /// One line for each package that was found by a search.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }

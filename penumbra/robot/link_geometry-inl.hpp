@@ -23,10 +23,8 @@ struct LinkGeometry {
 /// Makes the triangles of links. Reads each mesh file once.
 class GeometryLoader {
  public:
-  GeometryLoader(const std::filesystem::path& folder, const RobotOptions& options)
-      : locator_(folder, options.packages),
-        allow_missing_(options.allow_missing_meshes),
-        extra_(options.extra) {}
+  GeometryLoader(FileLocator& locator, const RobotOptions& options)
+      : locator_(locator), allow_missing_(options.allow_missing_meshes), extra_(options.extra) {}
 
   /// Returns the chosen geometry of a link and its extra meshes, margin included. Throws InputError
   /// that names link, file and reason for geometry that cannot be loaded, unless missing meshes are
@@ -43,7 +41,7 @@ class GeometryLoader {
   PreparedMesh make_mesh(const UrdfElement& element, double margin, std::string& source);
   const TriangleMesh& read_file(const std::filesystem::path& file);
 
-  FileLocator locator_;
+  FileLocator& locator_;
   bool allow_missing_;
   std::vector<ExtraMesh> extra_;
   std::map<std::filesystem::path, TriangleMesh> files_;

@@ -14,6 +14,7 @@
 #include <penumbra/robot/link_geometry-inl.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/robot/robot_tree-inl.hpp>
+#include <penumbra/robot/xacro-inl.hpp>
 
 namespace penumbra {
 namespace {
@@ -187,14 +188,23 @@ Matrix3d plane_axes(const Vector3d& normal) {
   return axes;
 }
 
+/// Reads a URDF or xacro text.
+static detail::Urdf read_description(std::string_view xml, const std::string& file,
+                                     const fs::path& folder, const RobotOptions& options,
+                                     detail::FileLocator& packages) {
+  const detail::XmlElement root = detail::read_xml(xml, file);
+  return detail::read_urdf(detail::expand_xacro(root, folder, options.arguments, packages));
+}
+
 std::unique_ptr<Robot::Model> Robot::make_model(std::string_view xml, const std::string& file,
                                                 const fs::path& folder,
                                                 const RobotOptions& options) {
-  const detail::Urdf urdf = detail::read_urdf(xml, file);
+  detail::FileLocator locator(folder, options.packages);
+  const detail::Urdf urdf = read_description(xml, file, folder, options, locator);
   detail::RobotTree tree = detail::build_tree(urdf);
   hold_joints(file, options.joints, tree);
   const auto choices = detail::choose_links(urdf, options);
-  detail::GeometryLoader loader(folder, options);
+  detail::GeometryLoader loader(locator, options);
 
   auto model = std::make_unique<Model>();
   model->name = urdf.name;

@@ -30,6 +30,7 @@ struct ExtraMesh {
 /// error, and so is a pattern that matches no link.
 struct RobotOptions {
   std::map<std::string, std::filesystem::path> packages = {};  ///< package://NAME -> folder
+  std::map<std::string, std::string> arguments = {};           ///< of a xacro file, name -> value
   /// Null: collision, and visual for links that have no other, which a note lists.
   std::optional<Geometry> geometry = {};
   std::map<std::string, Geometry> geometry_of_links = {};  ///< pattern -> overrides `geometry`

@@ -3,12 +3,12 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include <penumbra/base/xml_document-inl.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra::detail {
@@ -76,8 +76,8 @@ struct Urdf {
   std::vector<std::string> warnings;  // one line each
 };
 
-/// Reads the text of a URDF. Throws InputError that names file, line and element; faults of visual
-/// and collision elements are stored in the element instead.
-[[nodiscard]] Urdf read_urdf(std::string_view xml, const std::string& file);
+/// Reads a URDF. Throws InputError that names file, line and element; faults of visual and
+/// collision elements are stored in the element instead.
+[[nodiscard]] Urdf read_urdf(const XmlElement& root);
 
 }  // namespace penumbra::detail

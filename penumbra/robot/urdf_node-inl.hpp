@@ -23,17 +23,13 @@ struct ElementRule {
   std::string_view children = {}, ignored_children = {};
 };
 
-/// A URDF file while it is read.
-struct UrdfFile {
-  std::string name;
-  std::map<std::string, std::string> warnings;  ///< one line for each kind of unknown content
-};
+using UrdfWarnings = std::map<std::string, std::string>;  ///< kind of unknown content -> a line
 
 /// An element of a URDF. Every function throws InputError that names file, line and element.
 class UrdfNode {
  public:
-  UrdfNode(const XmlElement& xml, UrdfFile& file, std::string where)
-      : xml_(&xml), file_(&file), where_(std::move(where)) {}
+  UrdfNode(const XmlElement& xml, UrdfWarnings& warnings, std::string where)
+      : xml_(&xml), warnings_(&warnings), where_(std::move(where)) {}
 
   [[nodiscard]] const std::string& name() const { return xml_->name; }
   [[nodiscard]] std::string place() const;  ///< file, line and element, for messages
@@ -56,7 +52,9 @@ class UrdfNode {
   void numbers(std::string_view key, std::span<double> out) const;
 
   /// Returns the element under a longer name for messages: link "base".
-  [[nodiscard]] UrdfNode named(const std::string& where) const { return {*xml_, *file_, where}; }
+  [[nodiscard]] UrdfNode named(const std::string& where) const {
+    return {*xml_, *warnings_, where};
+  }
 
   [[noreturn]] void fail(const std::string& what) const;
 
@@ -65,7 +63,7 @@ class UrdfNode {
                   std::string_view ignored) const;
 
   const XmlElement* xml_;
-  UrdfFile* file_;
+  UrdfWarnings* warnings_;
   std::string where_;
 };
 

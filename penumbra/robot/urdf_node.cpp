@@ -67,30 +67,17 @@ std::optional<std::string_view> similar_name(std::string_view read, std::string_
   return std::nullopt;
 }
 
-bool is_macro_text(std::string_view text) {
-  return text.find("${") != std::string_view::npos || text.find("$(") != std::string_view::npos;
-}
-
-constexpr const char* expand_xacro =
-    "this is a xacro file, not a URDF; expand it first: xacro FILE.urdf.xacro > FILE.urdf";
-
 }  // namespace
 
 void UrdfNode::expect(const ElementRule& rule) const {
-  for (const auto& [key, value] : xml_->attributes) {
-    if (key.starts_with("xacro:") || is_macro_text(value))
-      fail("attribute " + key + "=" + in_quotes(value) + ": " + expand_xacro);
-    check_name("attribute " + in_quotes(key), key, rule.attributes, rule.ignored_attributes);
-  }
+  for (const XmlAttribute& a : xml_->attributes)
+    check_name("attribute " + in_quotes(a.name), a.name, rule.attributes, rule.ignored_attributes);
   for (const XmlElement& c : xml_->children) {
-    const UrdfNode child(c, *file_, where_);
-    if (c.name.starts_with("xacro:")) child.fail("<" + c.name + ">: " + expand_xacro);
+    const UrdfNode child(c, *warnings_, where_);
     child.check_name("element " + in_quotes(c.name), c.name, rule.children, rule.ignored_children);
   }
-  if (is_macro_text(xml_->text)) fail("text " + in_quotes(xml_->text) + ": " + expand_xacro);
   if (!xml_->text.empty())
-    file_->warnings.try_emplace("text",
-                                place() + ": text " + in_quotes(xml_->text) + " is ignored");
+    warnings_->try_emplace("text", place() + ": text " + in_quotes(xml_->text) + " is ignored");
 }
 
 void UrdfNode::check_name(const std::string& what, std::string_view name, std::string_view read,
@@ -100,14 +87,14 @@ void UrdfNode::check_name(const std::string& what, std::string_view name, std::s
   if (is_extension(name) || contains(read, name) || contains(ignored, name)) return;
   if (const auto known = similar_name(read, name))
     fail("unknown " + what + "; is " + in_quotes(std::string(*known)) + " meant?");
-  file_->warnings.try_emplace(what, place() + ": unknown " + what + " is ignored");
+  warnings_->try_emplace(what, place() + ": unknown " + what + " is ignored");
 }
 
 std::vector<UrdfNode> UrdfNode::children() const {
   std::vector<UrdfNode> nodes;
   nodes.reserve(xml_->children.size());
   for (const XmlElement& c : xml_->children)
-    nodes.emplace_back(c, *file_, where_.empty() ? c.name : where_ + ", " + c.name);
+    nodes.emplace_back(c, *warnings_, where_.empty() ? c.name : where_ + ", " + c.name);
   return nodes;
 }
 
@@ -174,8 +161,7 @@ void UrdfNode::numbers(std::string_view key, std::span<double> out) const {
 }
 
 std::string UrdfNode::place() const {
-  return file_->name + ":" + std::to_string(xml_->line) + ": " +
-         (where_.empty() ? xml_->name : where_);
+  return xml_->place() + ": " + (where_.empty() ? xml_->name : where_);
 }
 
 void UrdfNode::fail(const std::string& what) const { throw InputError(place() + ": " + what); }

@@ -190,35 +190,23 @@ UrdfJoint read_joint(const UrdfNode& unnamed) {
   return joint;
 }
 
-// Also searches ignored elements: a file with a macro anywhere is not expanded. Expanded files
-// often keep xmlns:xacro.
-void refuse_xacro(const XmlElement& xml, UrdfFile& file) {
-  if (xml.name.starts_with("xacro:"))
-    UrdfNode(xml, file, "")
-        .fail(
-            "this is a xacro file, not a URDF; expand it first: xacro FILE.urdf.xacro > FILE.urdf");
-  for (const XmlElement& child : xml.children) refuse_xacro(child, file);
-}
-
 }  // namespace
 
-Urdf read_urdf(std::string_view xml, const std::string& file) {
-  const XmlElement root = read_xml(xml, file);
-  UrdfFile source{file, {}};
-  const UrdfNode node(root, source, "");
+Urdf read_urdf(const XmlElement& root) {
+  UrdfWarnings warnings;
+  const UrdfNode node(root, warnings, "");
   if (root.name != "robot")
     node.fail("the file's root is <" + root.name + ">; a URDF's is <robot>");
-  refuse_xacro(root, source);
   node.expect({"name version", "", "link joint",
                "material transmission gazebo ros2_control sensor mujoco"});
   if (node.has("version") && !node.text("version").starts_with("1"))
     node.fail("version=" + in_quotes(node.text("version")) + " is unknown; expected 1.0");
-  Urdf urdf{file, node.identifier(), {}, {}, {}};
+  Urdf urdf{*root.file, node.identifier(), {}, {}, {}};
   for (const UrdfNode& child : node.children()) {
     if (child.name() == "link") urdf.links.push_back(read_link(child));
     if (child.name() == "joint") urdf.joints.push_back(read_joint(child));
   }
-  for (auto& [kind, line] : source.warnings) urdf.warnings.push_back(std::move(line));
+  for (auto& [kind, line] : warnings) urdf.warnings.push_back(std::move(line));
   return urdf;
 }
 

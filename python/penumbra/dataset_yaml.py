@@ -91,7 +91,7 @@ CAMERA_KEYS = (
     "sensor",
     "depth_scale",
 )
-ROBOT_KEYS = ("urdf", "packages", "geometry", "geometry_fallback", "ignore_links")
+ROBOT_KEYS = ("urdf", "packages", "arguments", "geometry", "geometry_fallback", "ignore_links")
 
 
 def read(file: pathlib.Path) -> dict[str, Any]:
@@ -144,6 +144,7 @@ def _arguments(root: dict[str, Any], folder: pathlib.Path) -> dict[str, Any]:
 def _robot(node: dict[str, Any], folder: pathlib.Path) -> Robot:
     options = RobotOptions(
         packages={name: folder / at for name, at in node.get("packages", {}).items()},
+        arguments={name: str(value) for name, value in node.get("arguments", {}).items()},
         geometry=Geometry(node["geometry"]) if "geometry" in node else None,
         geometry_fallback=node.get("geometry_fallback", False),
         ignore_links=node.get("ignore_links", []),

@@ -254,6 +254,7 @@ def _robot_keys(options: RobotOptions) -> Dict[str, Any]:
         geometry = {"*": options.geometry.name, **geometry} if geometry else options.geometry.name
     keys = {
         "packages": {name: os.path.abspath(at) for name, at in options.packages.items()},
+        "arguments": dict(options.arguments),
         "geometry": geometry,
         "ignore_links": list(options.ignore_links),
         "joints": dict(options.joints),

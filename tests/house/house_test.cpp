@@ -128,7 +128,7 @@ const std::map<std::string, Names>& libraries() {
       {"penumbra/render", words("meshoptimizer.h hwy/")},
       {"penumbra/labels", words("hwy/")},
       {"penumbra/render/gl", words("epoxy/egl.h dlfcn.h epoxy/gl.h")},
-      {"penumbra/robot", words("fnmatch.h")},
+      {"penumbra/robot", words("fnmatch.h glob.h yaml-cpp/")},
       {"io/files", words("fnmatch.h spawn.h yaml-cpp/ png.h jpeglib.h jerror.h tiffio.h OpenEXR/ "
                          "libdeflate.h")},
       {"apps", words("malloc.h CLI/")},

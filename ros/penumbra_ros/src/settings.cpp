@@ -143,6 +143,9 @@ penumbra::RobotOptions declare_robot(Declaration& declare) {
            "packages",
            "NAME=DIR: where package://NAME is, if the ament index does not have the package"))
     robot.packages[name] = folder;
+  for (const auto& [name, value] :
+       declare.pairs("arguments", "NAME=VALUE: arguments of the robot's xacro file"))
+    robot.arguments[name] = value;
   robot.geometry = declare.choice<std::optional<Geometry>>(
       "geometry", "",
       {{"", std::nullopt}, {"collision", Geometry::collision}, {"visual", Geometry::visual}},
@@ -410,7 +413,8 @@ Settings read_settings(rclcpp_lifecycle::LifecycleNode& node) {
   declare_clouds(node, declare, common, settings);
   declare_cameras(node, common, settings);
   check_names(node, settings);
-  const auto urdf = declare("robot", std::string(), "URDF file, in place of robot_description");
+  const auto urdf =
+      declare("robot", std::string(), "URDF or xacro file, in place of robot_description");
   if (!urdf.empty())
     settings.live.robot.given = penumbra::Robot::load(urdf, settings.live.robot.robot);
 

@@ -1,0 +1,608 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <deque>
+#include <set>
+
+#include <glob.h>
+
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/text.hpp>
+#include <penumbra/base/whole_file-inl.hpp>
+#include <penumbra/robot/xacro-inl.hpp>
+
+namespace penumbra::detail {
+namespace {
+
+namespace fs = std::filesystem;
+using Block = std::shared_ptr<const XmlElement>;
+
+/// A parameter of a macro, with a default if it has one.
+struct Parameter {
+  std::string name;       // "*name": an element; "**name": an element's content
+  bool forwards = false;  // ^: by default the caller's property of that name
+  std::optional<std::string> value = {};
+};
+
+struct Macro {
+  Block body;
+  std::vector<Parameter> parameters;
+};
+
+/// A property. Text with expressions is evaluated when it is used.
+struct Property {
+  Value value;
+  bool is_evaluated = true;
+  bool is_in_use = false;  // being evaluated
+};
+
+/// Returns the number, truth or text that a property's text stands for.
+Value literal(Value value) {
+  const auto* text = value.as<std::string>();
+  if (text == nullptr) return value;
+  if (text->size() >= 2 && text->front() == '\'' && text->back() == '\'')
+    return text->substr(1, text->size() - 2);
+  if (text->find('_') != std::string::npos) return value;
+  if (const auto integer = parse_integer(*text)) return *integer;
+  if (const auto number = parse_float(*text)) return *number;
+  if (*text == "true" || *text == "True") return true;
+  if (*text == "false" || *text == "False") return false;
+  return value;
+}
+
+/// Fails for lists of lists of lists..., which one file after another could make.
+void check_depth(const Value& value, int deepest = 50) {
+  if (deepest == 0) throw InputError("lists are nested too deeply");
+  if (const List* list = value.list())
+    for (const Value& item : *list) check_depth(item, deepest - 1);
+  if (const Dictionary* dictionary = value.dictionary())
+    for (const auto& [key, item] : *dictionary) check_depth(item, deepest - 1);
+}
+
+bool to_truth(const Value& value) {
+  const Value meant = literal(value);
+  if (meant.as<std::string>() != nullptr)
+    throw InputError(in_quotes(to_text(value)) + " is neither true nor false");
+  return is_true(meant);
+}
+
+/// What does not change the drawn robot.
+bool is_left_out(const std::string& element) {
+  return element == "gazebo" || element == "ros2_control" || element == "transmission";
+}
+
+/// Cuts the first parameter off a macro's list: NAME, NAME:=DEFAULT, NAME:=^|DEFAULT.
+Parameter next_parameter(std::string_view& list) {
+  const auto is_space = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
+  const auto skip_space = [&] {
+    while (!list.empty() && is_space(list.front())) list.remove_prefix(1);
+  };
+  const std::size_t end = std::min(list.find_first_of(" \t\r\n:="), list.size());
+  Parameter parameter{std::string(list.substr(0, end))};
+  list.remove_prefix(end);
+  skip_space();
+  if (!list.starts_with("=") && !list.starts_with(":=")) return parameter;
+  list.remove_prefix(list.front() == ':' ? 2 : 1);
+  skip_space();
+  parameter.forwards = list.starts_with('^');
+  if (parameter.forwards) list.remove_prefix(list.starts_with("^|") ? 2 : 1);
+  std::size_t i = 0;
+  while (i < list.size() && !is_space(list[i])) {
+    const std::string_view rest = list.substr(i);
+    const char closing = rest.starts_with("${")              ? '}'
+                         : rest.starts_with("$(")            ? ')'
+                         : rest[0] == '\'' || rest[0] == '"' ? rest[0]
+                                                             : '\0';
+    const std::size_t close = closing == '\0' ? 0 : rest.find(closing, 1);
+    i += close == std::string_view::npos ? 1 : close + 1;
+  }
+  if (i > 0) parameter.value = list.substr(0, i);
+  list.remove_prefix(i);
+  skip_space();
+  return parameter;
+}
+
+class Expander;
+
+/// Properties, macros and blocks, which hide those of the scopes around it.
+class Scope : public Names {
+ public:
+  Scope(Expander& expander, Scope* parent, bool is_namespace)
+      : expander_(expander), parent_(parent), is_namespace_(is_namespace) {}
+
+  std::optional<Value> find(const std::string& name) override;
+  [[nodiscard]] bool has(const std::string& name) const {
+    return properties_.contains(name) || (parent_ != nullptr && parent_->has(name));
+  }
+  void set(const std::string& name, Value value, bool is_evaluated) {
+    check_depth(value);
+    value = literal(std::move(value));
+    const bool is_text = value.as<std::string>() != nullptr;
+    properties_[name] = {std::move(value), is_evaluated || !is_text};
+  }
+  void remove(const std::string& name) {
+    for (Scope* at = this; at != nullptr; at = at->parent_) at->properties_.erase(name);
+  }
+
+  /// Returns the scope of a property with scope="parent": that of the caller.
+  Scope& caller() {
+    Scope* at = parent_;
+    while (at != nullptr && !is_namespace_ && at->is_namespace_) at = at->parent_;
+    return at == nullptr ? *this : *at;
+  }
+  Scope& top() { return parent_ == nullptr ? *this : parent_->top(); }
+
+  void set_macro(const std::string& name, Macro macro) {
+    macros_[name] = std::make_shared<const Macro>(std::move(macro));
+  }
+  [[nodiscard]] std::shared_ptr<const Macro> find_macro(const std::string& name) const {
+    if (const auto found = macros_.find(name); found != macros_.end()) return found->second;
+    return parent_ == nullptr || is_namespace_ ? nullptr : parent_->find_macro(name);
+  }
+
+  void set_block(const std::string& name, Block block) { blocks_[name] = std::move(block); }
+  [[nodiscard]] Block find_block(const std::string& name) const {
+    if (const auto found = blocks_.find(name); found != blocks_.end()) return found->second;
+    return parent_ == nullptr ? nullptr : parent_->find_block(name);
+  }
+
+  /// Returns a namespace of included files.
+  Scope* find_namespace(const std::string& name) {
+    const auto value = find(name);
+    auto* const* names = value ? value->as<Names*>() : nullptr;
+    return names == nullptr ? nullptr : static_cast<Scope*>(*names);
+  }
+
+ private:
+  Expander& expander_;
+  Scope* parent_;
+  bool is_namespace_;
+  std::map<std::string, Property> properties_;
+  std::map<std::string, std::shared_ptr<const Macro>> macros_;
+  std::map<std::string, Block> blocks_;
+};
+
+class Expander {
+ public:
+  Expander(fs::path folder, std::map<std::string, std::string> arguments, FileLocator& packages)
+      : folders_{std::move(folder)}, arguments_(std::move(arguments)), packages_(packages) {
+    for (const auto& [name, value] : arguments_) undeclared_.insert(name);
+  }
+
+  XmlElement expand(const XmlElement& root) {
+    Scope& top = make_scope(nullptr, false);
+    XmlElement out = shell_of(root, top);
+    add_functions(top);
+    expand_children(root, top, out);
+    if (!undeclared_.empty())
+      throw InputError(*root.file + ": it has no argument " + in_quotes(*undeclared_.begin()) +
+                       (declared_.empty() ? "; it declares none" : "; it declares " + declared_));
+    return out;
+  }
+
+  /// Returns what a text stands for: a value of any type if it is one expression.
+  Value evaluate_text(std::string_view text, Scope& scope) {
+    constexpr int deepest = 30;
+    if (depth_ > deepest) throw InputError("properties are nested too deeply");
+    ++depth_;
+    std::optional<Value> whole;
+    std::string joined;
+    const auto add = [&](Value part) {
+      if (!whole && joined.empty() && text.empty()) {
+        whole = std::move(part);
+        return;
+      }
+      joined += to_text(part);
+      budget_.spend(joined.size());
+    };
+    while (!text.empty()) add(next_part(text, scope));
+    --depth_;
+    return whole ? *whole : Value(joined);
+  }
+
+ private:
+  Scope& make_scope(Scope* parent, bool is_namespace) {
+    constexpr std::size_t cost = 1000;
+    budget_.spend(cost);
+    return scopes_.emplace_back(*this, parent, is_namespace);
+  }
+
+  /// Evaluates the text up to the next expression, or that expression, and cuts it off.
+  Value next_part(std::string_view& text, Scope& scope) {
+    const auto cut = [&](std::size_t count) {
+      const std::string part(text.substr(0, count));
+      text.remove_prefix(count);
+      return part;
+    };
+    // $${ is ${ as it stands.
+    const std::size_t other = std::min(text.find_first_not_of('$'), text.size());
+    const bool opens = other < text.size() && (text[other] == '{' || text[other] == '(');
+    if (other == 0 || !opens)
+      return cut(std::min(text.find('$', std::max<std::size_t>(other, 1)), text.size()));
+    if (other > 1) return cut(other + 1).substr(1);
+    const bool is_expression = text[1] == '{';
+    const std::size_t end = text.find(is_expression ? '}' : ')');
+    if (end == std::string_view::npos) throw InputError(in_quotes(text) + " is not closed");
+    const std::string inner = cut(end + 1).substr(2, end - 2);
+    const std::string source = to_text(evaluate_text(inner, scope));
+    if (!is_expression) return substitute(source);
+    try {
+      return evaluate(source, scope, budget_);
+    } catch (const InputError& error) {
+      throw InputError("${" + source + "}: " + error.what());
+    }
+  }
+
+  /// $(find PACKAGE), $(arg NAME), $(env NAME), $(optenv NAME DEFAULT)
+  Value substitute(const std::string& text) {
+    const std::string_view all = trimmed(text);
+    const std::size_t space = std::min(all.find(' '), all.size());
+    const std::string_view command = all.substr(0, space);
+    const std::string name(trimmed(all.substr(space)));
+    if (command == "arg") return argument(name);
+    if (command == "find") return packages_.find_package(name).string();
+    if (command == "dirname") return folders_.front().string();
+    if (command == "cwd") return fs::current_path().string();
+    if (command == "env" || command == "optenv") {
+      const std::size_t end = std::min(name.find(' '), name.size());
+      const char* value = std::getenv(name.substr(0, end).c_str());
+      if (value != nullptr) return std::string(value);
+      if (command == "optenv") return std::string(trimmed(std::string_view(name).substr(end)));
+      throw InputError("the environment has no variable " + in_quotes(name));
+    }
+    throw InputError("$(" + text + ") is not supported; expected find, arg, env or optenv");
+  }
+
+  Value argument(const std::string& name) {
+    const auto found = arguments_.find(name);
+    if (found == arguments_.end())
+      throw InputError("the argument " + in_quotes(name) + " is not given; give it: " + name +
+                       ":=VALUE");
+    undeclared_.erase(name);
+    return found->second;
+  }
+
+  /// Evaluates an attribute. Throws InputError with its place.
+  Value attribute_value(const XmlElement& element, const XmlAttribute& attribute, Scope& scope) {
+    try {
+      return evaluate_text(attribute.value, scope);
+    } catch (const InputError& error) {
+      fail(element, attribute.name + "=" + in_quotes(attribute.value) + ": " + error.what());
+    }
+  }
+
+  std::optional<Value> optional_attribute(const XmlElement& element, const std::string& key,
+                                          Scope& scope) {
+    for (const XmlAttribute& attribute : element.attributes)
+      if (attribute.name == key) return attribute_value(element, attribute, scope);
+    return std::nullopt;
+  }
+
+  Value required_attribute(const XmlElement& element, const std::string& key, Scope& scope) {
+    if (auto value = optional_attribute(element, key, scope)) return *value;
+    fail(element, "the attribute " + in_quotes(key) + " is missing");
+  }
+
+  std::string name_of(const XmlElement& element, Scope& scope, const std::string& key = "name") {
+    std::string name = to_text(required_attribute(element, key, scope));
+    if (name.empty()) fail(element, "the attribute " + in_quotes(key) + " is empty");
+    return name;
+  }
+
+  bool is_set(const XmlElement& element, const std::string& key, bool absent, Scope& scope) {
+    const auto value = optional_attribute(element, key, scope);
+    try {
+      return value ? to_truth(*value) : absent;
+    } catch (const InputError& error) {
+      fail(element, key + ": " + error.what());
+    }
+  }
+
+  static void expect(const XmlElement& element, std::initializer_list<std::string_view> known) {
+    for (const XmlAttribute& a : element.attributes)
+      if (std::ranges::find(known, a.name) == known.end() && !a.name.starts_with("xmlns:"))
+        throw InputError(element.place() + ": <" + element.name + "> has an unknown attribute " +
+                         in_quotes(a.name));
+  }
+
+  [[noreturn]] void fail(const XmlElement& element, const std::string& what) const {
+    std::string place = element.place() + ": ";
+    if (!calls_.empty())
+      place += "in <" + calls_.back()->name + "> of " + calls_.back()->place() + ": ";
+    throw InputError(place + what);
+  }
+
+  /// Returns the element without children, its attributes evaluated.
+  XmlElement shell_of(const XmlElement& element, Scope& scope) {
+    constexpr std::size_t cost = 500;
+    budget_.spend(cost + element.text.size());
+    XmlElement out{element.name, element.file, element.line, {}, {}, element.text};
+    for (const XmlAttribute& a : element.attributes)
+      if (!a.name.starts_with("xacro:"))
+        out.attributes.push_back({a.name, to_text(attribute_value(element, a, scope))});
+    return out;
+  }
+
+  void expand_children(const XmlElement& parent, Scope& scope, XmlElement& out) {
+    for (const XmlElement& child : parent.children) expand_element(child, scope, out);
+  }
+
+  void expand_element(const XmlElement& element, Scope& scope, XmlElement& out) {
+    if (is_left_out(element.name)) return;
+    if (element.name.starts_with("xacro:")) return run(element, scope, out);
+    XmlElement copy = shell_of(element, scope);
+    expand_children(element, scope, copy);
+    out.children.push_back(std::move(copy));
+  }
+
+  /// Does what a xacro: element says.
+  void run(const XmlElement& element, Scope& scope, XmlElement& out) {
+    const std::string name = element.name.substr(element.name.find(':') + 1);
+    if (name == "property") return define_property(element, scope);
+    if (name == "macro") return define_macro(element, scope);
+    if (name == "arg") return declare_argument(element, scope);
+    if (name == "include") return include(element, scope, out);
+    if (name == "insert_block") return insert_block(element, scope, out);
+    if (name == "if" || name == "unless") {
+      expect(element, {"value"});
+      required_attribute(element, "value", scope);
+      if (is_set(element, "value", false, scope) == (name == "if"))
+        expand_children(element, scope, out);
+    } else if (name == "attribute") {
+      expect(element, {"name", "value"});
+      out.attributes.push_back(
+          {name_of(element, scope), to_text(required_attribute(element, "value", scope))});
+    } else if (name == "element") {
+      XmlElement copy = element;
+      copy.name = name_of(element, scope, "xacro:name");
+      expand_element(copy, scope, out);
+    } else if (name == "call") {
+      XmlElement copy = element;
+      std::erase_if(copy.attributes, [](const XmlAttribute& a) { return a.name == "macro"; });
+      copy.name = "xacro:" + name_of(element, scope, "macro");
+      call_macro(copy, scope, out);
+    } else {
+      call_macro(element, scope, out);
+    }
+  }
+
+  void define_property(const XmlElement& element, Scope& scope) {
+    expect(element, {"name", "value", "default", "remove", "scope", "lazy_eval"});
+    const std::string name = name_of(element, scope);
+    if (is_set(element, "remove", false, scope)) return scope.remove(name);
+    const std::string* text = element.attribute("value");
+    if (text == nullptr) text = element.attribute("default");
+    if (text != nullptr && element.attribute("value") == nullptr && scope.has(name)) return;
+    const std::string* where = element.attribute("scope");
+    Scope& target = where == nullptr     ? scope
+                    : *where == "global" ? scope.top()
+                    : *where == "parent" ? scope.caller()
+                    : *where == "local"
+                        ? scope
+                        : (fail(element, "scope=" + in_quotes(*where) +
+                                             " is unknown; expected parent or global"),
+                           scope);
+    if (text == nullptr)
+      return target.set_block("**" + name, std::make_shared<XmlElement>(element));
+    const bool is_lazy = is_set(element, "lazy_eval", true, scope) && &target == &scope;
+    try {
+      target.set(name, is_lazy ? Value(*text) : evaluate_text(*text, scope), !is_lazy);
+    } catch (const InputError& error) {
+      fail(element, in_quotes(*text) + ": " + error.what());
+    }
+  }
+
+  void define_macro(const XmlElement& element, Scope& scope) {
+    expect(element, {"name", "params"});
+    std::string name = name_of(element, scope);
+    if (name.starts_with("xacro:")) name = name.substr(name.find(':') + 1);
+    Macro macro{std::make_shared<XmlElement>(element), {}};
+    const std::string* list = element.attribute("params");
+    std::string_view rest = list == nullptr ? "" : trimmed(*list);
+    while (!rest.empty()) {
+      const std::size_t before = rest.size();
+      macro.parameters.push_back(next_parameter(rest));
+      if (rest.size() == before)
+        fail(element, "params=" + in_quotes(*list) + " is no list of names");
+    }
+    budget_.spend(1000);
+    scope.set_macro(name, std::move(macro));
+  }
+
+  void declare_argument(const XmlElement& element, Scope& scope) {
+    expect(element, {"name", "default"});
+    const std::string name = name_of(element, scope);
+    undeclared_.erase(name);
+    declared_ += (declared_.empty() ? "" : ", ") + name;
+    const auto value = optional_attribute(element, "default", scope);
+    if (value) arguments_.try_emplace(name, to_text(*value));
+  }
+
+  [[nodiscard]] fs::path from_here(const std::string& file) const { return folders_.back() / file; }
+
+  void include(const XmlElement& element, Scope& scope, XmlElement& out) {
+    expect(element, {"filename", "ns", "optional"});
+    const std::string name = name_of(element, scope, "filename");
+    Scope* target = &scope;
+    if (element.attribute("ns") != nullptr) {
+      target = &make_scope(&scope, true);
+      scope.set(name_of(element, scope, "ns"), static_cast<Names*>(target), true);
+    }
+    for (const fs::path& file : files_of(from_here(name))) {
+      std::error_code error;
+      if (!fs::exists(file, error) && is_set(element, "optional", false, scope)) continue;
+      include_file(element, file, *target, out);
+    }
+  }
+
+  /// Returns the files that a name with wildcards matches; any other name as it is.
+  static std::vector<fs::path> files_of(const fs::path& pattern) {
+    if (pattern.string().find_first_of("*?[") == std::string::npos) return {pattern};
+    std::vector<fs::path> files;
+    glob_t found{};
+    if (glob(pattern.c_str(), 0, nullptr, &found) == 0)
+      files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+    globfree(&found);
+    return files;
+  }
+
+  void include_file(const XmlElement& element, const fs::path& file, Scope& scope,
+                    XmlElement& out) {
+    constexpr std::size_t deepest = 40;
+    if (folders_.size() > deepest) fail(element, "files include each other without end");
+    const XmlElement root = [&] {
+      try {
+        const std::string text = read_whole_file(file, FileLimit::text);
+        budget_.spend(text.size());
+        return read_xml(text, file.string());
+      } catch (const InputError& error) {
+        fail(element, error.what());
+      }
+    }();
+    folders_.push_back(file.parent_path());
+    expand_children(root, scope, out);
+    folders_.pop_back();
+  }
+
+  void insert_block(const XmlElement& element, Scope& scope, XmlElement& out) {
+    expect(element, {"name"});
+    const std::string name = name_of(element, scope);
+    if (const Block content = scope.find_block("**" + name))
+      expand_children(*content, scope, out);
+    else if (const Block whole = scope.find_block("*" + name))
+      expand_element(*whole, scope, out);
+    else
+      fail(element, "there is no block " + in_quotes(name));
+  }
+
+  /// Returns the macro and the scope that it is called in: of NAMESPACE.NAME, the namespace.
+  std::pair<std::shared_ptr<const Macro>, Scope*> find_macro(const std::string& name,
+                                                             Scope& scope) {
+    if (auto macro = scope.find_macro(name)) return {macro, &scope};
+    const std::size_t dot = name.find('.');
+    Scope* inner = dot == std::string::npos ? nullptr : scope.find_namespace(name.substr(0, dot));
+    if (inner == nullptr) return {nullptr, nullptr};
+    return find_macro(name.substr(dot + 1), *inner);
+  }
+
+  void call_macro(const XmlElement& element, Scope& from, XmlElement& out) {
+    constexpr std::size_t deepest = 60;
+    const auto [macro, scope] = find_macro(element.name.substr(element.name.find(':') + 1), from);
+    if (macro == nullptr) fail(element, "<" + element.name + "> is no known macro");
+    if (calls_.size() > deepest) fail(element, "macros call each other without end");
+    Scope& inner = make_scope(scope, false);
+    set_parameters(element, *macro, *scope, inner);
+    calls_.push_back(&element);
+    expand_children(*macro->body, inner, out);
+    calls_.pop_back();
+  }
+
+  void set_parameters(const XmlElement& element, const Macro& macro, Scope& scope, Scope& inner) {
+    std::set<std::string> given;
+    for (const XmlAttribute& a : element.attributes) {
+      if (std::ranges::find(macro.parameters, a.name, &Parameter::name) == macro.parameters.end())
+        fail(element, "the macro has no parameter " + in_quotes(a.name));
+      inner.set(a.name, attribute_value(element, a, scope), true);
+      given.insert(a.name);
+    }
+    XmlElement blocks{element.name, element.file, element.line, {}, {}, {}};
+    expand_children(element, scope, blocks);
+    auto block = blocks.children.begin();
+    for (const Parameter& parameter : macro.parameters) {
+      if (parameter.name.starts_with('*')) {
+        if (block == blocks.children.end())
+          fail(element, "the macro needs an element for " + in_quotes(parameter.name));
+        inner.set_block(parameter.name, std::make_shared<XmlElement>(std::move(*block++)));
+      } else if (!given.contains(parameter.name)) {
+        inner.set(parameter.name, default_of(element, parameter, scope), true);
+      }
+    }
+    if (block != blocks.children.end())
+      fail(element, "the macro has no parameter for the element <" + block->name + ">");
+  }
+
+  Value default_of(const XmlElement& element, const Parameter& parameter, Scope& scope) {
+    try {
+      if (parameter.forwards)
+        if (auto value = scope.find(parameter.name)) return *value;
+      if (parameter.value) return evaluate_text(*parameter.value, scope);
+    } catch (const InputError& error) {
+      fail(element, "the default of " + in_quotes(parameter.name) + ": " + error.what());
+    }
+    fail(element, "the macro's parameter " + in_quotes(parameter.name) + " is not given");
+  }
+
+  /// The functions of module xacro.
+  void add_functions(Scope& top) {
+    const auto text_of = [](const List& values) {
+      std::string text;
+      for (const Value& value : values) text += (text.empty() ? "" : " ") + to_text(value);
+      return text;
+    };
+    const auto one = [](const List& values) {
+      if (values.size() != 1) throw InputError("a function of xacro needs one argument");
+      return to_text(values[0]);
+    };
+    const Value load = make_function(
+        [=, this](const List& values) { return load_yaml(from_here(one(values)), budget_); });
+    const Value remark = make_function([](const List&) { return Value(std::string()); });
+    const Value fail_with = make_function([=](const List& values) -> Value {
+      throw InputError("the file says: " + text_of(values));
+    });
+    top.set("load_yaml", load, true);
+    top.set(
+        "xacro",
+        make_dictionary(
+            {{"load_yaml", load},
+             {"arg", make_function([=, this](const List& v) { return argument(one(v)); })},
+             {"abs_filename", make_function([=, this](const List& v) {
+                return Value(from_here(one(v)).string());
+              })},
+             {"dotify", make_function([](const List& v) { return v.empty() ? Value() : v[0]; })},
+             {"message", remark},
+             {"warning", remark},
+             {"print_location", remark},
+             {"error", fail_with},
+             {"fatal", fail_with}}),
+        true);
+  }
+
+  std::vector<fs::path> folders_;  // of the files that include one another
+  std::map<std::string, std::string> arguments_;
+  std::set<std::string> undeclared_;  // given arguments that no file has named yet
+  std::string declared_;
+  FileLocator& packages_;
+  std::deque<Scope> scopes_;
+  std::vector<const XmlElement*> calls_;  // of macros, the innermost last
+  Budget budget_;
+  int depth_ = 0;
+};
+
+std::optional<Value> Scope::find(const std::string& name) {
+  const auto found = properties_.find(name);
+  if (found == properties_.end()) return parent_ == nullptr ? std::nullopt : parent_->find(name);
+  Property& property = found->second;
+  if (property.is_evaluated) return property.value;
+  if (property.is_in_use)
+    throw InputError("the property " + in_quotes(name) + " is made of itself");
+  property.is_in_use = true;
+  try {
+    const std::string text = to_text(property.value);
+    Value value = expander_.evaluate_text(text, *this);
+    set(name, std::move(value), true);
+  } catch (const InputError& error) {
+    throw InputError("property " + in_quotes(name) + ": " + error.what());
+  }
+  return properties_[name].value;
+}
+
+}  // namespace
+
+XmlElement expand_xacro(const XmlElement& root, const fs::path& folder,
+                        const std::map<std::string, std::string>& arguments,
+                        FileLocator& packages) {
+  return Expander(folder, arguments, packages).expand(root);
+}
+
+}  // namespace penumbra::detail
