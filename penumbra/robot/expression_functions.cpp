@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <span>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/text.hpp>
@@ -15,12 +16,6 @@ namespace penumbra::detail {
 namespace {
 
 using Integer = std::int64_t;
-using Functions = std::map<std::string, Value, std::less<>>;
-
-void need_count(const List& arguments, std::size_t least, std::size_t most) {
-  if (arguments.size() < least || arguments.size() > most)
-    throw InputError("a function got " + std::to_string(arguments.size()) + " arguments");
-}
 
 double number_at(const List& arguments, std::size_t i) {
   const auto number = number_in(arguments[i]);
@@ -47,43 +42,39 @@ Value whole(double number) {
   return static_cast<Integer>(number);
 }
 
-Value from_real(double (*function)(double)) {
-  return make_function([=](const List& arguments) -> Value {
-    need_count(arguments, 1, 1);
-    const double result = function(number_at(arguments, 0));
-    if (!std::isfinite(result)) throw InputError("a function of a number outside its domain");
-    return result;
-  });
+template <auto function>
+Value real(const List& arguments) {
+  const double result = function(number_at(arguments, 0));
+  if (!std::isfinite(result)) throw InputError("a function of a number outside its domain");
+  return result;
 }
 
-Value from_two(double (*function)(double, double)) {
-  return make_function([=](const List& arguments) -> Value {
-    need_count(arguments, 2, 2);
-    return function(number_at(arguments, 0), number_at(arguments, 1));
-  });
+template <auto function>
+Value real_of_two(const List& arguments) {
+  return function(number_at(arguments, 0), number_at(arguments, 1));
+}
+
+template <auto function>
+Value whole_of(const List& arguments) {
+  return whole(function(number_at(arguments, 0)));
 }
 
 Value to_integer(const List& arguments) {
-  need_count(arguments, 1, 1);
-  if (const auto* text = arguments[0].as<std::string>()) {
-    if (const auto integer = parse_integer(*text)) return *integer;
-    throw InputError(in_quotes(*text) + " is no whole number");
-  }
-  return whole(std::trunc(number_at(arguments, 0)));
+  const auto* text = arguments[0].as<std::string>();
+  if (text == nullptr) return whole(std::trunc(number_at(arguments, 0)));
+  if (const auto integer = parse_integer(*text)) return *integer;
+  throw InputError(in_quotes(*text) + " is no whole number");
 }
 
 Value to_float(const List& arguments) {
-  need_count(arguments, 1, 1);
-  if (const auto* text = arguments[0].as<std::string>()) {
-    if (const auto number = parse_float(*text)) return *number;
-    throw InputError(in_quotes(*text) + " is no number");
-  }
-  return number_at(arguments, 0);
+  const auto* text = arguments[0].as<std::string>();
+  if (text == nullptr) return number_at(arguments, 0);
+  if (const auto number = parse_float(*text)) return *number;
+  throw InputError(in_quotes(*text) + " is no number");
 }
 
 /// Rounds halves to even, on the decimal digits.
 Value rounded(const List& arguments) {
-  need_count(arguments, 1, 2);
   const double number = number_at(arguments, 0);
   if (arguments.size() == 1) return whole(std::nearbyint(number));
   constexpr Integer most_digits = 20;
@@ -92,10 +83,9 @@ Value rounded(const List& arguments) {
 }
 
 Value absolute(const List& arguments) {
-  need_count(arguments, 1, 1);
-  const auto* integer = arguments[0].as<Integer>();
-  if (integer != nullptr && *integer < 0) return apply_operator("-", Integer{0}, *integer);
-  return integer != nullptr ? arguments[0] : Value(std::abs(number_at(arguments, 0)));
+  const bool is_negative = number_at(arguments, 0) < 0.0;
+  return is_negative ? apply_operator("*", Integer{-1}, arguments[0])
+                     : apply_operator("*", Integer{1}, arguments[0]);
 }
 
 template <bool largest>
@@ -107,13 +97,14 @@ Value extreme(const List& arguments) {
 }
 
 Value range(const List& arguments) {
-  need_count(arguments, 1, 3);
   constexpr std::size_t longest = 10'000;
+  constexpr Integer largest = 1'000'000'000'000;
   const Integer first = arguments.size() == 1 ? 0 : integer_at(arguments, 0);
   const Integer end = integer_at(arguments, arguments.size() == 1 ? 0 : 1);
   const Integer step = arguments.size() == 3 ? integer_at(arguments, 2) : 1;
-  if (step == 0 || std::abs(static_cast<double>(step)) > 1e15)
-    throw InputError("range needs another step");
+  if (step == 0 || std::max({first, end, step}) > largest ||
+      std::min({first, end, step}) < -largest)
+    throw InputError("range needs other numbers");
   List items;
   for (Integer i = first; step > 0 ? i < end : i > end; i += step) {
     if (items.size() == longest) throw InputError("range has more than 10000 items");
@@ -122,27 +113,21 @@ Value range(const List& arguments) {
   return make_list(std::move(items));
 }
 
-Value length(const List& arguments) {
-  need_count(arguments, 1, 1);
-  return static_cast<Integer>(items_of(arguments[0]).size());
-}
+Value length(const List& arguments) { return static_cast<Integer>(items_of(arguments[0]).size()); }
 
 Value sorted(const List& arguments) {
-  need_count(arguments, 1, 1);
   List items = items_of(arguments[0]);
   std::ranges::stable_sort(items, is_less);
   return make_list(std::move(items));
 }
 
 Value sum(const List& arguments) {
-  need_count(arguments, 1, 1);
   Value total = Integer{0};
   for (const Value& item : items_of(arguments[0])) total = apply_operator("+", total, item);
   return total;
 }
 
 Value mapped(const List& arguments) {
-  need_count(arguments, 2, 2);
   const auto* function = arguments[0].as<std::shared_ptr<const Function>>();
   if (function == nullptr) throw InputError("map needs a function");
   List out;
@@ -150,8 +135,15 @@ Value mapped(const List& arguments) {
   return make_list(std::move(out));
 }
 
+Value to_list(const List& arguments) {
+  return make_list(arguments.empty() ? List{} : items_of(arguments[0]));
+}
+
+Value to_string(const List& arguments) {
+  return arguments.empty() ? std::string() : to_text(arguments[0]);
+}
+
 Value to_dictionary(const List& arguments) {
-  need_count(arguments, 0, 1);
   Dictionary out;
   if (arguments.empty()) return make_dictionary({});
   if (arguments[0].dictionary() != nullptr) return arguments[0];
@@ -160,89 +152,82 @@ Value to_dictionary(const List& arguments) {
   return make_dictionary(std::move(out));
 }
 
-Functions math_functions() {
-  Functions functions{
-      {"pi", std::numbers::pi},
-      {"tau", 2.0 * std::numbers::pi},
-      {"e", std::numbers::e},
-      {"inf", std::numeric_limits<double>::infinity()},
-      {"nan", std::numeric_limits<double>::quiet_NaN()},
-      {"sin", from_real([](double x) { return std::sin(x); })},
-      {"cos", from_real([](double x) { return std::cos(x); })},
-      {"tan", from_real([](double x) { return std::tan(x); })},
-      {"asin", from_real([](double x) { return std::asin(x); })},
-      {"acos", from_real([](double x) { return std::acos(x); })},
-      {"atan", from_real([](double x) { return std::atan(x); })},
-      {"sqrt", from_real([](double x) { return std::sqrt(x); })},
-      {"fabs", from_real([](double x) { return std::abs(x); })},
-      {"radians", from_real([](double x) { return x * (std::numbers::pi / 180.0); })},
-      {"degrees", from_real([](double x) { return x * (180.0 / std::numbers::pi); })},
-      {"atan2", from_two([](double y, double x) { return std::atan2(y, x); })},
-      {"hypot", from_two([](double x, double y) { return std::hypot(x, y); })},
-      {"pow", make_function([](const List& arguments) {
-         need_count(arguments, 2, 2);
-         return apply_operator("**", number_at(arguments, 0), number_at(arguments, 1));
-       })}};
-  for (const auto& [name, function] :
-       std::initializer_list<std::pair<const char*, double (*)(double)>>{
-           {"floor", [](double x) { return std::floor(x); }},
-           {"ceil", [](double x) { return std::ceil(x); }},
-           {"trunc", [](double x) { return std::trunc(x); }}})
-    functions[name] = make_function([function = function](const List& arguments) {
-      need_count(arguments, 1, 1);
-      return whole(function(number_at(arguments, 0)));
-    });
+/// A function, and how many arguments it takes.
+struct Builtin {
+  const char* name;
+  std::size_t least, most;
+  Value (*call)(const List&);
+};
+
+constexpr Builtin math[] = {
+    {"sin", 1, 1, real<[](double x) { return std::sin(x); }>},
+    {"cos", 1, 1, real<[](double x) { return std::cos(x); }>},
+    {"tan", 1, 1, real<[](double x) { return std::tan(x); }>},
+    {"asin", 1, 1, real<[](double x) { return std::asin(x); }>},
+    {"acos", 1, 1, real<[](double x) { return std::acos(x); }>},
+    {"atan", 1, 1, real<[](double x) { return std::atan(x); }>},
+    {"sqrt", 1, 1, real<[](double x) { return std::sqrt(x); }>},
+    {"fabs", 1, 1, real<[](double x) { return std::abs(x); }>},
+    {"radians", 1, 1, real<[](double x) { return x * (std::numbers::pi / 180.0); }>},
+    {"degrees", 1, 1, real<[](double x) { return x * (180.0 / std::numbers::pi); }>},
+    {"atan2", 2, 2, real_of_two<[](double y, double x) { return std::atan2(y, x); }>},
+    {"hypot", 2, 2, real_of_two<[](double x, double y) { return std::hypot(x, y); }>},
+    {"pow", 2, 2,
+     [](const List& a) { return apply_operator("**", number_at(a, 0), number_at(a, 1)); }},
+    {"floor", 1, 1, whole_of<[](double x) { return std::floor(x); }>},
+    {"ceil", 1, 1, whole_of<[](double x) { return std::ceil(x); }>},
+    {"trunc", 1, 1, whole_of<[](double x) { return std::trunc(x); }>}};
+
+constexpr std::size_t any_count = 1'000'000;
+
+constexpr Builtin python[] = {{"int", 1, 1, to_integer},
+                              {"float", 1, 1, to_float},
+                              {"str", 0, 1, to_string},
+                              {"bool", 1, 1, [](const List& a) { return Value(is_true(a[0])); }},
+                              {"list", 0, 1, to_list},
+                              {"dict", 0, 1, to_dictionary},
+                              {"round", 1, 2, rounded},
+                              {"abs", 1, 1, absolute},
+                              {"min", 1, any_count, extreme<false>},
+                              {"max", 1, any_count, extreme<true>},
+                              {"range", 1, 3, range},
+                              {"len", 1, 1, length},
+                              {"sorted", 1, 1, sorted},
+                              {"sum", 1, 1, sum},
+                              {"map", 2, 2, mapped}};
+
+void check_count(const char* name, const List& arguments, std::size_t least, std::size_t most) {
+  if (arguments.size() < least || arguments.size() > most)
+    throw InputError(std::string(name) + "() got " + std::to_string(arguments.size()) +
+                     " arguments");
+}
+
+Dictionary functions_of(std::span<const Builtin> builtins) {
+  Dictionary functions;
+  for (const Builtin& builtin : builtins)
+    functions.emplace_back(builtin.name, make_function([=](const List& arguments) {
+                             check_count(builtin.name, arguments, builtin.least, builtin.most);
+                             return builtin.call(arguments);
+                           }));
   return functions;
 }
 
-Functions python_functions() {
-  Functions functions;
-  for (const auto& [name, function] :
-       std::initializer_list<std::pair<const char*, Value (*)(const List&)>>{
-           {"int", to_integer},
-           {"float", to_float},
-           {"round", rounded},
-           {"abs", absolute},
-           {"min", extreme<false>},
-           {"max", extreme<true>},
-           {"range", range},
-           {"len", length},
-           {"sorted", sorted},
-           {"sum", sum},
-           {"map", mapped},
-           {"dict", to_dictionary}})
-    functions[name] = make_function(function);
-  functions["str"] = make_function([](const List& arguments) -> Value {
-    need_count(arguments, 0, 1);
-    return arguments.empty() ? std::string() : to_text(arguments[0]);
-  });
-  functions["list"] = functions["tuple"] = make_function([](const List& arguments) {
-    need_count(arguments, 0, 1);
-    return make_list(arguments.empty() ? List{} : items_of(arguments[0]));
-  });
-  functions["bool"] = make_function([](const List& arguments) -> Value {
-    need_count(arguments, 1, 1);
-    return is_true(arguments[0]);
-  });
-  return functions;
-}
-
-Value module_of(const Functions& functions) {
-  return make_dictionary(Dictionary(functions.begin(), functions.end()));
-}
-
-Functions all_functions() {
-  Functions functions = math_functions();
-  const Functions python = python_functions();
-  Value math = module_of(functions);
-  functions.insert(python.begin(), python.end());
-  functions["math"] = std::move(math);
-  functions["python"] = module_of(python);
-  return functions;
+std::map<std::string, Value, std::less<>> all_functions() {
+  Dictionary of_math = functions_of(math);
+  of_math.emplace_back("pi", std::numbers::pi);
+  of_math.emplace_back("tau", 2.0 * std::numbers::pi);
+  of_math.emplace_back("e", std::numbers::e);
+  of_math.emplace_back("inf", std::numeric_limits<double>::infinity());
+  const Dictionary of_python = functions_of(python);
+  std::map<std::string, Value, std::less<>> all;
+  for (const Dictionary& functions : {of_math, of_python})
+    for (const auto& [name, function] : functions) all[to_text(name)] = function;
+  all["math"] = make_dictionary(std::move(of_math));
+  all["python"] = make_dictionary(of_python);
+  return all;
 }
 
 Value split(const std::string& text, const List& arguments) {
-  need_count(arguments, 0, 1);
   List parts;
   const std::string separator = arguments.empty() ? "" : text_at(arguments, 0);
   for (std::string_view rest = separator.empty() ? trimmed(text) : text;;) {
@@ -255,67 +240,55 @@ Value split(const std::string& text, const List& arguments) {
   }
 }
 
-Value replaced(std::string text, const List& arguments) {
-  need_count(arguments, 2, 2);
-  const std::string& from = text_at(arguments, 0);
+Value replaced(const std::string& text, const List& arguments) {
+  const List pieces = items_of(split(text, {text_at(arguments, 0)}));
   const std::string& to = text_at(arguments, 1);
-  if (from.empty()) throw InputError("replace needs a text to replace");
+  constexpr std::size_t longest = 100'000;
+  if (to.size() * pieces.size() > longest) throw InputError("a text is too long");
   std::string out;
-  for (std::size_t at = 0;;) {
-    const std::size_t end = text.find(from, at);
-    out += text.substr(at, end - at);
-    if (end == std::string::npos) return out;
-    out += to;
-    at = end + from.size();
-    constexpr std::size_t longest = 1'000'000;
-    if (out.size() > longest) throw InputError("a text is too long");
-  }
-}
-
-Value join(const std::string& text, const List& arguments) {
-  need_count(arguments, 1, 1);
-  const List items = items_of(arguments[0]);
-  std::string out;
-  for (std::size_t i = 0; i < items.size(); ++i) out += (i == 0 ? "" : text) + text_at(items, i);
+  for (std::size_t i = 0; i < pieces.size(); ++i) out += (i == 0 ? "" : to) + text_at(pieces, i);
   return out;
 }
 
-template <int (*letter)(int)>
-Value cased(std::string text, const List& arguments) {
-  need_count(arguments, 0, 0);
+template <auto letter>
+Value cased(std::string text, const List&) {
   std::ranges::transform(text, text.begin(), [](char c) {
     return static_cast<char>(letter(static_cast<unsigned char>(c)));
   });
   return text;
 }
 
-/// Returns a method that is a function of the text and the arguments.
-template <typename Method>
-Value bound(const std::string& text, Method method) {
-  return make_function([=](const List& arguments) { return Value(method(text, arguments)); });
-}
+struct TextMethod {
+  const char* name;
+  std::size_t least, most;
+  Value (*call)(const std::string&, const List&);
+};
+
+constexpr TextMethod text_methods[] = {
+    {"split", 0, 1, split},
+    {"replace", 2, 2, replaced},
+    {"lower", 0, 0,
+     [](const std::string& t, const List& a) {
+       return cased<[](int c) { return std::tolower(c); }>(t, a);
+     }},
+    {"upper", 0, 0,
+     [](const std::string& t, const List& a) {
+       return cased<[](int c) { return std::toupper(c); }>(t, a);
+     }},
+    {"strip", 0, 0,
+     [](const std::string& t, const List&) { return Value(std::string(trimmed(t))); }},
+    {"startswith", 1, 1,
+     [](const std::string& t, const List& a) { return Value(t.starts_with(text_at(a, 0))); }},
+    {"endswith", 1, 1,
+     [](const std::string& t, const List& a) { return Value(t.ends_with(text_at(a, 0))); }}};
 
 std::optional<Value> text_method(const std::string& text, std::string_view name) {
-  if (name == "split") return bound(text, split);
-  if (name == "replace") return bound(text, replaced);
-  if (name == "join") return bound(text, join);
-  if (name == "lower") return bound(text, cased<std::tolower>);
-  if (name == "upper") return bound(text, cased<std::toupper>);
-  if (name == "strip")
-    return bound(text, [](const std::string& t, const List& arguments) {
-      need_count(arguments, 0, 0);
-      return std::string(trimmed(t));
-    });
-  if (name == "startswith")
-    return bound(text, [](const std::string& t, const List& arguments) {
-      need_count(arguments, 1, 1);
-      return t.starts_with(text_at(arguments, 0));
-    });
-  if (name == "endswith")
-    return bound(text, [](const std::string& t, const List& arguments) {
-      need_count(arguments, 1, 1);
-      return t.ends_with(text_at(arguments, 0));
-    });
+  for (const TextMethod& method : text_methods)
+    if (name == method.name)
+      return make_function([=](const List& arguments) {
+        check_count(method.name, arguments, method.least, method.most);
+        return method.call(text, arguments);
+      });
   return std::nullopt;
 }
 
@@ -323,14 +296,14 @@ std::optional<Value> text_method(const std::string& text, std::string_view name)
 std::optional<Value> dictionary_method(const Value& dictionary, std::string_view name) {
   if (name == "get")
     return make_function([=](const List& arguments) -> Value {
-      need_count(arguments, 1, 2);
+      check_count("get", arguments, 1, 2);
       for (const auto& [key, value] : *dictionary.dictionary())
         if (are_equal(key, arguments[0])) return item_of(dictionary, key);
       return arguments.size() == 2 ? arguments[1] : Value();
     });
   if (name != "keys" && name != "values" && name != "items") return std::nullopt;
   return make_function([=, name = std::string(name)](const List& arguments) {
-    need_count(arguments, 0, 0);
+    check_count(name.c_str(), arguments, 0, 0);
     List out;
     for (const auto& [key, value] : *dictionary.dictionary()) {
       if (name == "keys") out.push_back(key);
@@ -344,7 +317,7 @@ std::optional<Value> dictionary_method(const Value& dictionary, std::string_view
 }  // namespace
 
 std::optional<Value> find_builtin(const std::string& name) {
-  static const Functions functions = all_functions();
+  static const std::map<std::string, Value, std::less<>> functions = all_functions();
   const auto found = functions.find(name);
   return found == functions.end() ? std::nullopt : std::optional(found->second);
 }
