@@ -84,6 +84,9 @@ void UrdfNode::check_name(const std::string& what, std::string_view name, std::s
                           std::string_view ignored) const {
   if (is_prefixed(read, name))
     fail(what + " has a prefix and would be ignored; write it without the prefix, or remove it");
+  if (const std::size_t colon = name.find(':');
+      colon != std::string_view::npos && similar_name("xacro", name.substr(0, colon)))
+    fail(what + " would be ignored; is xacro: meant?");
   if (is_extension(name) || contains(read, name) || contains(ignored, name)) return;
   if (const auto known = similar_name(read, name))
     fail("unknown " + what + "; is " + in_quotes(std::string(*known)) + " meant?");

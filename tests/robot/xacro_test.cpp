@@ -193,6 +193,7 @@ TEST(Xacro, WhatIsNotUnderstoodIsAnErrorWithItsLine) {
       {child("$(env NO_SUCH_VARIABLE)"), {"NO_SUCH_VARIABLE"}},
       {child("$(eval 1 + 1)"), {"not supported"}},
       {"<xacro:unknown/>", {"<xacro:unknown>", "no known macro"}},
+      {"<acro:child n=\"a\"/>", {"acro:child", "xacro:"}},
       {"<xacro:child/>", {"\"n\"", "not given"}},
       {"<xacro:child n=\"a\" m=\"b\"/>", {"no parameter \"m\""}},
       {"<xacro:child n=\"a\"><link name=\"b\"/></xacro:child>", {"<link>"}},
