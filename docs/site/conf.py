@@ -21,7 +21,7 @@ version = release = re.search(r"project\(Penumbra VERSION ([0-9.]+)",
 copyright = "the Penumbra authors"
 
 root_doc = "README"
-include_patterns = ["README.md", "CHANGELOG.md", "docs/*.md", "examples/*/README.md",
+include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "docs/*.md", "examples/*/README.md",
                     "research/README.md"]
 exclude_patterns = ["build*", "out*", "web", ".git", ".cache"]
 extensions = ["myst_parser", "breathe"]

@@ -15,6 +15,6 @@ def contents():
     for caption, pages in PAGES.items():
         names = "\n".join(f"docs/{page}" for page in pages)
         if caption == "Reference":
-            names += "\nresearch/README\nexamples/arm_over_table/README\nCHANGELOG"
+            names += "\nresearch/README\nexamples/arm_over_table/README\nCHANGELOG\nCONTRIBUTING\nSECURITY"
         text += f"\n```{{toctree}}\n:hidden:\n:caption: {caption}\n\n{names}\n```\n"
     return text
