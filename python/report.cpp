@@ -4,6 +4,8 @@
 #include <python/report.hpp>
 #include <python/robot.hpp>
 
+#include <io/files/coco_mask.hpp>
+
 namespace penumbra::python {
 
 Report::Report(std::shared_ptr<SessionState> state, const FrameReport& report,
@@ -54,6 +56,17 @@ BoolImage Report::robot_mask() const {
   if (const auto depth = virtual_depth(); depth && !robot_mask_)
     robot_mask_ = read_only(depth->array.attr("__gt__")(0));
   return robot_mask_ ? robot_mask_ : BoolImage(py::none());
+}
+
+std::optional<py::dict> Report::coco_annotation() const {
+  check_is_last();
+  const auto depth = numbers.virtual_depth.depth;
+  if (depth.width == 0) return std::nullopt;
+  const io::CocoMask mask = io::coco_mask(depth);
+  return py::dict(py::arg("segmentation") =
+                      py::dict(py::arg("size") = py::make_tuple(depth.height, depth.width),
+                               py::arg("counts") = mask.counts),
+                  py::arg("bbox") = mask.box, py::arg("area") = mask.area);
 }
 
 DepthImage Report::filtered_depth() const {
@@ -149,6 +162,10 @@ void bind_without_robot(py::module_& m, py::class_<Report>& report) {
           },
           "A copy of the frame's depth without the robot: 0 (uint16) or NaN (float32) where depth "
           "is not to be trusted, that is, where the label is neither clear nor front.")
+      .def("coco_annotation", &Report::coco_annotation,
+           "The robot_mask as COCO's annotations have it: segmentation (size and counts, the "
+           "compressed run lengths of pycocotools), bbox and area; None: the robot's pose is not "
+           "known. Raises ValueError after the session's next call.")
       .def("points", &points_of, py::arg("frame") = std::optional<std::string>(),
            py::arg("color") = py::none(),
            "The points of filtered_depth(). frame: link whose frame they are given in; None: the "

@@ -50,6 +50,7 @@ class Report {
   [[nodiscard]] std::optional<ImageResult<float>> virtual_depth() const;
   [[nodiscard]] std::optional<ImageResult<std::uint16_t>> link_image() const;
   [[nodiscard]] BoolImage robot_mask() const;
+  [[nodiscard]] std::optional<py::dict> coco_annotation() const;
   [[nodiscard]] DepthImage filtered_depth() const;
   [[nodiscard]] PointCloud points(const std::optional<std::string>& frame) const;
 

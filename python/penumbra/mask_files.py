@@ -28,35 +28,6 @@ frames_per_second = 30  # of videos
 npy_format: Any = np.lib.format
 
 
-def rle(mask: NDArray[np.bool_]) -> dict[str, Any]:
-    """Returns COCO's compressed run lengths of a mask, column by column, as pycocotools does."""
-    height, width = mask.shape
-    starts = np.empty((height, width), np.bool_)  # of runs; each column follows the one before
-    np.not_equal(mask[1:], mask[:-1], out=starts[1:])
-    np.not_equal(mask[0, 1:], mask[-1, :-1], out=starts[0, 1:])
-    starts[0, 0] = mask[0, 0]
-    y, x = np.divmod(np.flatnonzero(starts), width)
-    counts = np.diff(np.sort(x * height + y), prepend=0, append=height * width)
-    return {"size": [height, width], "counts": _as_text(counts)}
-
-
-def _as_text(counts: NDArray[np.int64]) -> str:
-    """COCO's text: differences to the count before the last in groups of 5 bits, lowest first.
-
-    Bit 5 of a group says that another one follows; bit 4 of the last one is the sign.
-    """
-    values = counts.copy()
-    values[3:] -= counts[1:-2]
-    shifts = 5 * np.arange(7)
-    groups = values[:, None] >> shifts
-    rest, groups = groups >> 5, groups & 31
-    is_last = rest == np.where(groups & 16, -1, 0)
-    number = np.argmax(is_last, axis=1)[:, None]
-    place = np.arange(len(shifts))
-    codes = groups + 48 + 32 * (place < number)
-    return bytes(codes[place <= number].astype(np.uint8)).decode()
-
-
 class _Rle:
     """masks.json: a COCO data set with an annotation for each frame in which the robot is seen."""
 
@@ -75,20 +46,11 @@ class _Rle:
         self._separator = "\n"
 
     def add(self, t: int, report: FrameReport) -> None:
-        mask = _mask(report)
-        columns, rows = np.flatnonzero(mask.any(axis=0)), np.flatnonzero(mask.any(axis=1))
-        if not len(columns):
+        annotation = report.coco_annotation()
+        assert annotation is not None  # Dataset.reports yields no others
+        if annotation["area"] == 0:
             return
-        box = [columns[0], rows[0], columns[-1] - columns[0] + 1, rows[-1] - rows[0] + 1]
-        annotation = {
-            "id": t,
-            "image_id": t,
-            "category_id": 1,
-            "iscrowd": 0,
-            "area": int(np.count_nonzero(mask)),
-            "bbox": [int(of) for of in box],
-            "segmentation": rle(mask),
-        }
+        annotation.update(id=t, image_id=t, category_id=1, iscrowd=0)
         self._out.write(self._separator + json.dumps(annotation))
         self._separator = ",\n"
 

@@ -221,18 +221,6 @@ def decode(segmentation):
     return np.array(pixels, bool).reshape(width, height).T
 
 
-def test_run_lengths_are_read_back_by_a_plain_decoder():
-    random = np.random.default_rng(1)
-    cases = [np.zeros((5, 7), bool), np.ones((5, 7), bool), random.random((40, 30)) > 0.5,
-             random.random((480, 640)) > 0.999, np.eye(9, dtype=bool), np.ones((1, 1), bool)]
-    cases += [np.roll(np.tri(33, 50, dtype=bool), k, axis=1) for k in range(5)]
-    for mask in cases:
-        assert np.array_equal(decode(mask_files.rle(mask)), mask)
-    # Of COCO's text, counted by hand: runs 1, 2, 6 of a 3 x 3 image, and 40 = 8 + 32.
-    assert mask_files.rle(np.array([[0, 0, 0], [1, 0, 0], [1, 0, 0]], bool))["counts"] == "126"
-    assert mask_files.rle(np.arange(80)[:, None] >= 40)["counts"] == "X1X1"
-
-
 def test_all_files_hold_the_renderers_masks(arm, joints, truth, tmp_path):
     dataset = datasets.Dataset(arm.robot, arm.camera, arm.config)
     save = ["rle", "npz", "png", "video", "h264", "prompts"]
