@@ -332,7 +332,7 @@ Value attribute_of(const Value& a, const std::string& name) {
     method = dictionary_method(a, name);
   }
   if (const auto* text = a.as<std::string>()) method = text_method(*text, name);
-  if (!method) throw InputError("there is no " + in_quotes(name) + " in it");
+  if (!method) throw InputError("it has no " + in_quotes(name) + ", or that is not supported");
   return *method;
 }
 
