@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,7 @@ struct XmlElement {
   std::vector<XmlAttribute> attributes;
   std::vector<XmlElement> children;
   std::string text;  ///< all text between the children, joined with spaces
+  std::shared_ptr<const std::string> file = {};  ///< its file, for messages
 
   [[nodiscard]] const std::string* attribute(std::string_view key) const;
 };

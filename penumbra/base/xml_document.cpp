@@ -25,12 +25,13 @@ void refuse_declaration(const tinyxml2::XMLNode& node, const std::string& file) 
 }
 
 // The parser limits the depth of this recursion.
-XmlElement read_element(const tinyxml2::XMLElement& xml, const std::string& file) {
-  XmlElement element{xml.Name(), xml.GetLineNum(), {}, {}, {}};
+XmlElement read_element(const tinyxml2::XMLElement& xml,
+                        const std::shared_ptr<const std::string>& file) {
+  XmlElement element{xml.Name(), xml.GetLineNum(), {}, {}, {}, file};
   for (const auto* a = xml.FirstAttribute(); a != nullptr; a = a->Next())
     element.attributes.push_back({a->Name(), a->Value()});
   for (const auto* node = xml.FirstChild(); node != nullptr; node = node->NextSibling()) {
-    refuse_declaration(*node, file);
+    refuse_declaration(*node, *file);
     if (const auto* child = node->ToElement()) {
       element.children.push_back(read_element(*child, file));
     } else if (const auto* text = node->ToText()) {
@@ -78,7 +79,7 @@ XmlElement read_xml(std::string_view xml, const std::string& file) {
     if (element != nullptr) root = element;
   }
   if (root == nullptr) throw InputError(file + ": contains no XML element");
-  return read_element(*root, file);
+  return read_element(*root, std::make_shared<const std::string>(file));
 }
 
 }  // namespace penumbra::detail

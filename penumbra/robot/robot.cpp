@@ -12,6 +12,7 @@
 #include <penumbra/base/text.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/link_geometry-inl.hpp>
+#include <penumbra/robot/mjcf-inl.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/robot/robot_tree-inl.hpp>
 
@@ -190,7 +191,9 @@ Matrix3d plane_axes(const Vector3d& normal) {
 std::unique_ptr<Robot::Model> Robot::make_model(std::string_view xml, const std::string& file,
                                                 const fs::path& folder,
                                                 const RobotOptions& options) {
-  const detail::Urdf urdf = detail::read_urdf(xml, file);
+  const detail::XmlElement root = detail::read_xml(xml, file);
+  const detail::Urdf urdf =
+      root.name == "mujoco" ? detail::read_mjcf(root, file, folder) : detail::read_urdf(root, file);
   detail::RobotTree tree = detail::build_tree(urdf);
   hold_joints(file, options.joints, tree);
   const auto choices = detail::choose_links(urdf, options);

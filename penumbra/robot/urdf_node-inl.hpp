@@ -35,6 +35,7 @@ class UrdfNode {
   UrdfNode(const XmlElement& xml, UrdfFile& file, std::string where)
       : xml_(&xml), file_(&file), where_(std::move(where)) {}
 
+  [[nodiscard]] const XmlElement& xml() const { return *xml_; }
   [[nodiscard]] const std::string& name() const { return xml_->name; }
   [[nodiscard]] std::string place() const;  ///< file, line and element, for messages
 
@@ -57,6 +58,9 @@ class UrdfNode {
 
   /// Returns the element under a longer name for messages: link "base".
   [[nodiscard]] UrdfNode named(const std::string& where) const { return {*xml_, *file_, where}; }
+
+  /// Returns another element of the file under the name of this one.
+  [[nodiscard]] UrdfNode with(const XmlElement& xml) const { return {xml, *file_, where_}; }
 
   [[noreturn]] void fail(const std::string& what) const;
 

@@ -174,7 +174,7 @@ void UrdfNode::numbers(std::string_view key, std::span<double> out) const {
 }
 
 std::string UrdfNode::place() const {
-  return file_->name + ":" + std::to_string(xml_->line) + ": " +
+  return *xml_->file + ":" + std::to_string(xml_->line) + ": " +
          (where_.empty() ? xml_->name : where_);
 }
 
