@@ -117,7 +117,7 @@ void set_shape(const UrdfNode& geom, const MjcfModel& model, UrdfElement& elemen
   const std::string type = geom.has("type") ? geom.text("type") : "sphere";
   if (type == "mesh") return set_mesh(geom, model, element);
   if (type == "plane" || type == "hfield" || type == "sdf")
-    geom.fail("type='" + type + "' is not supported on a body; use a mesh or a primitive");
+    geom.fail("type='" + type + "' is not supported on a body; leave the body out (ignore_links)");
   if (std::ranges::find(primitives, type) == std::end(primitives))
     geom.fail("unknown type " + in_quotes(type) +
               "; expected sphere, capsule, cylinder, ellipsoid, box or mesh");
@@ -137,7 +137,7 @@ int integer_of(const UrdfNode& node, std::string_view key, int absent) {
 }
 
 bool is_transparent(const UrdfNode& geom) {
-  if (!geom.has("rgba")) return false;
+  if (!geom.has("rgba") || trimmed(*geom.xml().attribute("rgba")).empty()) return false;
   const std::vector<double> rgba = mjcf_numbers(geom, "rgba");
   return rgba.size() == 4 && rgba[3] == 0.0;
 }

@@ -15,11 +15,15 @@ namespace {
 constexpr std::array<std::string_view, 5> orientations = {"quat", "axisangle", "xyaxes", "zaxis",
                                                           "euler"};
 
+bool is_orientation(const XmlAttribute& attribute) {
+  return std::ranges::find(orientations, attribute.name) != orientations.end();
+}
+
 /// Returns the attribute that gives an element's orientation; null: none does.
 const XmlAttribute* orientation_of(const UrdfNode& node) {
   const XmlAttribute* found = nullptr;
   for (const XmlAttribute& attribute : node.xml().attributes) {
-    if (std::ranges::find(orientations, attribute.name) == orientations.end()) continue;
+    if (!is_orientation(attribute)) continue;
     if (found != nullptr)
       node.fail("has both " + found->name + " and " + attribute.name + "; one is expected");
     found = &attribute;
@@ -36,17 +40,25 @@ std::string words_after(const std::string& given, const std::string& list) {
   return rest;
 }
 
+/// Returns whether an element keeps its orientation although a default has one, too. MuJoCo reads
+/// all others over a quat, wherever they stand; its versions differ in which of two others counts.
+bool keeps_orientation(const UrdfNode& node, const std::string& own, const std::string& inherited) {
+  if (own != "quat" && inherited != "quat" && own != inherited)
+    node.fail("has " + own + ", but its default class has " + inherited + "; write both alike");
+  return own != "quat" || inherited == "quat";
+}
+
 /// Returns an element with the attributes that it lacks from a default.
 XmlElement merged(const UrdfNode& node, const UrdfNode& base) {
   XmlElement out = node.xml();
   const XmlAttribute* const own = orientation_of(node);
   const XmlAttribute* const inherited = orientation_of(base);
-  if (own != nullptr && inherited != nullptr && own->name != inherited->name)
-    node.fail("has " + own->name + ", but its default class has " + inherited->name +
-              ", and MuJoCo's versions differ in which one counts; write both alike");
+  const bool has_two = own != nullptr && inherited != nullptr;
+  const bool keeps_own = has_two && keeps_orientation(node, own->name, inherited->name);
+  if (has_two && !keeps_own) std::erase_if(out.attributes, is_orientation);
   for (const XmlAttribute& attribute : base.xml().attributes) {
     const auto known = std::ranges::find(out.attributes, attribute.name, &XmlAttribute::name);
-    if (known == out.attributes.end())
+    if (known == out.attributes.end() && !(keeps_own && is_orientation(attribute)))
       out.attributes.push_back(attribute);
     else if (attribute.name == "size")  // a shorter list replaces the first numbers
       known->value += words_after(known->value, attribute.value);

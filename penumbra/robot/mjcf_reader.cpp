@@ -20,9 +20,7 @@ namespace fs = std::filesystem;
 class MjcfIncludes {
  public:
   MjcfIncludes(const std::string& file, fs::path folder, UrdfFile& messages)
-      : folder_(std::move(folder)), messages_(&messages) {
-    seen_.insert(canonical(file));
-  }
+      : folder_(std::move(folder)), messages_(&messages), open_{canonical(file)} {}
 
   void expand(XmlElement& element) {
     constexpr std::size_t most_elements = 2'000'000;
@@ -30,13 +28,15 @@ class MjcfIncludes {
     for (XmlElement& child : element.children) {
       if (++elements_ > most_elements)
         UrdfNode(child, *messages_, "").fail("with its includes the file has too many elements");
-      const bool is_include = child.name == "include";
-      if (is_include) child = read(child);
-      expand(child);
-      if (is_include)
-        std::ranges::move(child.children, std::back_inserter(children));
-      else
+      if (child.name == "include") {
+        XmlElement part = read(child);
+        expand(part);
+        open_.pop_back();
+        std::ranges::move(part.children, std::back_inserter(children));
+      } else {
+        expand(child);
         children.push_back(std::move(child));
+      }
     }
     element.children = std::move(children);
   }
@@ -48,16 +48,18 @@ class MjcfIncludes {
     return error ? file : path;
   }
 
-  /// MuJoCo, too, reads a file once: so includes form no loop.
   XmlElement read(const XmlElement& include) {
     const UrdfNode node(include, *messages_, "include");
     node.expect({"file"});
-    constexpr std::size_t most_files = 100;
-    if (seen_.size() > most_files)
-      node.fail("more than " + std::to_string(most_files) + " files are included");
+    constexpr std::size_t most_files = 1000;
+    constexpr std::size_t deepest = 20;
+    if (++files_ > most_files || open_.size() > deepest)
+      node.fail("more than " + std::to_string(most_files) + " files are included, or they are " +
+                "nested deeper than " + std::to_string(deepest));
     const fs::path file = locate(node);
-    if (!seen_.insert(canonical(file)).second)
-      node.fail("file " + file.string() + " is included a second time, or includes itself");
+    open_.push_back(canonical(file));
+    if (std::ranges::count(open_, open_.back()) > 1)
+      node.fail("file " + file.string() + " includes itself");
     return read_xml(read_whole_file(file, FileLimit::text), file.string());
   }
 
@@ -71,7 +73,8 @@ class MjcfIncludes {
 
   fs::path folder_;
   UrdfFile* messages_;
-  std::set<fs::path> seen_;
+  std::vector<fs::path> open_;  // files, from the main one to that being read
+  std::size_t files_ = 0;
   std::size_t elements_ = 0;
 };
 

@@ -97,7 +97,8 @@ class RandomMjcf {
            "<joint pos=\"0.1 0.2 0.3\"/>\n"
            "<default class=\"slide\"><geom type=\"ellipsoid\"/><joint type=\"slide\" ref=\"0.3\"/>"
            "</default></default>\n"
-           "<default class=\"capsule\"><geom type=\"capsule\"/></default></default>\n";
+           "<default class=\"capsule\"><geom type=\"capsule\" euler=\"1 2 "
+           "3\"/></default></default>\n";
   }
 
   static std::string assets() {
@@ -135,17 +136,20 @@ class RandomMjcf {
 
   std::string geom() {
     const char* types[] = {"sphere", "capsule", "cylinder", "ellipsoid", "box"};
-    std::string out = "<geom" + class_of();
+    const std::string its_class = class_of();
+    // A quat is overridden by the class's euler; of two others, it depends on MuJoCo's version.
+    const bool only_quat = its_class.find("capsule") != std::string::npos;
+    const std::string pose =
+        " pos=\"" + exact(random_triple(random_, 0.5)) + "\"" + orientation(only_quat) + "/>";
+    std::string out = "<geom" + its_class;
     if (chance(4))
-      return out + " type=\"mesh\" mesh=\"" + (chance(2) ? "part" : "other") + "\" pos=\"" +
-             exact(random_triple(random_, 0.5)) + "\"" + orientation(true) + "/>";
+      return out + " type=\"mesh\" mesh=\"" + (chance(2) ? "part" : "other") + "\"" + pose;
     const std::size_t type = below(random_, 5);
     out += std::string(" type=\"") + types[type] + "\"";
     if (chance(2)) out += " size=\"" + exact(uniform(random_, 0.05, 0.4)) + "\"";
-    if (type > 0 && chance(3))
-      return out + " fromto=\"" + exact(random_triple(random_, 0.5)) + " " +
-             exact(random_triple(random_, 0.5)) + "\"/>";
-    return out + " pos=\"" + exact(random_triple(random_, 0.5)) + "\"" + orientation(true) + "/>";
+    if (type == 0 || !chance(3)) return out + pose;
+    return out + " fromto=\"" + exact(random_triple(random_, 0.5)) + " " +
+           exact(random_triple(random_, 0.5)) + "\"/>";
   }
 
   std::string body(int depth) {

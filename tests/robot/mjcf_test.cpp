@@ -206,7 +206,7 @@ TEST(MjcfErrors, NameLineAndElement) {
       {mjcf(body("<geom type=\"capsule\" mesh=\"m\"/>"),
             "<asset><mesh name=\"m\" file=\"m.obj\"/></asset>"),
        "fitted to a mesh"},
-      {mjcf(body("<geom size=\"1\" quat=\"1 0 0 0\"/>"),
+      {mjcf(body("<geom size=\"1\" zaxis=\"1 0 0\"/>"),
             "<default><geom euler=\"0 0 9\"/></default>"),
        "default class"},
       {mjcf(body("<joint name=\"j\"/>" + kBall), "<equality><joint joint1=\"k\"/></equality>"),
