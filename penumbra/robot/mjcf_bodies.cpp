@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
@@ -39,66 +38,54 @@ struct BodyContent {
   std::vector<ChildBody> bodies;
 };
 
-std::vector<double> sizes_of(const UrdfNode& geom, std::size_t expected, double largest) {
+/// Returns the first numbers of `size`, metres.
+std::vector<double> sizes_of(const UrdfNode& geom, std::size_t count) {
   if (!geom.has("size")) geom.fail("the attribute 'size' is missing");
   std::vector<double> sizes = mjcf_numbers(geom, "size");
-  if (sizes.size() < expected || sizes.size() > 3)
+  if (sizes.size() < count || sizes.size() > 3)
     geom.fail("size=" + in_quotes(geom.text("size")) + " has " + std::to_string(sizes.size()) +
-              " numbers; expected " + std::to_string(expected));
-  sizes.resize(expected);
+              " numbers; expected " + std::to_string(count));
+  sizes.resize(count);
   for (const double size : sizes)
-    if (size <= 0.0 || size > largest)
+    if (size <= 0.0 || size > largest_radius)
       geom.fail("size=" + in_quotes(geom.text("size")) + " must be above 0 and at most " +
-                printed(largest) + " m");
+                printed(largest_radius) + " m");
   return sizes;
 }
 
-/// The ends of a geom by `fromto`.
-struct Ends {
-  Eigen::Isometry3d T_body_geom;
-  double half_length;
-};
-
-std::optional<Ends> ends_of(const UrdfNode& geom) {
-  if (!geom.has("fromto")) return std::nullopt;
+/// Returns half of the distance between the ends in `fromto`, and sets the geom's pose by them.
+double set_ends(const UrdfNode& geom, Eigen::Isometry3d& T_body_geom) {
+  if (geom.has("pos") && !geom.vector("pos").isZero(0.0)) geom.fail("has both pos and fromto");
   Eigen::Matrix<double, 3, 2> ends;
   geom.numbers("fromto", {ends.data(), 6});
-  if (ends.cwiseAbs().maxCoeff() > farthest_origin) geom.fail("fromto lies beyond 1e6 m");
-  if (geom.has("pos") && !geom.vector("pos").isZero(0.0)) geom.fail("has both pos and fromto");
   const Eigen::Vector3d along = ends.col(0) - ends.col(1);
-  if (along.norm() / 2.0 > largest_size) geom.fail("fromto is longer than 2000 m");
-  Ends out{Eigen::Isometry3d::Identity(), along.norm() / 2.0};
-  out.T_body_geom.translation() = ends.rowwise().mean();
-  out.T_body_geom.linear() = mjcf_rotation_to(geom, along).toRotationMatrix();
-  return out;
+  if (ends.cwiseAbs().maxCoeff() > farthest_origin || along.norm() > 2.0 * largest_radius)
+    geom.fail("fromto=" + in_quotes(geom.text("fromto")) + " is too long; metres are expected");
+  T_body_geom.translation() = ends.rowwise().mean();
+  T_body_geom.linear() = mjcf_rotation_to(geom, along).toRotationMatrix();
+  return along.norm() / 2.0;
 }
 
 /// Sets the shape and pose of a sphere, capsule, cylinder, ellipsoid or box.
 void set_primitive(const UrdfNode& geom, const std::string& type, const MjcfCompiler& compiler,
                    UrdfElement& element) {
-  const std::optional<Ends> ends = ends_of(geom);
-  if (ends && type == "sphere") geom.fail("fromto is given, but a sphere has no ends");
-  element.origin = ends ? ends->T_body_geom : mjcf_pose(geom, compiler);
-  if (type == "sphere") {
-    element.shape = UrdfSphere{sizes_of(geom, 1, largest_radius)[0]};
-  } else if (type == "capsule" || type == "cylinder") {
-    const double radius = sizes_of(geom, 1, largest_radius)[0];
-    const double length = 2.0 * (ends ? ends->half_length : sizes_of(geom, 2, largest_size)[1]);
-    if (type == "capsule")
-      element.shape = UrdfCapsule{radius, length};
-    else
-      element.shape = UrdfCylinder{radius, length};
+  const bool is_sphere = type == "sphere";
+  const bool is_long = type == "capsule" || type == "cylinder";
+  const bool has_ends = geom.has("fromto");
+  if (has_ends && is_sphere) geom.fail("fromto is given, but a sphere has no ends");
+  std::vector<double> half = sizes_of(geom, is_sphere || has_ends ? 1 : is_long ? 2 : 3);
+  if (has_ends) {
+    const double half_length = set_ends(geom, element.origin);
+    half.resize(is_long ? 1 : 2, half[0]);
+    half.push_back(half_length);
   } else {
-    const bool is_box = type == "box";
-    const std::vector<double> size =
-        sizes_of(geom, ends ? 1 : 3, is_box ? largest_size : largest_radius);
-    const Eigen::Vector3d half = ends ? Eigen::Vector3d(size[0], size[0], ends->half_length)
-                                      : Eigen::Vector3d(size[0], size[1], size[2]);
-    if (is_box)
-      element.shape = UrdfBox{2.0 * half};
-    else
-      element.shape = UrdfEllipsoid{half};
+    element.origin = mjcf_pose(geom, compiler);
   }
+  if (is_sphere) element.shape = UrdfSphere{half[0]};
+  if (type == "capsule") element.shape = UrdfCapsule{half[0], 2.0 * half[1]};
+  if (type == "cylinder") element.shape = UrdfCylinder{half[0], 2.0 * half[1]};
+  if (type == "ellipsoid") element.shape = UrdfEllipsoid{{half[0], half[1], half[2]}};
+  if (type == "box") element.shape = UrdfBox{{2.0 * half[0], 2.0 * half[1], 2.0 * half[2]}};
 }
 
 void set_mesh(const UrdfNode& geom, const MjcfModel& model, UrdfElement& element) {
@@ -151,20 +138,13 @@ bool is_shown(const UrdfNode& geom) {
   return integer_of(geom, "group", 0) <= last_group_shown && !is_transparent(geom);
 }
 
-UrdfNode with_name(const UrdfNode& node, const std::string& body) {
-  if (!node.has("name")) return node;
-  return node.named("body " + in_quotes(body) + ", " + node.name() + " " +
-                    in_quotes(node.text("name")));
-}
-
-void add_geom(const UrdfNode& unnamed, const Eigen::Isometry3d& T_body_frame,
+void add_geom(const UrdfNode& node, const Eigen::Isometry3d& T_body_frame,
               const std::string& defaults, UrdfLink& link, MjcfModel& model) {
   UrdfElement element;
   element.place = link.place;
   bool is_collision = true;
   bool is_visual = true;
   try {
-    const UrdfNode node = with_name(unnamed, link.name);
     node.expect(mjcf_geom_rule);
     const XmlElement complete = model.defaults.complete(node, defaults, "geom");
     const UrdfNode geom = node.with(complete);

@@ -223,22 +223,20 @@ void for_each(const UrdfNode& root, std::string_view name, Read&& read) {
     if (child.name() == name) read(child);
 }
 
-void add_notes(const MjcfModel& model, std::size_t open, Urdf& urdf) {
+void add_notes(const MjcfModel& model, std::size_t open, std::vector<std::string>& notes) {
   const auto note = [&](std::size_t count, const std::string& what) {
-    if (count > 0) urdf.warnings.push_back(urdf.file + ": " + std::to_string(count) + " " + what);
+    if (count > 0) notes.push_back(what + ": " + std::to_string(count));
   };
   note(model.surroundings,
-       "geoms that stand in the world itself (floor, table) are not drawn: they are no body's");
+       "geoms of the world itself (floor, table), which are not drawn as they are no body's");
   note(model.hidden,
-       "geoms are not drawn: they do not collide, and their group is above 2 or they are "
-       "transparent");
+       "geoms that are not drawn as they do not collide and are in a group above 2 or transparent");
   note(open,
-       "equality constraints (closed loops, tendons, nonlinear ones) are not enforced: each joint "
-       "needs a position of its own");
-  std::string balls;
+       "equality constraints (closed loops, tendons, nonlinear ones) that are not enforced: each "
+       "of their joints needs a position of its own");
   for (const std::string& name : model.balls)
-    balls += (balls.empty() ? "" : ", ") + in_quotes(name);
-  note(model.balls.size(), "ball joints are floating joints, whose x, y and z must be 0: " + balls);
+    notes.push_back("joint " + in_quotes(name) +
+                    ": a ball joint is read as a floating one; its x, y and z must be 0");
 }
 
 }  // namespace
@@ -265,7 +263,7 @@ Urdf read_mjcf(XmlElement root, const std::string& file, const fs::path& folder)
   for_each(node, "equality", [&](const UrdfNode& n) { open += read_equalities(n, model, joints); });
   if (urdf.links.size() == 1) node.fail("the model has no bodies; this may be a part of one");
   for (auto& [kind, line] : messages.warnings) urdf.warnings.push_back(std::move(line));
-  add_notes(model, open, urdf);
+  add_notes(model, open, urdf.warnings);
   return urdf;
 }
 
