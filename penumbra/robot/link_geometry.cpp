@@ -54,6 +54,16 @@ struct PrimitiveMaker {
     source = round_name("capsule", capsule.radius, capsule.length);
     return make_capsule(padded(2.0 * capsule.radius) / 2.0, capsule.length);
   }
+  TriangleMesh operator()(const UrdfEllipsoid& ellipsoid) const {
+    const Eigen::Vector3d& radii = ellipsoid.radii;
+    source = "ellipsoid radii " + printed(radii.x()) + ", " + printed(radii.y()) + ", " +
+             printed(radii.z());
+    const double largest = radii.maxCoeff();
+    TriangleMesh mesh = make_sphere(largest);
+    for (Eigen::Vector3f& vertex : mesh.vertices)
+      vertex = vertex.cwiseProduct((radii / largest).cast<float>());
+    return mesh;
+  }
   TriangleMesh operator()(const UrdfMesh&) const { return {}; }  // read from a file instead
 
   [[nodiscard]] double padded(double size) const {
@@ -63,9 +73,10 @@ struct PrimitiveMaker {
 };
 
 /// Scales, then places the mesh, in double. Keeps the outside of a mirrored mesh outside.
-void place(const Eigen::Vector3d& scale, const Eigen::Isometry3d& origin, TriangleMesh& mesh) {
+void place(const UrdfMesh& file, const Eigen::Isometry3d& origin, TriangleMesh& mesh) {
+  const Eigen::Vector3d& scale = file.scale;
   for (Eigen::Vector3f& vertex : mesh.vertices) {
-    const Eigen::Vector3d scaled = scale.cwiseProduct(vertex.cast<double>());
+    const Eigen::Vector3d scaled = scale.cwiseProduct(file.T_scaled_file * vertex.cast<double>());
     const Eigen::Vector3d placed = origin * scaled;
     if (!(placed.cwiseAbs().maxCoeff() <= farthest_vertex))
       throw InputError("a vertex lies beyond 1e6 m; check the unit and the scale");
@@ -131,10 +142,11 @@ void GeometryLoader::add(const UrdfElement& element, LinkGeometry& out) {
     return report_missing(place, error.what(), out.report);
   }
   try {
-    const bool is_file = std::holds_alternative<UrdfMesh>(element.shape);
+    const bool is_offset = std::holds_alternative<UrdfMesh>(element.shape) ||
+                           std::holds_alternative<UrdfEllipsoid>(element.shape);
     keep(*mesh,
-         is_file || margin == 0.0 ? offset_surface(*mesh, margin)
-                                  : make_mesh(element, margin, source),
+         is_offset || margin == 0.0 ? offset_surface(*mesh, margin)
+                                    : make_mesh(element, margin, source),
          out);
   } catch (const InputError& error) {
     throw InputError(place + error.what());
@@ -171,17 +183,16 @@ std::vector<std::string> GeometryLoader::notes() const {
 PreparedMesh GeometryLoader::make_mesh(const UrdfElement& element, double margin,
                                        std::string& source) {
   TriangleMesh placed;
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  if (const auto* file = std::get_if<UrdfMesh>(&element.shape)) {
+  const auto* const file = std::get_if<UrdfMesh>(&element.shape);
+  if (file != nullptr) {
     source = file->filename;
     const auto path = locator_.locate(file->filename);
     source = path.string();
     placed = read_file(path);
-    scale = file->scale;
   } else {
     placed = std::visit(PrimitiveMaker{source, margin}, element.shape);
   }
-  place(scale, element.origin, placed);
+  place(file == nullptr ? UrdfMesh() : *file, element.origin, placed);
   PreparedMesh mesh(placed);
   if (mesh.triangles.empty())
     throw InputError(source + ": no triangle has an area; check the unit and the scale");

@@ -12,6 +12,7 @@
 #include <penumbra/base/text.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 #include <penumbra/robot/link_geometry-inl.hpp>
+#include <penumbra/robot/mjcf-inl.hpp>
 #include <penumbra/robot/robot.hpp>
 #include <penumbra/robot/robot_tree-inl.hpp>
 #include <penumbra/robot/xacro-inl.hpp>
@@ -188,11 +189,14 @@ Matrix3d plane_axes(const Vector3d& normal) {
   return axes;
 }
 
-/// Reads a URDF or xacro text.
+/// Reads a URDF, xacro or MJCF text.
 static detail::Urdf read_description(std::string_view xml, const std::string& file,
                                      const fs::path& folder, const RobotOptions& options,
                                      detail::FileLocator& packages) {
-  const detail::XmlElement root = detail::read_xml(xml, file);
+  detail::XmlElement root = detail::read_xml(xml, file);
+  if (root.name == "mujoco" && !options.arguments.empty())
+    throw InputError(file + ": an MJCF takes no arguments; they are for xacro files");
+  if (root.name == "mujoco") return detail::read_mjcf(std::move(root), folder);
   return detail::read_urdf(detail::expand_xacro(root, folder, options.arguments, packages));
 }
 

@@ -103,19 +103,20 @@ struct RobotPart {
   std::size_t first_variable, end_variable;
 };
 
-/// A URDF's links, joints and geometry. Immutable: copies are cheap, share their data and may be
-/// used by several threads.
+/// The links, joints and geometry of a URDF, xacro or MJCF. Immutable: copies are cheap, share
+/// their data and may be used by several threads.
 class Robot {
  public:
   static constexpr double max_position = 1e9;  ///< rad or m, keeps every pose finite
 
-  /// Reads a URDF and its meshes. Throws InputError that names file, line and element for a URDF
-  /// that cannot be drawn correctly, for a mesh that cannot be read, and for links that have only
-  /// the other kind than the chosen geometry.
+  /// Reads a URDF, a xacro file or an MJCF (docs/recording.md says how), and its meshes. Throws
+  /// InputError that names file, line and element for one that cannot be drawn correctly, for a
+  /// mesh that cannot be read, and for links that have only the other kind than the chosen
+  /// geometry.
   [[nodiscard]] static Robot load(const std::filesystem::path& urdf,
                                   const RobotOptions& options = {});
 
-  /// Reads a URDF from text. Relative mesh paths start at `folder`.
+  /// Reads such a text. Relative mesh paths start at `folder`.
   [[nodiscard]] static Robot parse(std::string_view xml, const std::filesystem::path& folder,
                                    const RobotOptions& options = {});
 

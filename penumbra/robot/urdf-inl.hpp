@@ -28,16 +28,20 @@ struct UrdfSphere {
 struct UrdfCapsule {
   double radius, length;  // length of the cylindrical part
 };
+struct UrdfEllipsoid {
+  Eigen::Vector3d radii;
+};
 struct UrdfMesh {
   std::string filename;  // a path or URI as written
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+  Eigen::Isometry3d T_scaled_file = Eigen::Isometry3d::Identity();  // before the scale
 };
 
 /// A visual or collision element.
 struct UrdfElement {
   std::string place;                                         // that of its link
   Eigen::Isometry3d origin = Eigen::Isometry3d::Identity();  // T_link_shape
-  std::variant<UrdfBox, UrdfCylinder, UrdfSphere, UrdfCapsule, UrdfMesh> shape;
+  std::variant<UrdfBox, UrdfCylinder, UrdfSphere, UrdfCapsule, UrdfEllipsoid, UrdfMesh> shape;
   std::string fault;  // why it cannot be drawn, with its place; empty if it can
 };
 
@@ -50,6 +54,11 @@ struct UrdfLink {
     return g == Geometry::visual ? visuals : collisions;
   }
 };
+
+// Larger values were written in another unit. The radius also bounds the triangles of a sphere.
+inline constexpr double largest_size = 1000.0;  // metres
+inline constexpr double largest_radius = 50.0;  // metres
+inline constexpr double farthest_origin = 1e6;  // metres
 
 /// Larger multipliers and offsets are an error of the unit.
 inline constexpr double largest_mimic = 1e9;

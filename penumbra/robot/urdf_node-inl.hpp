@@ -31,6 +31,7 @@ class UrdfNode {
   UrdfNode(const XmlElement& xml, UrdfWarnings& warnings, std::string where)
       : xml_(&xml), warnings_(&warnings), where_(std::move(where)) {}
 
+  [[nodiscard]] const XmlElement& xml() const { return *xml_; }
   [[nodiscard]] const std::string& name() const { return xml_->name; }
   [[nodiscard]] std::string place() const;  ///< file, line and element, for messages
 
@@ -55,6 +56,9 @@ class UrdfNode {
   [[nodiscard]] UrdfNode named(const std::string& where) const {
     return {*xml_, *warnings_, where};
   }
+
+  /// Returns another element of the file under the name of this one.
+  [[nodiscard]] UrdfNode with(const XmlElement& xml) const { return {xml, *warnings_, where_}; }
 
   [[noreturn]] void fail(const std::string& what) const;
 

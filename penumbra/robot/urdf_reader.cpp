@@ -10,11 +10,6 @@
 namespace penumbra::detail {
 namespace {
 
-// Larger values were written in another unit. The radius also bounds the triangles of a sphere.
-constexpr double largest_size = 1000.0;  // metres
-constexpr double largest_radius = 50.0;  // metres
-constexpr double farthest_origin = 1e6;  // metres
-
 Eigen::Quaterniond read_rotation(const UrdfNode& node) {
   if (node.has("quat_xyzw")) {
     if (node.has("rpy")) node.fail("has both rpy and quat_xyzw; one is expected");
@@ -55,7 +50,8 @@ UrdfBox read_box(const UrdfNode& node) {
 
 UrdfMesh read_mesh(const UrdfNode& node) {
   node.expect({"filename scale"});
-  UrdfMesh mesh{node.text("filename")};
+  UrdfMesh mesh;
+  mesh.filename = node.text("filename");
   if (node.has("scale")) mesh.scale = node.vector("scale");
   if ((mesh.scale.array() == 0.0).any())
     node.fail("scale=" + in_quotes(node.text("scale")) + " flattens the mesh; no factor may be 0");
@@ -196,7 +192,7 @@ Urdf read_urdf(const XmlElement& root) {
   UrdfWarnings warnings;
   const UrdfNode node(root, warnings, "");
   if (root.name != "robot")
-    node.fail("the file's root is <" + root.name + ">; a URDF's is <robot>");
+    node.fail("the file's root is <" + root.name + ">; a URDF's is <robot>, an MJCF's <mujoco>");
   node.expect({"name version", "", "link joint",
                "material transmission gazebo ros2_control sensor mujoco"});
   if (node.has("version") && !node.text("version").starts_with("1"))
