@@ -266,7 +266,7 @@ class Dataset:
         for i, of in enumerate(self._columns):
             if of.column is not None and of.column >= columns.shape[1]:
                 raise InputError(
-                    f"column {of.column} of {of.joint} is missing: "
+                    f"joint {of.joint}: column {of.column} is missing: "
                     f"the episode has {columns.shape[1]} columns"
                 )
             joints[:, i] = of.offset
