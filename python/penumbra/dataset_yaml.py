@@ -6,7 +6,8 @@ from __future__ import annotations
 import difflib
 import importlib
 import pathlib
-from typing import Any, NamedTuple, Optional
+from collections.abc import Callable
+from typing import Any, NamedTuple, Optional, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,7 @@ from penumbra import (
 )
 
 degree = float(np.pi / 180)
+T = TypeVar("T")
 
 
 class Layout(NamedTuple):
@@ -44,6 +46,14 @@ class JointColumn(NamedTuple):
     column: Optional[int] = None
     scale: float = 1.0
     offset: float = 0.0
+
+
+class Recorded(NamedTuple):
+    """What data sets record of a robot: an entry of robots.yaml, or of your own file."""
+
+    name: str
+    fits: tuple[str, ...]  # public descriptions
+    columns: tuple[str, ...]
 
 
 class CloudOptions(NamedTuple):
@@ -91,19 +101,44 @@ CAMERA_KEYS = (
     "sensor",
     "depth_scale",
 )
-ROBOT_KEYS = ("urdf", "packages", "arguments", "geometry", "geometry_fallback", "ignore_links")
+ROBOT_KEYS = (
+    "name",
+    "urdf",
+    "packages",
+    "arguments",
+    "geometry",
+    "geometry_fallback",
+    "ignore_links",
+)
+JOINT_KEYS = ("joint", "column", "scale", "offset", "unit", "value")
+ROBOTS = pathlib.Path(__file__).with_name("robots.yaml")
 
 
-def read(file: pathlib.Path) -> dict[str, Any]:
-    """Returns the arguments of Dataset. Raises InputError that names the key."""
+def read(file: pathlib.Path, robot: str = "", urdf: str = "") -> dict[str, Any]:
+    """Returns the arguments of Dataset. Raises InputError that names the key.
+
+    robot, urdf: in place of the file's robot.name and robot.urdf, "": as there.
+    """
+
+    def arguments(root: Any) -> dict[str, Any]:
+        keys = _only(root, "", ("robot", "camera", "layout", "joints", "clouds"))
+        given = {key: of for key, of in (("name", robot), ("urdf", urdf)) if of}
+        if given:
+            keys["robot"] = {**(keys.get("robot") or {}), **given}
+        return _arguments(keys, file.parent)
+
+    return _parsed(file, arguments)
+
+
+def _parsed(file: pathlib.Path, use: Callable[[Any], T]) -> T:
+    """Returns what is made of a YAML file. Raises InputError that names the file."""
     try:
         text = file.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{file}: cannot be read: {error}") from None
     yaml = needed("yaml", "python3-yaml")
     try:
-        root = _only(yaml.safe_load(text), "", ("robot", "camera", "layout", "joints", "clouds"))
-        return _arguments(root, file.parent)
+        return use(yaml.safe_load(text))
     except yaml.YAMLError as error:
         raise InputError(f"{file}: {error}") from None
     except InputError as error:
@@ -128,17 +163,75 @@ def _arguments(root: dict[str, Any], folder: pathlib.Path) -> dict[str, Any]:
         layout = layout._replace(pose="")
         read_pose = read_pose_csv(folder / pose) if isinstance(pose, str) else poses_of(pose, 0)
         config = config.replace(T_parent_camera=read_pose)
-    joints = root.get("joints")
+    robot = _only(root.get("robot"), "robot", ROBOT_KEYS)
+    recorded, joints = None, root.get("joints")
+    if "name" in robot:
+        recorded, known, xacro = _recorded(str(robot["name"]), folder)
+        if str(_of(robot, "robot", "urdf")).endswith(".xacro"):
+            robot["arguments"] = {**xacro, **robot.get("arguments", {})}
+        joints = [*known, *_joints(joints or [], recorded)]
+    elif joints is not None:
+        joints = _joints(joints, None)
     return {
-        "robot": _robot(_only(root.get("robot"), "robot", ROBOT_KEYS), folder),
+        "robot": _robot(robot, folder),
         "camera": _camera(camera, folder),
         "config": config,
-        "joints": None if joints is None else [_joint(entry, i) for i, entry in enumerate(joints)],
+        "joints": joints,
+        "recorded": recorded,
         "layout": layout,
         "camera_name": str(camera.get("name", "")),
         "depth_scale": camera.get("depth_scale"),
         "clouds": CloudOptions(**_only(root.get("clouds") or {}, "clouds", CloudOptions._fields)),
     }
+
+
+Mapping = tuple[Recorded, list[JointColumn], dict[str, Any]]
+
+
+def _recorded(name: str, folder: pathlib.Path) -> Mapping:
+    """Returns a robot of robots.yaml or of a file, its joints and its xacro arguments."""
+
+    def entry(node: Any) -> Mapping:
+        keys = _only(node, "", ("data", "fits", "arguments", "columns"))
+        columns = _of(keys, "", "columns")
+        if not isinstance(columns, dict):
+            raise InputError(f"columns: expected NAME: JOINT of each column; got {columns}")
+        joints = [
+            _joint(of if isinstance(of, str) else {"column": i, **of}, i, f"column {key}")
+            for i, (key, entries) in enumerate(columns.items())
+            for of in (entries if isinstance(entries, list) else [entries])
+        ]
+        recorded = Recorded(name, tuple(keys.get("fits", ())), tuple(map(str, columns)))
+        return recorded, joints, keys.get("arguments", {})
+
+    if name.endswith((".yaml", ".yml")):
+        return _parsed(folder / name, entry)
+    known: dict[str, Any] = _parsed(ROBOTS, dict)
+    if name not in known:
+        near = difflib.get_close_matches(name, known, 1)
+        hint = f"did you mean {near[0]}? " if near else ""
+        raise InputError(
+            f"robot.name: {name} is not known; {hint}Known are {', '.join(known)}, "
+            "or give a .yaml file of your own"
+        )
+    return entry(known[name])
+
+
+def _joints(nodes: Any, recorded: Optional[Recorded]) -> list[JointColumn]:
+    """Reads dataset.yaml's entries. Those of a robot with a name may name their column."""
+    joints = []
+    for place, node in enumerate(nodes):
+        where = f"joints[{place}]"
+        if recorded:
+            column = _only(node, where, JOINT_KEYS).get("column")
+            if isinstance(column, str):
+                if column not in recorded.columns:
+                    raise InputError(
+                        f"{where}: column {column} is not one of {', '.join(recorded.columns)}"
+                    )
+                node = {**node, "column": recorded.columns.index(column)}
+        joints.append(_joint(node, place, where))
+    return joints
 
 
 def _robot(node: dict[str, Any], folder: pathlib.Path) -> Robot:
@@ -174,12 +267,11 @@ def _layout(node: Any) -> Layout:
     return Layout((columns,) if isinstance(columns, str) else tuple(columns), **rest)
 
 
-def _joint(node: Any, place: int) -> JointColumn:
+def _joint(node: Any, place: int, where: str) -> JointColumn:
     """A name alone is the joint of the column at its place."""
     if isinstance(node, str):
         return JointColumn(node, place)
-    where = f"joints[{place}]"
-    keys = _only(node, where, ("joint", "column", "scale", "offset", "unit", "value"))
+    keys = _only(node, where, JOINT_KEYS)
     name = str(_of(keys, where, "joint"))
     if "value" in keys:
         _only(keys, f"{where} with a value", ("joint", "value"))
@@ -231,7 +323,7 @@ def poses_of(given: NDArray[Any], frames: int) -> NDArray[np.float64]:
 
 def _of(node: dict[str, Any], where: str, key: str) -> Any:
     if node.get(key) is None:
-        raise InputError(f"{where}: {key} is needed")
+        raise InputError(f"{where}: {key} is needed" if where else f"{key} is needed")
     return node[key]
 
 

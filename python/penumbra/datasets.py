@@ -2,6 +2,7 @@
 """Robot masks for the episodes of robot data sets (docs/robot_masks.md).
 
 python3 -m penumbra.datasets FILE... -o OUT --dataset dataset.yaml [--save rle,npz,...]
+    [--robot NAME --description PATH]
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from penumbra import (
     FrameReport,
     FrameStatus,
     InputError,
+    Joint,
     JointType,
     PipelineConfig,
     Robot,
@@ -41,6 +43,7 @@ from penumbra.dataset_yaml import (
     CloudOptions,
     JointColumn,
     Layout,
+    Recorded,
     degree,
     needed,
     poses_of,
@@ -81,15 +84,18 @@ class Dataset:
         camera_name: str = "",
         depth_scale: Optional[float] = None,
         clouds: CloudOptions = CloudOptions(),
+        recorded: Optional[Recorded] = None,
     ) -> None:
         """config: the camera's parent and pose, and the rule that clouds are made by.
         joints: one of each of robot.variables; None: the columns are these.
+        recorded: the names of all columns of an episode; None: there may be others.
         depth_scale: metres per unit; None: 0.001 for integers, 1 for floats."""
         if joints is None:
             joints = [JointColumn(name, i) for i, name in enumerate(robot.variables)]
         self.robot, self.camera, self.config = robot, camera, config
         self.clouds, self._depth_scale = clouds, depth_scale
-        self._columns = _in_order(joints, robot)
+        self._recorded = recorded or Recorded("", (), ())
+        self._columns = _in_order(joints, robot, self._recorded)
         paths = layout._asdict()
         for key in ("color", "depth", "pose"):
             needs_name = "{camera}" in paths[key] and not camera_name
@@ -97,9 +103,14 @@ class Dataset:
         self._layout = Layout(**paths)
 
     @staticmethod
-    def load(file: str | os.PathLike[str]) -> Dataset:
-        """Reads a dataset.yaml. Raises InputError."""
-        return Dataset(**dataset_yaml.read(pathlib.Path(file)))
+    def load(
+        file: str | os.PathLike[str], robot: str = "", urdf: str | os.PathLike[str] = ""
+    ) -> Dataset:
+        """Reads a dataset.yaml. Raises InputError.
+
+        robot: a name of robots.yaml or a file, urdf: the description, in place of dataset.yaml's.
+        """
+        return Dataset(**dataset_yaml.read(pathlib.Path(file), robot, os.fspath(urdf)))
 
     def episode(
         self,
@@ -115,8 +126,10 @@ class Dataset:
         columns: T x n. pose: of the camera, if it is another one than the data set's.
         color, depth: return the image of a frame. Raises InputError.
         """
-        joints = self._joints(np.asarray(columns))
-        _check_limits(joints, self.robot)
+        columns = np.asarray(columns)
+        joints = self._joints(columns)
+        _check_limits(joints, columns, self._columns, self.robot, self._recorded)
+        _check_degrees(columns, self._columns, self.robot, self._recorded)
         of_camera = self.config.T_parent_camera if pose is None else poses_of(pose, len(joints))
         k = self.camera.intrinsics
         for what, images in (("colour", color), ("depth", depth)):
@@ -243,6 +256,12 @@ class Dataset:
             raise InputError(f"joints: expected frames x columns; got shape {columns.shape}")
         if len(columns) == 0:
             raise InputError("the episode has no frames")
+        known = self._recorded
+        if known.columns and columns.shape[1] != len(known.columns):
+            raise InputError(
+                f"the episode has {columns.shape[1]} columns, but {known.name} has "
+                f"{len(known.columns)}: {', '.join(known.columns)}"
+            )
         joints = np.empty((len(columns), len(self._columns)))
         for i, of in enumerate(self._columns):
             if of.column is not None and of.column >= columns.shape[1]:
@@ -274,40 +293,97 @@ class Dataset:
         return np.ascontiguousarray(image * np.float32(1 if scale is None else scale), np.float32)
 
 
-def _in_order(joints: Sequence[JointColumn], robot: Robot) -> list[JointColumn]:
+def _label(column: Optional[int], recorded: Recorded) -> str:
+    if column is None:
+        return "joints"
+    name = f" ({recorded.columns[column]})" if column < len(recorded.columns) else ""
+    return f"column {column}{name}"
+
+
+def _in_order(
+    joints: Sequence[JointColumn], robot: Robot, recorded: Recorded
+) -> list[JointColumn]:
+    fits = f"; {recorded.name} fits {' or '.join(recorded.fits)}" if recorded.fits else ""
     of = {entry.joint: entry for entry in joints}
-    for name in of:
+    for name, entry in of.items():
         if name not in robot.variables:
             near = difflib.get_close_matches(name, robot.variables, 1)
             hint = f"; did you mean {near[0]}?" if near else f" of {', '.join(robot.variables)}"
-            raise InputError(f"joints: {name} is not a joint{hint}")
+            where = _label(entry.column, recorded)
+            raise InputError(f"{where}: {name} is not a joint{hint}{fits}")
     missing = [name for name in robot.variables if name not in of]
     if missing:
+        used = {entry.column for entry in joints}
+        free = [_label(i, recorded) for i in range(len(recorded.columns)) if i not in used]
         raise InputError(
             f"joints: {', '.join(missing)}: give a column, or the value of a joint "
-            "that does not move"
+            f"that does not move{fits}" + (f"; no joint has {', '.join(free)}" if free else "")
         )
     return [of[name] for name in robot.variables]
 
 
-def _check_limits(joints: NDArray[np.float64], robot: Robot) -> None:
-    """Finds degrees, and grippers from 0 to 1."""
+def _check_limits(
+    joints: NDArray[np.float64],
+    columns: NDArray[Any],
+    order: Sequence[JointColumn],
+    robot: Robot,
+    recorded: Recorded,
+) -> None:
+    """Finds degrees, millimetres, and grippers from 0 to 1."""
     for joint in robot.joints:
         if joint.variable is None or joint.mimics or joint.lower is None or joint.upper is None:
             continue
-        values, reach = joints[:, joint.variable], joint.upper - joint.lower
+        of, values = order[joint.variable], joints[:, joint.variable]
+        reach = joint.upper - joint.lower
         beyond = np.maximum(joint.lower - values, values - joint.upper)
         share = np.mean(beyond > beyond_range * reach)
         if reach > 0 and share > most_beyond:
-            hint = (
-                "set its scale and offset"
-                if joint.type == JointType.prismatic
-                else f"if the values look like degrees: set unit: degrees, or scale: {degree:.7f}"
-            )
+            raw = values if of.column is None else columns[:, of.column]
+            worst = np.argmax(beyond)
+            meant = "" if raw[worst] == values[worst] else f", taken as {values[worst]:.4g},"
             raise InputError(
-                f"joint {joint.name}: {values[np.argmax(beyond)]:.4g} is beyond the URDF's limits "
-                f"({joint.lower:.4g} to {joint.upper:.4g}), as {100 * share:.0f} % of all: {hint}"
+                f"{_label(of.column, recorded)}: {raw[worst]:.4g}{meant} is beyond {joint.name}'s "
+                f"limits ({joint.lower:.4g} to {joint.upper:.4g}), as {100 * share:.0f} % of all: "
+                + _likely_unit(raw, of, joint)
             )
+
+
+def _likely_unit(values: NDArray[np.float64], of: JointColumn, joint: Joint) -> str:
+    """Of values beyond the joint's limits: the first unit that brings them within."""
+    lower, upper = joint.lower or 0, joint.upper or 0
+    remedy = "set its scale and offset"
+    if of.column is None:
+        return "set its value"
+    if of.scale != 1:
+        units = [("0 to 100", 0.01), ("0 to 1000", 0.001)]
+    elif joint.type != JointType.prismatic:
+        units = [("degrees", degree)]
+        remedy = f"set unit: degrees, or scale: {degree:.7f}"
+    else:
+        units = [("0 to 1", upper)] if np.max(np.abs(values)) < 1.1 else [("millimetres", 0.001)]
+    for unit, factor in units:
+        meant = of.scale * factor * values + of.offset
+        beyond = np.maximum(lower - meant, meant - upper)
+        if np.mean(beyond > beyond_range * (upper - lower)) <= most_beyond:
+            return f"{unit}? {remedy}"
+    return "set its scale and offset"
+
+
+def _check_degrees(
+    columns: NDArray[Any], order: Sequence[JointColumn], robot: Robot, recorded: Recorded
+) -> None:
+    """Finds radians that are taken as degrees: three joints never stay within 3.2 degrees."""
+    turns = {joint.variable for joint in robot.joints if joint.type != JointType.prismatic}
+    scaled = [
+        of.column
+        for i, of in enumerate(order)
+        if i in turns and of.column is not None and abs(of.scale) < 0.1
+    ]
+    if len(scaled) >= 3 and np.max(np.abs(columns[:, scaled])) < 3.2:
+        raise InputError(
+            f"{', '.join(_label(column, recorded) for column in scaled)}: all values are within "
+            "3.2: radians? They are taken as degrees"
+        )
 
 
 def _open(file: str | os.PathLike[str]) -> Any:
@@ -335,16 +411,16 @@ def _file_of(name: str) -> pathlib.Path:
 
 
 @functools.lru_cache(maxsize=2)
-def _loaded(description: str, changed: int) -> Dataset:
-    return Dataset.load(description)
+def _loaded(description: str, changed: int, robot: str, urdf: str) -> Dataset:
+    return Dataset.load(description, robot, urdf)
 
 
 def _write_masks(
     name: str, options: list[str], working_folder: str, part: pathlib.Path
 ) -> dict[str, Any]:
-    """The work of a batch: options are dataset.yaml and what to save."""
-    description, *save = options
-    dataset = _loaded(description, os.stat(description).st_mtime_ns)
+    """The work of a batch: options are dataset.yaml, robot, its description and what to save."""
+    description, robot, urdf, *save = options
+    dataset = _loaded(description, os.stat(description).st_mtime_ns, robot, urdf)
     file = _file_of(name)
     group = pathlib.Path(name).relative_to(file).as_posix()
     episode = dataset.read(file, "" if group == "." else group)
@@ -379,12 +455,16 @@ def run(
     output: str | os.PathLike[str],
     description: str | os.PathLike[str],
     save: Sequence[str] = ("rle",),
+    *,
+    robot: str = "",
+    urdf: str | os.PathLike[str] = "",
     **where: Any,
 ) -> list[dict[str, Any]]:
     """Writes the masks of all episodes of files, on all cores or on a cluster of Dask's.
 
     inputs: HDF5 or .npz files, or patterns of them. output: as of penumbra.batch.run; each
     episode's files are in output/NAME-HASH/run. description: a dataset.yaml. save: as of write().
+    robot, urdf: as of Dataset.load, from the working folder.
     where: workers, scheduler, retry_failed and on_progress of penumbra.batch.run.
 
     Returns a record of each episode: "status", "frames", "pixels_robot" and others; "fault" if it
@@ -392,7 +472,10 @@ def run(
     """
     file = os.path.abspath(description)
     mask_files.check(save)
-    given = [(name, [file, *save]) for name in _episodes(inputs, Dataset.load(file))]
+    robot = os.path.abspath(robot) if robot.endswith((".yaml", ".yml")) else robot
+    urdf = os.path.abspath(urdf) if urdf else ""
+    dataset = Dataset.load(file, robot, urdf)
+    given = [(name, [file, robot, urdf, *save]) for name in _episodes(inputs, dataset)]
     return batch.run_work(
         _write_masks, given, lambda name: [_file_of(name), pathlib.Path(file)], output, **where
     )
@@ -409,6 +492,8 @@ def main() -> int:
     )
     parser.add_argument("inputs", nargs="+", metavar="FILE", help="HDF5, .npz, or 'pattern*.hdf5'")
     parser.add_argument("--dataset", required=True, help="dataset.yaml: robot, camera, joints")
+    parser.add_argument("--robot", default="", help="name of the robot, or its mapping file")
+    parser.add_argument("--description", default="", help="the robot's URDF or xacro file")
     parser.add_argument("--save", default="rle", help=",".join(mask_files.WRITERS))
     batch.add_options(parser)
     known = parser.parse_args()
@@ -416,7 +501,13 @@ def main() -> int:
         parser,
         known,
         lambda where: run(
-            known.inputs, known.output, known.dataset, known.save.split(","), **where
+            known.inputs,
+            known.output,
+            known.dataset,
+            known.save.split(","),
+            robot=known.robot,
+            urdf=known.description,
+            **where,
         ),
     )
 

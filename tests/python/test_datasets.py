@@ -337,7 +337,7 @@ def test_a_batch_goes_on_after_faulty_episodes_and_does_only_what_is_new(joints,
     image = np.zeros((len(joints), 48, 64, 3), np.uint8)
     for name, arrays in {
         "good": {"qpos": given}, "empty": {"qpos": given[:0]}, "nan": {"qpos": wrong},
-        "other": {"action": given}, "radians": {"qpos": given / DEGREE}, "narrow": {"qpos": given[:, :4]},
+        "other": {"action": given}, "scaled": {"qpos": given / DEGREE}, "narrow": {"qpos": given[:, :4]},
         "small": {"qpos": given, "front": image}, "also_good": {"qpos": given},
     }.items():
         write_h5(folder / f"{name}.hdf5", {"front": np.zeros((len(joints), HEIGHT, WIDTH, 3), np.uint8), **arrays})
@@ -345,7 +345,7 @@ def test_a_batch_goes_on_after_faulty_episodes_and_does_only_what_is_new(joints,
     description = describe(tmp_path, layout={"columns": "qpos", "color": "front"})
     batch = [folder / "*.hdf5", "-o", tmp_path / "out", "--dataset", description, "--workers", "1", "--save"]
     done = command(*batch, "rle,npz", status=1)
-    for says in ("no frames", "shoulder_lift", "qpos is not in the file", "unit: degrees", "column 4 is missing",
+    for says in ("no frames", "shoulder_lift", "qpos is not in the file", "is beyond", "column 4 is missing",
                  "64x48", "text.hdf5"):
         assert says in done.stderr, says
     results = {pathlib.Path(of).parent: of.stat().st_mtime_ns for of in tmp_path.glob("out/*/batch.json")}
