@@ -14,7 +14,7 @@ namespace {
 
 using Integer = std::int64_t;
 
-constexpr std::size_t longest = 100'000;  // text or list
+constexpr std::size_t longest_sequence = 100'000;  // text or list
 
 std::string type_name(const Value& value) {
   constexpr std::array<const char*, 9> names = {"None", "bool", "int",      "float",    "str",
@@ -115,7 +115,7 @@ Value float_operator(std::string_view op, double a, double b) {
 template <typename Sequence>
 Sequence repeated(const Sequence& sequence, Integer times) {
   Sequence out;
-  if (times > 0 && sequence.size() > longest / static_cast<std::size_t>(times))
+  if (times > 0 && sequence.size() > longest_sequence / static_cast<std::size_t>(times))
     throw InputError("a text or list is too long");
   for (Integer i = 0; i < times; ++i) out.insert(out.end(), sequence.begin(), sequence.end());
   return out;
@@ -123,7 +123,7 @@ Sequence repeated(const Sequence& sequence, Integer times) {
 
 template <typename Sequence>
 Sequence joined(Sequence a, const Sequence& b) {
-  if (a.size() + b.size() > longest) throw InputError("a text or list is too long");
+  if (a.size() + b.size() > longest_sequence) throw InputError("a text or list is too long");
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
