@@ -50,7 +50,9 @@ class Report {
   [[nodiscard]] std::optional<ImageResult<float>> virtual_depth() const;
   [[nodiscard]] std::optional<ImageResult<std::uint16_t>> link_image() const;
   [[nodiscard]] BoolImage robot_mask() const;
-  [[nodiscard]] DepthImage filtered_depth() const;
+  /// Raises IndexError outside of the image.
+  [[nodiscard]] Label label(int u, int v) const;
+  [[nodiscard]] DepthImage depth_without_robot() const;
   [[nodiscard]] PointCloud points(const std::optional<std::string>& frame) const;
 
  private:
