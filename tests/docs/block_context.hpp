@@ -23,7 +23,7 @@ extern penumbra::Camera camera, depth_camera, colour_camera;
 extern penumbra::Frame frame, left_frame, right_frame;
 extern penumbra::DepthView depth;
 extern penumbra::Verdict verdict;
-extern Eigen::Isometry3d T_parent_child, T_colour_depth, T_base_object, T_root_camera;
+extern Eigen::Isometry3d T_parent_child, T_colour_depth, T_base_object;
 extern std::vector<std::string> names;
 extern std::vector<double> positions, configurations;
 extern std::vector<penumbra::TrajectoryPoint> points;

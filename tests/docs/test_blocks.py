@@ -16,7 +16,7 @@ from PIL import Image
 
 import penumbra
 from penumbra import datasets
-from blocks import DOCUMENTS, ROOT, all_blocks, blocks_of
+from blocks import DOCUMENTS, ROOT, all_blocks, blocks_of, program_of
 from conftest import SHIPPED, in_folder
 
 KNOWN = ("", "sh", "python", "cpp", "cmake", "yaml", "json", "csv", "text")
@@ -40,22 +40,10 @@ SAID = {
 }
 
 
-# What the first lines of these take.
-GIVEN = """
-import penumbra
-given = penumbra.open("examples/arm_over_table")
-robot, camera = str(given.robot.urdf), given.camera
-depth, joints = given[4].depth, dict(zip(given.robot.variables, given[4].pose.positions))
-"""
-BEFORE = {"README.md": GIVEN, "python.md": GIVEN}
-
-
 @pytest.mark.parametrize("document", [d for d in DOCUMENTS if any(b.language == "python" for b in blocks_of(d))],
                          ids=lambda d: d.name)
 def test_python_runs(document, work):
-    """A document's blocks in their order, as one program."""
-    text = BEFORE.get(document.name, "") + "\n".join(b.text for b in blocks_of(document) if b.language == "python")
-    done = subprocess.run([sys.executable, "-c", in_folder(text, work)], cwd=work, env=os.environ,
+    done = subprocess.run([sys.executable, "-c", in_folder(program_of(document), work)], cwd=work, env=os.environ,
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     for pattern, lines in SAID[document.name].items():
