@@ -190,8 +190,8 @@ void run_real(const std::filesystem::path& recording, bool masks, bool depth = t
     return Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
   };
   const auto found = [&](const std::vector<KeptFrame>& frames, bool off) {
-    CalibrationOptions wanted{.camera_parent = input.input.config.camera_parent,
-                              .initial = input.input.config.T_parent_camera};
+    CalibrationOptions wanted{.camera_parent = input.input.camera->parent,
+                              .initial = input.input.camera->pose()};
     if (off) {
       wanted.initial->translation() += 0.1 * any();
       wanted.initial->linear() =

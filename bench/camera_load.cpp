@@ -77,11 +77,10 @@ class Cameras {
         latest_(load.cameras) {
     const auto renderer = make_depth_renderer(Backend::cpu, scene_.intrinsics, scene_.bodies(), {});
     depth_ = sensor_images(*renderer, scene_);
-    PipelineConfig config;
-    config.T_parent_camera = scene_.T_root_camera;
+    Camera camera{scene_.intrinsics, {}, {}, {}};
+    camera.T_parent_camera = scene_.T_root_camera;
     for (std::size_t i = 0; i < load.cameras; ++i)
-      pipelines_.push_back(
-          std::make_unique<Pipeline>(*scene_.robot, Camera{scene_.intrinsics, {}, {}, {}}, config));
+      pipelines_.push_back(std::make_unique<Pipeline>(*scene_.robot, camera));
   }
 
   void run() {

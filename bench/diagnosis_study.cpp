@@ -66,10 +66,10 @@ Diagnosis diagnosis_of(const Sequence& sequence) {
     return diagnose(kept.frames(), kept.camera(), kept.raw_camera(), *sequence.robot,
                     sequence.parent, sequence.T_parent_camera);
   }
-  PipelineConfig config;
-  config.camera_parent = sequence.robot->links()[sequence.parent];
-  config.T_parent_camera = sequence.T_parent_camera;
-  Pipeline pipeline(*sequence.robot, sequence.camera, config);
+  Camera camera = sequence.camera;
+  camera.parent = sequence.robot->links()[sequence.parent];
+  camera.T_parent_camera = sequence.T_parent_camera;
+  Pipeline pipeline(*sequence.robot, camera);
   SetupCheck check(pipeline.robot(), sequence.camera, sequence.parent);
   Image<float> depth;
   for (const auto& instant : sequence.instants) {
@@ -103,8 +103,8 @@ Sequence recorded(const std::filesystem::path& path) {
   sequence.name = path.stem().string();
   sequence.robot = std::make_shared<Robot>(std::move(input.robot));
   sequence.camera = *input.camera;
-  sequence.parent = find_camera_parent(*sequence.robot, input.config.camera_parent);
-  sequence.T_parent_camera = input.config.T_parent_camera;
+  sequence.parent = find_camera_parent(*sequence.robot, input.camera->parent);
+  sequence.T_parent_camera = input.camera->pose();
   const auto source = input.frames();
   Frame frame;
   while (source->next(frame)) {

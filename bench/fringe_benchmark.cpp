@@ -28,7 +28,7 @@ RealScene real_scene() {
   const io::Recording recording = io::Recording::open(data_folder() / "xarm7_realsense");
   auto robot = std::make_shared<const Robot>(recording.load_robot());
   const io::FrameReader reader(recording, *robot);
-  const Eigen::Isometry3d T_camera_root = recording.camera.T_parent_camera->inverse();
+  const Eigen::Isometry3d T_camera_root = recording.camera.camera.T_parent_camera->inverse();
   RealScene real{{"xArm 7, recorded", recording.camera.camera.intrinsics, robot, {}}, {}};
   for (std::size_t i = 0; i < reader.size(); ++i) {
     const Frame frame = reader.read(i, false);

@@ -24,8 +24,9 @@ struct Cell {
                           {.geometry = geometry})) {
     Eigen::Matrix3d rotation;
     rotation << 0, 0, -1, 1, 0, 0, 0, -1, 0;
-    camera.T_parent_camera.linear() = rotation;
-    camera.T_parent_camera.translation() = Eigen::Vector3d(1.6, 0.0, 0.4);
+    Eigen::Isometry3d& T = camera.camera.T_parent_camera.emplace(Eigen::Isometry3d::Identity());
+    T.linear() = rotation;
+    T.translation() = Eigen::Vector3d(1.6, 0.0, 0.4);
     std::mt19937_64 random(39);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     for (int i = 0; i < 10; ++i) {
@@ -87,7 +88,7 @@ void render(benchmark::State& state, const Cell& cell) {
   const auto renderer = make_depth_renderer(Backend::cpu, intrinsics, bodies_of(cell.robot));
   std::vector<Eigen::Isometry3d> T(cell.robot.links().size());
   const std::size_t variables = cell.robot.variables().size();
-  const Eigen::Isometry3d T_camera_root = cell.camera.T_parent_camera.inverse();
+  const Eigen::Isometry3d T_camera_root = cell.camera.camera.pose().inverse();
   for (auto _ : state)
     for (std::size_t i = 0; i < waypoints; ++i) {
       cell.robot.forward_kinematics({&cell.positions[i * variables], variables}, T);
@@ -100,7 +101,7 @@ void render(benchmark::State& state, const Cell& cell) {
 void cone(benchmark::State& state, const Cell& cell) {
   std::vector<Eigen::Isometry3d> T(cell.robot.links().size());
   const std::size_t variables = cell.robot.variables().size();
-  const Eigen::Vector3d from = cell.camera.T_parent_camera.translation();
+  const Eigen::Vector3d from = cell.camera.camera.pose().translation();
   for (auto _ : state) {
     std::size_t hidden = 0;
     for (std::size_t i = 0; i < waypoints; ++i) {

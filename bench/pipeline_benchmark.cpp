@@ -120,10 +120,11 @@ void process(benchmark::State& state, const BenchScene& scene,
              const std::vector<Image<std::uint16_t>>& depth, const Case& c) {
   PipelineConfig config;
   config.renderer.threads = 1;
-  config.T_parent_camera = scene.T_root_camera;
   config.target_history = c.history;
   if (!c.has_memory) config.rule.scene_memory = 0.0;
-  Pipeline pipeline(scene.load_robot(), {scene.intrinsics, {}, {}, {}}, config);
+  Camera camera{scene.intrinsics, {}, {}, {}};
+  camera.T_parent_camera = scene.T_root_camera;
+  Pipeline pipeline(scene.load_robot(), camera, config);
   const TenTargets targets(scene.intrinsics, c.targets);
   std::vector<AttachedBody> attached;
   if (c.carries_ball)

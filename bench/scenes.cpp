@@ -138,8 +138,8 @@ BenchScene xarm7_scene(std::size_t frames) {
   BenchScene scene{
       "xArm 7, " + std::to_string(k.width()) + "x" + std::to_string(k.height()), k, robot, {}};
   const std::vector<io::JointRow> rows = io::read_joint_file(recording.frames.joints, *robot);
-  const Isometry3d T_camera_root = recording.camera.T_parent_camera->inverse();
-  scene.T_root_camera = *recording.camera.T_parent_camera;
+  const Isometry3d T_camera_root = recording.camera.camera.T_parent_camera->inverse();
+  scene.T_root_camera = *recording.camera.camera.T_parent_camera;
   scene.load_robot = load;
   for (std::size_t frame = 0; frame < frames; ++frame) {
     const double at = static_cast<double>(frame) * static_cast<double>(rows.size() - 1) /

@@ -194,7 +194,8 @@ class ClockStudy {
       one[moving] = joints[moving];
       return one;
     };
-    const Camera camera{Cell::intrinsics(), {}, {}, {}};
+    Camera camera{Cell::intrinsics(), {}, {}, {}};
+    camera.T_parent_camera = cell.truth();
     Pipeline pipeline(cell.robot(), camera, {});
     std::vector<Late> all;
     for (const double sign : {-1.0, 1.0})
@@ -276,11 +277,12 @@ class BumpStudy {
     for (const Case& one : cases) {
       const Intrinsics whole = Cell::intrinsics();
       const auto by = static_cast<double>(one.binned);
-      const Camera camera{{whole.width() / one.binned, whole.height() / one.binned, whole.fx() / by,
-                           whole.fy() / by, whole.cx() / by, whole.cy() / by},
-                          {},
-                          {},
-                          {}};
+      Camera camera{{whole.width() / one.binned, whole.height() / one.binned, whole.fx() / by,
+                     whole.fy() / by, whole.cx() / by, whole.cy() / by},
+                    {},
+                    {},
+                    {}};
+      camera.T_parent_camera = cell.truth();
       all.push_back(std::make_unique<Bumped>(
           Bumped{camera, Pipeline(cell.robot(), camera, {}), CalibrationWatch(camera), {}}));
     }

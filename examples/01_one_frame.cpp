@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame of a recording, from files to an answer: what of this view is real, and what is robot?
-// Link Penumbra::penumbra and Penumbra::io, which reads the recording's files. A node of your own
-// has its Camera, its depth and its joints from its drivers and fills the same Frame; examples 02
-// and 03 need Penumbra::penumbra alone.
+// One frame of a recording: what of this view is real, and what is robot? Link Penumbra::io. A node
+// of your own fills the same Frame from its drivers.
 #include <cstdlib>
 #include <iostream>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/session/session.hpp>
 
 #include <io/files/frame_reader.hpp>
 #include <io/files/recording.hpp>
@@ -20,10 +18,10 @@ void run(const std::filesystem::path& folder, std::size_t number) {
   const io::Recording recording = io::Recording::open(folder);
   Robot robot = recording.load_robot();
   const io::FrameReader frames(recording, robot);
-  Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
+  Session session(std::move(robot), recording.camera.camera, recording.pipeline_config());
 
   const Frame frame = frames.read(number, /*with_color=*/false);
-  const FrameReport& report = pipeline.process(frame);
+  const FrameReport& report = session.process(frame);
   if (report.status != FrameStatus::ok) throw InputError(report.message);
 
   std::cout << "robot " << report.pixels.robot.value() << " pixels: front " << report.pixels.front

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include <penumbra/base/error.hpp>
-#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/session/session.hpp>
 
 #include <io/files/frame_reader.hpp>
 #include <io/files/recording.hpp>
@@ -61,14 +61,14 @@ void run(const std::filesystem::path& folder) {
   const io::Recording recording = io::Recording::open(folder);
   Robot robot = recording.load_robot();
   const io::FrameReader frames(recording, robot);
-  Pipeline pipeline(std::move(robot), recording.camera.camera, recording.pipeline_config());
+  Session session(std::move(robot), recording.camera.camera, recording.pipeline_config());
 
   int refused = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     Frame frame = frames.read(i, /*with_color=*/false);
     const std::optional<Eigen::Vector3d> raw = perceive(frame, recording.camera.camera.intrinsics);
     frame.targets = {target_of(raw)};
-    const FrameReport& report = pipeline.process(frame);
+    const FrameReport& report = session.process(frame);
     tell(report, raw);
     if (report.targets[0].estimate == Outcome::refused_verdict) ++refused;
   }

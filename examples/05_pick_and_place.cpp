@@ -8,9 +8,9 @@
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/mesh/primitives.hpp>
-#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/render/depth_renderer.hpp>
 #include <penumbra/robot/robot.hpp>
+#include <penumbra/session/session.hpp>
 
 using namespace penumbra;
 
@@ -86,12 +86,8 @@ void run(const std::filesystem::path& folder, bool attaches) {
   const Robot robot = Robot::load(folder / "arm.urdf", {.packages = {{"arm_description", folder}}});
   const std::size_t gripper = robot.find_link("gripper").value();
   const Camera camera{.intrinsics = Intrinsics(640, 480, 610.0, 610.0, 322.5, 236.0),
-                      .distortion = {},
-                      .range = {},
-                      .frame_id = {}};
-  PipelineConfig config;
-  config.T_parent_camera = camera_pose();
-  Pipeline pipeline(robot, camera, config);
+                      .T_parent_camera = camera_pose()};
+  Session session(robot, camera);
   Sensor sensor(camera.intrinsics, robot);
 
   const Eigen::Isometry3d T_gripper_part(Eigen::Translation3d(0.0, 0.0, 0.22));
@@ -113,10 +109,10 @@ void run(const std::filesystem::path& folder, bool attaches) {
                       .shape = BoxTarget{T_base_part, part_size, ReferenceFrame::root()},
                       .handling = PoseTrackerConfig{.motion = Motion::still}};
     const FrameReport& report =
-        pipeline.process({.stamp = i * frame_period,
-                          .depth = sensor.measure(all),
-                          .pose = {.positions = joints, .attached = attached},
-                          .targets = {part}});
+        session.process({.stamp = i * frame_period,
+                         .depth = sensor.measure(all),
+                         .pose = {.positions = joints, .attached = attached},
+                         .targets = {part}});
     const TargetReport& target = report.targets[0];
     if (i > closes && i <= opens) left += sensor.left_over(report.labels, all.size());
     if (target.verdict == Verdict::held)
@@ -125,7 +121,7 @@ void run(const std::filesystem::path& folder, bool attaches) {
       std::cout << "frame " << i << ": " << to_string(target.verdict) << ' ' << target.reason
                 << '\n';
 
-    if (attaches && i == closes) attached = {pipeline.attach_target(part, "gripper")};
+    if (attaches && i == closes) attached = {session.pipeline().attach_target(part, "gripper")};
     if (i == opens) attached.clear();
   }
   std::cout << (attaches ? "attached" : "not attached") << ": while it is carried, " << left

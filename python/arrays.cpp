@@ -105,7 +105,8 @@ ColorResult array_of(ImageView<const Rgb8> view, std::shared_ptr<const void> own
       keeper_of(std::move(owner))))};
 }
 
-SharedColor color_of(py::handle source, const char* argument) {
+SharedColor color_of(py::handle object, const char* argument) {
+  const py::object source = as_array(object);
   const bool is_array = py::isinstance<py::array>(source) && !is_masked(source);
   const auto given = is_array ? py::reinterpret_borrow<py::array>(source) : py::array();
   if (given.ndim() != 3 || given.shape(2) != 3 || given.size() == 0 ||

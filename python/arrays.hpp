@@ -194,8 +194,9 @@ struct type_caster<penumbra::python::ImageArgument<Argument, T...>>
 
   bool load(handle source, bool /*convert*/) {
     static constexpr penumbra::python::PixelType types[] = {penumbra::python::pixel_type<T>...};
-    const std::size_t type = penumbra::python::check_image(source, Argument.text, types);
-    this->value.array = reinterpret_borrow<array>(source);
+    const object given = penumbra::python::as_array(source);
+    const std::size_t type = penumbra::python::check_image(given, Argument.text, types);
+    this->value.array = reinterpret_borrow<array>(given);
     std::size_t i = 0;
     ((type == i++ ? void(this->value.view = penumbra::python::view_of<T>(this->value.array))
                   : void()),

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <variant>
 
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
@@ -17,21 +16,11 @@ namespace {
 
 using MaskArgument = ImageArgument<"masks", std::uint8_t>;
 
-/// Where the camera is, or the configuration of an input, whose frames may say it themselves.
-using Start = std::variant<PipelineConfig, Eigen::Isometry3d>;
-
-Camera camera_of(const Camera& camera) { return camera; }
-Camera camera_of(const Intrinsics& pinhole) { return {pinhole, {}, {}, {}}; }
-
-/// Given: Camera, or Intrinsics of images without distortion.
-template <typename Given>
-Calibration calibrate_frames(const py::iterable& frames, const Given& given, const Robot& robot,
-                             const std::optional<Start>& initial, std::string camera_parent,
-                             const std::vector<MaskArgument>& masks, bool images, bool focal,
-                             bool joint_offsets, std::vector<Frame> motion, double joint_accuracy,
-                             const std::optional<double>& accept, std::uint64_t seed) {
-  const auto* const config = initial ? std::get_if<PipelineConfig>(&*initial) : nullptr;
-  if (config != nullptr && camera_parent.empty()) camera_parent = config->camera_parent;
+Calibration calibrate_frames(const py::iterable& frames, const Camera& camera, const Robot& robot,
+                             bool search, const std::vector<MaskArgument>& masks, bool images,
+                             bool focal, bool joint_offsets, std::vector<Frame> motion,
+                             double joint_accuracy, const std::optional<double>& accept,
+                             std::uint64_t seed) {
   for (std::size_t i = 0; i < motion.size(); ++i)
     if (!motion[i].stamp)
       throw py::value_error("motion[" + std::to_string(i) + "]: needs a stamp for the time offset");
@@ -39,10 +28,10 @@ Calibration calibrate_frames(const py::iterable& frames, const Given& given, con
   if (images && !masks.empty())
     throw py::value_error("images: masks are given too; leave one of them out");
   using Choice = KeptFrames::Choice;
-  KeptFrames chosen(robot, camera_of(given),
+  KeptFrames chosen(robot, camera,
                     {.choice = motion.empty() ? Choice::rest_first : Choice::any,
                      .needs_depth = masks.empty() && !images,
-                     .parent = find_camera_parent(robot, camera_parent)});
+                     .parent = find_camera_parent(robot, camera.parent)});
   auto next = motion.begin();
   for (const py::handle each : frames) {
     const auto frame = each.cast<Frame>();
@@ -69,17 +58,14 @@ Calibration calibrate_frames(const py::iterable& frames, const Given& given, con
     throw py::value_error("masks: expected one for each of " + std::to_string(chosen.seen()) +
                           " frames; got " + std::to_string(masks.size()));
   std::optional<Eigen::Isometry3d> start;
-  if (config != nullptr)
-    start = chosen.T_parent_camera().value_or(config->T_parent_camera);
-  else if (initial)
-    start = std::get<Eigen::Isometry3d>(*initial);
+  if (!search) start = chosen.T_parent_camera() ? *chosen.T_parent_camera() : camera.pose();
   const std::vector<KeptFrame> all = chosen.chosen();
   const std::vector<std::string> notes = chosen.notes();
   if (all.size() < KeptFrames::least && !notes.empty())
     throw InputError("calibration needs 3 frames or more: " + notes.back());
   const py::gil_scoped_release others;
   Calibration found = calibrate(all, chosen.camera(), robot,
-                                {.camera_parent = camera_parent,
+                                {.camera_parent = camera.parent,
                                  .initial = start,
                                  .focal = focal,
                                  .joint_offsets = joint_offsets,
@@ -192,21 +178,17 @@ void bind_calibration(py::module_& m) {
       Field{"best", &S::best, "The same after the mend."},
       Field{"poses", &S::poses, "Poses of the robot that were compared; below 3 tell little."});
   bind_repr(diagnosis, {"cause", "message"});
-  const auto define = [&](auto function) {
-    m.def(
-        "calibrate", function, py::arg("frames"), py::arg("camera"), py::arg("robot"),
-        py::arg("initial"), py::kw_only(), py::arg("camera_parent") = std::string(),
-        py::arg("masks") = std::vector<MaskArgument>(), py::arg("images") = false,
-        py::arg("focal") = false, py::arg("joint_offsets") = false,
+  m.def("calibrate", &calibrate_frames, py::arg("frames"), py::arg("camera"), py::arg("robot"),
+        py::kw_only(), py::arg("search") = false, py::arg("masks") = std::vector<MaskArgument>(),
+        py::arg("images") = false, py::arg("focal") = false, py::arg("joint_offsets") = false,
         py::arg("motion") = std::vector<Frame>(),
         py::arg("joint_accuracy") = CalibrationOptions().joint_accuracy,
         py::arg("accept") = py::none(), py::arg("seed") = 1,
         "Estimates a camera's pose from the robot that it sees. frames: an opened input, or three "
         "frames or more with joints (or T_root_link) and with depth, masks or color; those are "
-        "used between which the robot moves, at rest if it is. camera: of the images. initial: a "
-        "guess of the "
-        "camera's pose in its parent link, at most 100 mm and 10 degrees off; a PipelineConfig: as "
-        "it or the frames have it; None: it is searched for. masks: images that are not 0 where "
+        "used between which the robot moves, at rest if it is. camera: of the images; "
+        "its pose, or that of the frames, is a guess, at most 100 mm and 10 degrees off. search: "
+        "that pose is not known. masks: images that are not 0 where "
         "the colour image shows the robot, and 128 where that is not known. images: take the "
         "frames' colour images in place of depth, of a camera that stands still. focal: estimate "
         "the focal lengths, too. joint_offsets: "
@@ -217,9 +199,6 @@ void bind_calibration(py::module_& m) {
         "accept: the widest 95 % region of a good pose, metres. Raises InputError for too few "
         "frames; any other failure is "
         "Calibration.faults.");
-  };
-  define(&calibrate_frames<Camera>);
-  define(&calibrate_frames<Intrinsics>);
 }
 
 }  // namespace penumbra::python

@@ -75,8 +75,11 @@ Distortion distortion_of(const std::vector<double>& coefficients) {
   return Distortion(coefficients.size() == 8 ? "rational_polynomial" : "plumb_bob", coefficients);
 }
 
+using OptionalPose = std::optional<Eigen::Isometry3d>;
+
 Camera camera_from_matrix(const Eigen::Matrix3d& K, std::pair<int, int> size,
-                          const std::vector<double>& D) {
+                          const std::vector<double>& D, std::string parent,
+                          const OptionalPose& T_parent_camera) {
   Eigen::Matrix3d rest = K;
   rest(0, 0) = rest(1, 1) = rest(0, 2) = rest(1, 2) = 0.0;
   if (rest != Eigen::Vector3d(0, 0, 1).asDiagonal().toDenseMatrix())
@@ -84,7 +87,9 @@ Camera camera_from_matrix(const Eigen::Matrix3d& K, std::pair<int, int> size,
   return {Intrinsics(size.first, size.second, K(0, 0), K(1, 1), K(0, 2), K(1, 2)),
           distortion_of(D),
           {},
-          {}};
+          {},
+          std::move(parent),
+          T_parent_camera};
 }
 
 void bind_camera_class(py::module_& m) {
@@ -95,24 +100,34 @@ void bind_camera_class(py::module_& m) {
   bind_fields(range, Field{"near", &DepthRange::near, "Metres."},
               Field{"far", &DepthRange::far, "Metres."});
   py::class_<Camera> camera(
-      m, "Camera", "A calibrated depth camera: what its images are like, not where it is.");
+      m, "Camera", "A calibrated depth camera: what its images are like, and where it is.");
   camera.def(py::init([](const Intrinsics& intrinsics, const Distortion& distortion,
-                         const DepthRange& depth_range, std::string frame_id) {
-               Camera made{intrinsics, distortion, depth_range, std::move(frame_id)};
+                         const DepthRange& depth_range, std::string frame_id, std::string parent,
+                         const OptionalPose& T_parent_camera) {
+               Camera made{intrinsics,          distortion,        depth_range,
+                           std::move(frame_id), std::move(parent), T_parent_camera};
                made.check();
                return made;
              }),
              py::arg("intrinsics"), py::kw_only(), py::arg("distortion") = Distortion(),
              py::arg("range") = DepthRange(), py::arg("frame_id") = std::string(),
+             py::arg("parent") = std::string(), py::arg("T_parent_camera") = OptionalPose(),
              "Raises InputError unless 0 <= near < far.");
   camera.def_static("from_matrix", &camera_from_matrix, py::arg("K"), py::arg("size"),
-                    py::arg("D") = std::vector<double>(),
+                    py::arg("D") = std::vector<double>(), py::kw_only(),
+                    py::arg("parent") = std::string(), py::arg("T_parent_camera") = OptionalPose(),
                     "K: OpenCV's camera matrix, 3 x 3, pixels; size: (width, height); D: its "
                     "distortion coefficients, none, 4, 5 or 8.");
   show_fields(camera, Field{"intrinsics", &Camera::intrinsics, "Of the image as it comes."},
               Field{"distortion", &Camera::distortion, "Of the image as it comes."},
               Field{"range", &Camera::range, "Which depths are measurements."},
-              Field{"frame_id", &Camera::frame_id, "The optical frame; may be empty."});
+              Field{"frame_id", &Camera::frame_id, "The optical frame; may be empty."},
+              Field{"parent", &Camera::parent, "Link that carries it; empty: the root."},
+              Field{"T_parent_camera", &Camera::T_parent_camera,
+                    "Pose of the optical frame (x right, y down, z forward) in that link's frame, "
+                    "metres; None: not known, and what needs it raises InputError."});
+  bind_replace(camera,
+               {"intrinsics", "distortion", "range", "frame_id", "parent", "T_parent_camera"});
 }
 
 using PngSource = Shown<"Annotated[Union[NDArray[uint8], NDArray[uint16]], '(H, W) or (H, W, 3)']">;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <map>
-#include <variant>
+#include <cmath>
 
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
@@ -23,9 +22,6 @@ void PoseFunction::operator()(std::int64_t stamp, RobotPose& pose) const {
 }
 
 namespace {
-
-using NamedPositions = std::map<std::string, double>;
-using Joints = std::variant<JointAnswer, NamedPositions, PoseArgument>;
 
 RobotPose in_order(const NamedPositions& named, const Robot& robot) {
   for (const auto& [name, position] : named)
@@ -68,6 +64,22 @@ void bind_attached_body(py::module_& m) {
 
 }  // namespace
 
+RobotPose known_pose(const Robot& robot, const Joints& joints) {
+  RobotPose pose = pose_by(robot, joints);
+  const auto variables = robot.variables();
+  const bool has_positions = pose.positions.size() == variables.size();
+  if (pose.status == FrameStatus::ok && !has_positions && pose.T_root_link.empty())
+    throw py::value_error("joints: expected " + std::to_string(variables.size()) +
+                          " positions in the order of Robot.variables, or a dict of them by name; "
+                          "got none");
+  if (std::holds_alternative<JointAnswer>(joints)) return pose;  // says itself what is not known
+  for (std::size_t i = 0; i < pose.positions.size(); ++i)
+    if (!std::isfinite(pose.positions[i]))
+      throw py::value_error("joints: the position of '" + variables[i] + "' is " +
+                            std::to_string(pose.positions[i]));
+  return pose;
+}
+
 void bind_robot_pose(py::module_& m) {
   bind_attached_body(m);
   using P = RobotPose;
@@ -84,8 +96,8 @@ void bind_robot_pose(py::module_& m) {
       Field{"T_root_link", &P::T_root_link,
             "Poses of all links, metres, if they are known otherwise than by joints; else empty."},
       Field{"T_parent_camera", &P::T_parent_camera,
-            "The camera's pose in its parent link in this frame, metres; None: the "
-            "configuration's."},
+            "The camera's pose in its parent link in this frame, metres; None: "
+            "Camera.T_parent_camera."},
       Field{"uncertain_links", &P::uncertain_links,
             "Indices of links whose pose is not known: what they could hide is unknown, and "
             "targets in them are not judged."},

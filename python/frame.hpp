@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <memory>
+#include <string>
+#include <variant>
 
 #include <python/arrays.hpp>
 #include <python/fields.hpp>
 #include <python/targets.hpp>
 
 #include <penumbra/pipeline/frame.hpp>
+#include <penumbra/time/joint_buffer.hpp>
 
 namespace penumbra::python {
 
@@ -32,6 +36,14 @@ struct PoseFunction {
 
 /// Raises ValueError for positions that are not one for each of the robot's variables.
 void check_positions(const RobotPose& pose, const Robot& robot);
+
+/// What pose_of() takes: an answer, names with positions, or a pose.
+using NamedPositions = std::map<std::string, double>;
+using Joints = std::variant<JointAnswer, NamedPositions, PoseArgument>;
+
+/// Returns the pose. Raises KeyError or ValueError for positions that are missing, too many or not
+/// finite.
+[[nodiscard]] RobotPose known_pose(const Robot& robot, const Joints& joints);
 
 }  // namespace penumbra::python
 

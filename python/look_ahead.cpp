@@ -151,18 +151,12 @@ void bind_forecasts(py::module_& m) {
 void bind_given(py::module_& m) {
   using C = ForecastCamera;
   py::class_<C> camera(m, "ForecastCamera", "A camera that will see the motion.");
-  camera.def(py::init([](std::string name, const Camera& of, std::string parent,
-                         const Eigen::Isometry3d& T_parent_camera, const LabelRule& rule) {
-               return C{std::move(name), of, std::move(parent), T_parent_camera, rule};
+  camera.def(py::init([](std::string name, const Camera& of, const LabelRule& rule) {
+               return C{std::move(name), of, rule};
              }),
-             py::arg("name"), py::arg("camera"), py::kw_only(), py::arg("parent") = "",
-             py::arg("T_parent_camera") = Eigen::Isometry3d::Identity(),
-             py::arg("rule") = LabelRule());
+             py::arg("name"), py::arg("camera"), py::kw_only(), py::arg("rule") = LabelRule());
   show_fields(camera, Field{"name", &C::name, "Its name."},
-              Field{"camera", &C::camera, "Its images are the rectified ones."},
-              Field{"parent", &C::parent, "Link that carries it; empty: the root."},
-              Field{"T_parent_camera", &C::T_parent_camera,
-                    "Pose of the optical frame in that link, metres."},
+              Field{"camera", &C::camera, "With its pose. Its images are the rectified ones."},
               Field{"rule", &C::rule, "Its tolerance separates robot and target."});
   using T = ForecastTarget;
   py::class_<T> target(m, "ForecastTarget", "A target that moves with a constant velocity.");

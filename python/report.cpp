@@ -69,7 +69,16 @@ std::optional<py::dict> Report::coco_annotation() const {
                   py::arg("bbox") = mask.box, py::arg("area") = mask.area);
 }
 
-DepthImage Report::filtered_depth() const {
+Label Report::label(int u, int v) const {
+  const auto image = view_of<std::uint8_t>(py::reinterpret_borrow<py::array>(labels().array));
+  if (u < 0 || v < 0 || u >= image.width || v >= image.height)
+    throw py::index_error("label: pixel (" + std::to_string(u) + ", " + std::to_string(v) +
+                          ") is outside of the image, " + std::to_string(image.width) + "x" +
+                          std::to_string(image.height));
+  return static_cast<Label>(image(u, v));
+}
+
+DepthImage Report::depth_without_robot() const {
   check_is_last();
   if (!state_->cloud_maker)
     throw py::value_error(
@@ -82,7 +91,7 @@ DepthImage Report::filtered_depth() const {
 PointCloud Report::points(const std::optional<std::string>& frame) const {
   const auto T = frame ? camera_in_link(with_names(), *frame) : Eigen::Isometry3d::Identity();
   PointCloud cloud;
-  const DepthImage depth = filtered_depth();
+  const DepthImage depth = depth_without_robot();
   if (T) state_->cloud_maker->make(depth, cloud, *T);
   return cloud;
 }
@@ -152,10 +161,12 @@ void bind_without_robot(py::module_& m, py::class_<Report>& report) {
     return "<penumbra.PointCloud: " + std::to_string(c.pixels.size()) + " points>";
   });
   report
+      .def("label", &Report::label, py::arg("u"), py::arg("v"),
+           "The label of pixel (u, v): column and row. Raises IndexError outside of the image.")
       .def(
-          "filtered_depth",
+          "without_robot",
           [](const Report& r) {
-            const auto image = std::make_shared<DepthImage>(r.filtered_depth());
+            const auto image = std::make_shared<DepthImage>(r.depth_without_robot());
             return std::visit(
                 [&](auto& depth) -> DepthResult { return {array_of(depth.view(), image).array}; },
                 *image);
@@ -168,7 +179,7 @@ void bind_without_robot(py::module_& m, py::class_<Report>& report) {
            "known. Raises ValueError after the session's next call.")
       .def("points", &points_of, py::arg("frame") = std::optional<std::string>(),
            py::arg("color") = py::none(),
-           "The points of filtered_depth(). frame: link whose frame they are given in; None: the "
+           "The points of without_robot(). frame: link whose frame they are given in; None: the "
            "camera's optical frame. color: uint8 (H, W, 3), an image of the labels' size. Raises "
            "InputError for a name that is no link.");
 }
@@ -219,7 +230,7 @@ void bind_report_properties(py::class_<Report>& report) {
       Field{"robot_mask", &R::robot_mask,
             "Where the robot is in the label image, whether it is measured or not: virtual_depth > "
             "0; None: the robot's pose is not known. False does not say that the depth is to be "
-            "trusted (fringe, missing_links, pixels outside of the lens model): filtered_depth() "
+            "trusted (fringe, missing_links, pixels outside of the lens model): without_robot() "
             "leaves such pixels out. As virtual_depth."});
   bind_repr(report, {"index", "status", "message", "pixels", "targets"});
 }

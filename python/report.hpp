@@ -51,7 +51,9 @@ class Report {
   [[nodiscard]] std::optional<ImageResult<std::uint16_t>> link_image() const;
   [[nodiscard]] BoolImage robot_mask() const;
   [[nodiscard]] std::optional<py::dict> coco_annotation() const;
-  [[nodiscard]] DepthImage filtered_depth() const;
+  /// Raises IndexError outside of the image.
+  [[nodiscard]] Label label(int u, int v) const;
+  [[nodiscard]] DepthImage depth_without_robot() const;
   [[nodiscard]] PointCloud points(const std::optional<std::string>& frame) const;
 
  private:

@@ -3,6 +3,7 @@
 #include <python/fields.hpp>
 #include <python/frame.hpp>
 #include <python/report.hpp>
+#include <python/robot.hpp>
 
 namespace penumbra::python {
 namespace {
@@ -19,17 +20,14 @@ void bind_pipeline_settings(py::module_& m) {
       Field{"image", &C::image, "Which image results are given in."},
       Field{"has_depth", &C::has_depth,
             "False: the camera measures no depth. Verdicts come from the robot's model alone."},
-      Field{"camera_parent", &C::camera_parent, "Link that the camera sits on; empty: the root."},
-      Field{"T_parent_camera", &C::T_parent_camera,
-            "Pose of the optical frame in that link's frame, metres."},
       Field{"target_history", &C::target_history,
             "Seconds that frames are kept for targets of an earlier stamp; 0: not at all."});
 }
 
 template <typename... Of>
-std::shared_ptr<State> make_session(const Robot& robot, const Of&... of) {
+std::shared_ptr<State> make_session(const RobotArgument& robot, const Of&... of) {
   const py::gil_scoped_release others;
-  return std::make_shared<State>(robot, of...);
+  return std::make_shared<State>(robot.robot(), of...);
 }
 
 Report process(const std::shared_ptr<State>& self, const Frame& frame) {
@@ -50,6 +48,28 @@ Report process(const std::shared_ptr<State>& self, const Frame& frame) {
   return {self, *report, frame.depth.owner};
 }
 
+Report process_depth(const std::shared_ptr<State>& self, const SharedDepth& depth,
+                     const Joints& joints, std::optional<std::int64_t> stamp,
+                     std::vector<Target> targets) {
+  return process(self, {.stamp = stamp,
+                        .depth = depth,
+                        .pose = known_pose(self->session.pipeline().robot(), joints),
+                        .targets = std::move(targets)});
+}
+
+using Mask = Shown<"Annotated[NDArray[bool_], '(H, W)']">;
+
+Mask mask_of(const RobotArgument& given, const Camera& camera, const Joints& joints) {
+  const Robot robot = given.robot();
+  const RobotPose pose = known_pose(robot, joints);
+  Image<std::uint8_t> mask;
+  {
+    const py::gil_scoped_release others;
+    mask = robot_mask(robot, camera, pose);
+  }
+  return array_of(std::as_const(mask).view(), nullptr).array.attr("__ne__")(0);
+}
+
 AttachedBody attach_target(State& self, const Target& target, const std::string& link) {
   const OneThread::Use use(self.thread, "Session.attach_target");
   return self.session.pipeline().attach_target(target, link);
@@ -65,12 +85,12 @@ void begin_sequence(State& self) {
   self.session.begin_sequence();
 }
 
-Frozen<std::string> notes(State& self) {
-  const OneThread::Use use(self.thread, "Session.notes");
+Frozen<std::string> warnings(State& self) {
+  const OneThread::Use use(self.thread, "Session.warnings");
   const auto of_robot = self.session.pipeline().robot().notes();
-  Frozen<std::string> notes{{of_robot.begin(), of_robot.end()}};
-  for (auto& line : self.session.warnings()) notes.values.push_back(line);
-  return notes;
+  Frozen<std::string> lines{{of_robot.begin(), of_robot.end()}};
+  for (auto& line : self.session.warnings()) lines.values.push_back(line);
+  return lines;
 }
 
 }  // namespace
@@ -88,6 +108,14 @@ void bind_session(py::module_& m) {
            "pose that is not rigid, and what the parts refuse.")
       .def(py::init(&make_session<CloudConfig>), py::arg("robot"), py::arg("config"),
            "With a CloudConfig it is of a sensor of points, and its frames have scans.")
+      .def(
+          "process", &process_depth, py::arg("depth"), py::arg("joints"), py::kw_only(),
+          py::arg("stamp") = std::optional<std::int64_t>(),
+          py::arg("targets") = std::vector<Target>(),
+          "Judges a depth image: as a Frame, but unknown joints are an error. joints: positions by "
+          "name, or in the order of Robot.variables, rad and m. Raises KeyError for a name that is "
+          "missing or unknown, and ValueError for another number of positions, or one that is not "
+          "finite.")
       .def("process", &process, py::arg("frame"),
            "Judges one frame. Whatever is wrong with it is the report's status. Raises ValueError "
            "for a depth image of another size than the camera's and for another number of joint "
@@ -103,12 +131,11 @@ void bind_session(py::module_& m) {
       .def("forget_target", &forget, py::arg("name"),
            "Forgets a target's verdict, extent and track: the name stands for something new.")
       .def("begin_sequence", &begin_sequence,
-           "Forgets all targets, the kept frames and the notes: a new sequence begins.")
-      .def_property_readonly(
-          "notes", &notes,
-          "What is doubtful of the robot and of the frames so far, a line each, as `penumbra run` "
-          "prints it: for example, degrees for radians or millimetres for metres.");
-  session.def_property_readonly(
+           "Forgets all targets, the kept frames and the warnings: a new sequence begins.")
+      .def("warnings", &warnings,
+           "What is doubtful of the robot and of the frames so far, a line each, as `penumbra run` "
+           "prints it: for example, degrees for radians or millimetres for metres.");
+  session.def(
       "diagnosis",
       [](State& s) {
         const OneThread::Use use(s.thread, "Session.diagnosis");
@@ -128,6 +155,12 @@ void bind_session(py::module_& m) {
   show_fields(
       session, Field{"robot", of(&P::robot), "The robot."},
       Field{"missing_links", of(&P::missing_links), "Links whose geometry could not be read."});
+  m.def("robot_mask", &mask_of, py::arg("robot"), py::arg("camera"), py::arg("joints"),
+        "Returns where a camera sees the robot if nothing stands before it: bool (H, W), in the "
+        "camera's own image; False where its lens model does not reach. robot: a Robot, or the "
+        "path of a URDF; joints: as of Session.process. For many images use Session.process and "
+        "FrameReport.robot_mask. Raises InputError if the mask would lack something: the camera's "
+        "pose is not known, a mesh could not be read, or a part is within 1 cm of the camera.");
   show_properties(session,
                   Field{"renderer", of(&P::renderer),
                         "What draws. Of a camera, as the next three: RuntimeError for scans."},

@@ -31,14 +31,27 @@ Eigen::Isometry3d pose_at(const double* rows) {
 
 }  // namespace
 
+py::object as_array(py::handle source) {
+  auto object = py::reinterpret_borrow<py::object>(source);
+  if (py::isinstance<py::array>(source) || !py::hasattr(source, "__dlpack__")) return object;
+  try {
+    return py::module_::import("numpy").attr("from_dlpack")(object);
+  } catch (py::error_already_set& error) {
+    throw py::type_error("NumPy cannot use the memory of a " + description_of(source) + " (" +
+                         py::cast<std::string>(py::str(error.value())) +
+                         "): copy it to the CPU, for a tensor of PyTorch by .detach().cpu()");
+  }
+}
+
 bool is_masked(py::handle object) {
   const auto* const plain = py::detail::npy_api::get().PyArray_Type_;
   return Py_TYPE(object.ptr()) != plain && py::isinstance<py::array>(object) &&
          py::hasattr(object, "mask");
 }
 
-py::array_t<double> numbers_of(py::handle source, std::span<const py::ssize_t> shape,
+py::array_t<double> numbers_of(py::handle given, std::span<const py::ssize_t> shape,
                                const char* what) {
+  const py::object source = as_array(given);
   const auto expected = [&] {
     return std::string("expected ") + what + ", an array of float64 with shape " +
            shape_text(shape);

@@ -37,6 +37,10 @@ using Poses = std::vector<Eigen::Isometry3d>;
 /// Numbers as an array of shape (N,).
 using Numbers = std::vector<double>;
 
+/// Returns an array on the memory of what exports DLPack, as PyTorch and JAX do, and anything else
+/// as it is. Throws TypeError for memory that NumPy cannot use, as a GPU's.
+[[nodiscard]] py::object as_array(py::handle source);
+
 /// Whether it is an array with a mask (numpy.ma's), which no conversion would keep.
 [[nodiscard]] bool is_masked(py::handle object);
 
@@ -116,6 +120,19 @@ namespace pybind11::detail {
 template <penumbra::python::Name Type>
 struct handle_type_name<penumbra::python::Shown<Type>> {
   static constexpr auto name = const_name(Type.text);
+};
+
+template <penumbra::python::Name Type>
+struct pyobject_caster<penumbra::python::Shown<Type>> {
+  using Object = penumbra::python::Shown<Type>;
+  bool load(handle source, bool /*convert*/) {
+    value = reinterpret_steal<Object>(penumbra::python::as_array(source).release());
+    return true;
+  }
+  static handle cast(const handle& of, return_value_policy /*policy*/, handle /*parent*/) {
+    return of.inc_ref();
+  }
+  PYBIND11_TYPE_CASTER(Object, handle_type_name<Object>::name);
 };
 
 template <int rows, int columns, int options>

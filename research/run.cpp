@@ -14,12 +14,6 @@ double distance_between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) 
   return (a.translation() - b.translation()).norm();
 }
 
-Pipeline pipeline_of(const sim::Simulation& simulation) {
-  PipelineConfig config;
-  config.T_parent_camera = simulation.T_base_camera();
-  return {Robot::load(simulation.urdf()), simulation.camera(), config};
-}
-
 }  // namespace
 
 sim::SimulationOptions simulation_options(const std::string& scene, const RunSettings& settings,
@@ -38,7 +32,7 @@ Run::Run(const std::string& scene, std::string target, std::uint64_t seed,
          const RunSettings& settings)
     : settings_(settings),
       simulation_(scene, simulation_options(scene, settings, seed)),
-      pipeline_(pipeline_of(simulation_)),
+      pipeline_(Robot::load(simulation_.urdf()), simulation_.camera()),
       cell_{.camera = simulation_.camera(),
             .T_base_camera = simulation_.T_base_camera(),
             .T_base_second_camera = simulation_.T_base_second_camera(),

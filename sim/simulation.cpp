@@ -102,7 +102,7 @@ struct Simulation::State {
 
   SimulationOptions options;
   std::filesystem::path urdf = shipped_urdf();
-  Camera camera = d415_color();  // both
+  Camera camera = d415_color();  // both, with the first one's pose
   TemporaryFolder folder;
   std::vector<ArmPlace> arms;
   Arm arm;
@@ -130,7 +130,9 @@ Simulation::State::State(const std::string& name, const SimulationOptions& optio
       sensor(options_.depth, camera.intrinsics.fx(), options_.seed,
              depth_stream + (static_cast<std::uint64_t>(options_.camera) << 8)),
       second_sensor(options_.depth, camera.intrinsics.fx(), options_.seed, second_stream),
-      duration(options_.duration > 0.0 ? options_.duration : scene->description().duration) {}
+      duration(options_.duration > 0.0 ? options_.duration : scene->description().duration) {
+  camera.T_parent_camera = view.T_base_camera;
+}
 
 std::unique_ptr<Scene> Simulation::State::make_scene(const std::string& name) {
   const SceneOptions scene_options{options.seed, options.belt_jitter, options.frame_rate,

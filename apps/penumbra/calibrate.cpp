@@ -206,8 +206,8 @@ int execute(const CalibrateArguments& arguments) {
   if (folder) folder->begin(used);
   print_notes(input.notes);
   const Robot& robot = input.input.robot;
-  CalibrationOptions options{.camera_parent = input.input.config.camera_parent,
-                             .initial = input.input.config.T_parent_camera,
+  CalibrationOptions options{.camera_parent = input.input.camera->parent,
+                             .initial = input.input.camera->pose(),
                              .focal = arguments.focal,
                              .joint_offsets = arguments.joint_offsets,
                              .time_offset = arguments.input.time_offset};

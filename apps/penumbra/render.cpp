@@ -76,12 +76,12 @@ std::vector<std::string> rest_notes(const Robot& robot, const RenderArguments& a
   return {"no --joint for " + names + ": drawn at rest (0, or no rotation)"};
 }
 
-Session make_session(const RenderArguments& arguments, Robot robot, const Camera& camera) {
+Session make_session(const RenderArguments& arguments, Robot robot, Camera camera) {
   PipelineConfig config;
   config.backend = arguments.backend;
   config.renderer = arguments.renderer;
-  config.camera_parent = arguments.parent;
-  config.T_parent_camera = io::read_pose_csv(arguments.pose);
+  camera.parent = arguments.parent;
+  camera.T_parent_camera = io::read_pose_csv(arguments.pose);
   return io::make_session(std::move(robot), camera, config, {}, arguments.camera_info);
 }
 

@@ -14,7 +14,7 @@ import penumbra
 
 def main(source: pathlib.Path, out: pathlib.Path) -> int:
     given = penumbra.open(source)
-    found = penumbra.calibrate(given, given.camera, given.robot, given.config)
+    found = penumbra.calibrate(given, given.camera, given.robot)
     for line in [*found.notes, *found.faults]:
         print(line, file=sys.stderr)
     if not found.is_good:

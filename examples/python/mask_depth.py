@@ -12,5 +12,5 @@ session = penumbra.Session(source.robot, source.camera, source.config)
 for frame in source:
     report = session.process(frame)
     out = pathlib.Path(sys.argv[2]) / f"{frame.index:06d}"
-    np.save(f"{out}.npy", report.filtered_depth())
+    np.save(f"{out}.npy", report.without_robot())
     np.save(f"{out}_points.npy", report.points(frame=source.robot.links[0]).points)

@@ -45,8 +45,7 @@ def joints_at(frame: int, robot: penumbra.Robot) -> NDArray[np.float64]:
 
 robot = penumbra.Robot.load(FOLDER / "arm.urdf", penumbra.RobotOptions(packages={"arm_description": FOLDER}))
 intrinsics = penumbra.Intrinsics(640, 480, 610.0, 610.0, 322.5, 236.0)
-session = penumbra.Session(robot, penumbra.Camera(intrinsics),
-                           penumbra.PipelineConfig(T_parent_camera=camera_pose()))
+session = penumbra.Session(robot, penumbra.Camera(intrinsics, T_parent_camera=camera_pose()))
 world = penumbra.Renderer(penumbra.Backend.cpu, intrinsics, [*robot.bodies, penumbra.Body("part", [box(SIZE)])])
 gripper = robot.find_link("gripper")
 in_gripper = np.eye(4)

@@ -23,8 +23,7 @@ Array = NDArray[Any]
 class Planner:
     def __init__(self) -> None:
         given = penumbra.open(RECORDING)
-        camera = penumbra.ForecastCamera("cell", given.camera, parent=given.config.camera_parent,
-                                         T_parent_camera=given.config.T_parent_camera)
+        camera = penumbra.ForecastCamera("cell", given.camera)
         lid = penumbra.Target("lid", penumbra.PointTarget([0.42, 0.56, 0.30], radius=0.03, frame=""))
         start = given[0].pose
         config = penumbra.LookAheadConfig(clearance=0, threads=2)

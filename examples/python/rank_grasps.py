@@ -31,8 +31,7 @@ def targets() -> List[penumbra.Target]:
 
 def main(out: str) -> None:
     given = penumbra.open(RECORDING)
-    camera = penumbra.ForecastCamera("cell", given.camera, parent=given.config.camera_parent,
-                                     T_parent_camera=given.config.T_parent_camera)
+    camera = penumbra.ForecastCamera("cell", given.camera)
     start = given[0].pose
     ahead = penumbra.LookAhead(given.robot, [camera], targets(), start)
     forecasts: Dict[str, List[penumbra.TargetForecast]] = {}

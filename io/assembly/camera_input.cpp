@@ -125,6 +125,8 @@ std::shared_ptr<SensorSetup> CameraInput::find_setup() {
 
 std::shared_ptr<SensorSetup> CameraInput::make_setup(JudgedCameras cameras, CameraMount mount) {
   const std::string frame = cameras.judged.frame_id;
+  cameras.judged.parent = mount.parent;
+  cameras.judged.T_parent_camera = mount.T_parent_camera;
   return SensorInput::make_setup(options_, std::move(cameras), std::move(mount), frame,
                                  is_lossless() ? every_companion_wait : newest_companion_wait);
 }

@@ -28,7 +28,7 @@ struct CameraEvidence {
 
 /// The camera of the judged images, and that of the depth images if it differs.
 struct JudgedCameras {
-  Camera judged;
+  Camera judged;  ///< of a SensorSetup, with the pose of its mount
   std::optional<Camera> depth;
   CameraInfoMessage info = {};             ///< of `judged`, as received
   bool has_depth = true;                   ///< false: the images are colour images

@@ -49,15 +49,17 @@ ForecastCamera candidate_of(const Cells& row, const Robot& robot, ForecastCamera
                        "'; expected a number");
     numbers.push_back(*value);
   }
-  candidate.T_parent_camera = isometry_of(numbers);
-  if (candidate.T_parent_camera.translation().cwiseAbs().maxCoeff() > max_target_distance)
+  Camera& camera = candidate.camera;
+  camera.parent.clear();
+  camera.T_parent_camera = isometry_of(numbers);
+  if (camera.T_parent_camera->translation().cwiseAbs().maxCoeff() > max_target_distance)
     throw InputError("is more than 1000 km away; expected metres");
   if (row.size() == link_column) return candidate;
-  candidate.parent = row[link_column];
+  camera.parent = row[link_column];
   const Cells known(robot.links().begin(), robot.links().end());
-  if (!candidate.parent.empty() && !robot.find_link(candidate.parent))
-    throw InputError("'" + printable(candidate.parent) + "' is no link of the robot" +
-                     near_names(candidate.parent, known));
+  if (!camera.parent.empty() && !robot.find_link(camera.parent))
+    throw InputError("'" + printable(camera.parent) + "' is no link of the robot" +
+                     near_names(camera.parent, known));
   return candidate;
 }
 

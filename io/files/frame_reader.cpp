@@ -125,7 +125,7 @@ FrameReader::FrameReader(const Recording& recording, const Robot& robot)
                       by_time(files_))),
       bodies_(recording.attached),
       robot_(robot),
-      camera_parent_(robot.find_link(recording.camera.parent).value_or(0)) {}
+      camera_parent_(robot.find_link(recording.camera.camera.parent).value_or(0)) {}
 
 /// The numbers of the depth images; without any, of the colour images.
 std::vector<std::int64_t> FrameReader::numbers_of_images() const {

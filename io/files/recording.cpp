@@ -165,14 +165,13 @@ RecordingCamera camera_of(const YamlNode& node, const std::vector<std::string_vi
   RecordingCamera camera{.info = info,
                          .camera = read_camera_info(info, is_rectified),
                          .rectified = is_rectified,
-                         .parent = {},
-                         .T_parent_camera = {},
                          .rule = std::move(rule)};
   const YamlNode* pose = node.find("pose");
-  if (pose != nullptr || node.find("parent") != nullptr) camera.parent = node.at("parent").text();
+  if (pose != nullptr || node.find("parent") != nullptr)
+    camera.camera.parent = node.at("parent").text();
   if (pose != nullptr) {
     camera.pose = file_of(*pose, folder);
-    camera.T_parent_camera = read_pose_csv(camera.pose);
+    camera.camera.T_parent_camera = read_pose_csv(camera.pose);
   }
   if (const YamlNode* scale = node.find("depth_scale")) {
     camera.depth_scale = scale->number();
@@ -420,14 +419,12 @@ RobotOptions Recording::robot_options() const {
 }
 
 PipelineConfig Recording::pipeline_config() const {
-  if (!camera.T_parent_camera)
+  if (!camera.camera.T_parent_camera)
     throw InputError(file.string() +
                      ": camera: key 'pose' is missing; 'penumbra calibrate --search' finds it");
   PipelineConfig config;
   config.has_depth = frames.depth.has_value();
   config.rule = camera.rule.applied_to(config.rule);
-  config.camera_parent = camera.parent;
-  config.T_parent_camera = *camera.T_parent_camera;
   return config;
 }
 

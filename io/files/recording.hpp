@@ -52,11 +52,9 @@ void check_robots_of(const std::map<std::string, double>& joints,
 /// The camera of a recording. Optional values are those that the file gives.
 struct RecordingCamera {
   std::filesystem::path info;  ///< the camera_info file
-  Camera camera;               ///< `range` holds camera.range where that is written
+  /// `range` holds camera.range where that is written; only `calibrate` does without its pose.
+  Camera camera;
   bool rectified = false;
-  std::string parent;  ///< the link that carries the camera; empty: the root, or not known
-  /// Pose of the optical frame in the parent link; only `calibrate` does without.
-  std::optional<Eigen::Isometry3d> T_parent_camera;
   std::filesystem::path pose = {};       ///< its file
   std::optional<DepthRange> range = {};  ///< metres
   RuleOptions rule = {};

@@ -33,8 +33,8 @@ Json seen_json(const ViewPlan& plan, std::size_t candidate) {
 Json candidate_json(const ViewPlan& plan, std::size_t i) {
   const ForecastCamera& candidate = plan.candidates[i];
   return {{"name", candidate.name},
-          {"link", or_null(candidate.parent)},
-          {"pose", pose_json(candidate.T_parent_camera)},
+          {"link", or_null(candidate.camera.parent)},
+          {"pose", pose_json(candidate.camera.pose())},
           {"targets", seen_json(plan, i)},
           {"first_unknown", or_null(plan.views.unknown(i))}};
 }

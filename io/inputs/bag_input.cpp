@@ -223,8 +223,8 @@ RunInput open_bag_input(const InputOptions& options, const LineSink& print) {
   std::iota(numbers.begin(), numbers.end(), 0);
   PipelineConfig config;
   config.has_depth = reader.topics().has_depth;
-  config.camera_parent = mount.parent;
-  config.T_parent_camera = mount.T_parent_camera;
+  cameras.judged.parent = mount.parent;
+  cameras.judged.T_parent_camera = mount.T_parent_camera;
   return {.robot_options = std::move(robot_options),
           .robot = robot,
           .camera = std::move(cameras.judged),

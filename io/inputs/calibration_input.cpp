@@ -32,7 +32,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
       input.robot, *input.camera,
       {.choice = options.time_offset ? KeptFrames::Choice::moving : KeptFrames::Choice::rest_first,
        .needs_depth = has_depth && !options.images,
-       .parent = find_camera_parent(input.robot, input.config.camera_parent)});
+       .parent = find_camera_parent(input.robot, input.camera->parent)});
   std::size_t lacking = 0;  // frames without a mask or a colour image
   std::string first_lack;
   const auto pass = [&] {
@@ -77,7 +77,7 @@ CalibrationInput read_calibration_input(const CalibrationInputOptions& options,
     frames.follow(frame);
   }
 
-  if (frames.T_parent_camera()) input.config.T_parent_camera = *frames.T_parent_camera();
+  if (frames.T_parent_camera()) input.camera->T_parent_camera = frames.T_parent_camera();
   CalibrationInput result{.input = std::move(input),
                           .camera = frames.camera(),
                           .frames = frames.chosen(),

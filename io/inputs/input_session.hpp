@@ -64,8 +64,7 @@ class InputSession {
   [[nodiscard]] const Drift& drift() const { return session_.drift(); }
   /// Tells a calibration of the camera's pose what the frames are of.
   void set_up(RunningCalibration& calibration) const {
-    calibration.follow(input_.robot, *input_.camera, input_.config.camera_parent,
-                       input_.config.T_parent_camera);
+    calibration.follow(input_.robot, *input_.camera, input_.camera->parent, input_.camera->pose());
   }
 
   /// Judges the frames. Calls `go_on` after each frame and stops if it returns false. Throws

@@ -41,11 +41,10 @@ Frame find_frame(FrameSource& source, const Robot& robot, const LookAheadOptions
 }
 
 ForecastCamera camera_of(const RunInput& input, const RobotPose& pose, std::string name) {
-  return {.name = std::move(name),
-          .camera = *input.camera,
-          .parent = input.config.camera_parent,
-          .T_parent_camera = pose.T_parent_camera.value_or(input.config.T_parent_camera),
-          .rule = input.config.rule};
+  ForecastCamera camera{
+      .name = std::move(name), .camera = *input.camera, .rule = input.config.rule};
+  if (pose.T_parent_camera) camera.camera.T_parent_camera = pose.T_parent_camera;
+  return camera;
 }
 
 /// Adds what the camera measures of the targets in the frame, and notes about them.

@@ -62,9 +62,8 @@ PlanningInput read_planning_input(const PlanningOptions& options, const LineSink
                      .motion = {},
                      .notes = {}};
   const Robot& robot = read.input.robot;
-  const PipelineConfig& config = read.input.config;
-  const std::size_t parent =
-      config.camera_parent.empty() ? 0 : robot.find_link(config.camera_parent).value();
+  const Camera& camera = *read.input.camera;
+  const std::size_t parent = find_camera_parent(robot, camera.parent);
   const auto source = read.input.frames();
   Frame frame;
   std::string fault, note;
@@ -86,7 +85,7 @@ PlanningInput read_planning_input(const PlanningOptions& options, const LineSink
     kept.pose.attached = frame.pose.attached;
     kept.pose.uncertain_links = frame.pose.uncertain_links;
     const Eigen::Isometry3d T_root_camera =
-        T_root_link[parent] * frame.pose.T_parent_camera.value_or(config.T_parent_camera);
+        T_root_link[parent] * frame.pose.T_parent_camera.value_or(camera.pose());
     kept.targets = placed(read.targets.of_frame(static_cast<std::int64_t>(index)), T_root_camera,
                           read.targets.file());
     const auto T_camera_frame = [&](const ReferenceFrame& of) -> Eigen::Isometry3d {

@@ -49,7 +49,7 @@ void check_links(const Recording& recording, const Robot& robot,
     throw InputError(recording.file.string() + ": " + key + ": '" + link +
                      "' is no link of the robot" + near_names(link, known));
   };
-  check("camera.parent", recording.camera.parent);
+  check("camera.parent", recording.camera.camera.parent);
   for (const RecordedBody& each : recording.attached)
     check("attached: " + each.body.name + ": link", each.body.link);
   for (const ExtraMesh& part : extra) check("--extra", part.link);
@@ -111,8 +111,8 @@ RunInput open_recording_input(const InputOptions& options) {
   if (options.needs_depth && !recording.frames.depth)
     throw InputError(recording.file.string() +
                      ": frames: key 'depth' is missing: " + needs_depth_images);
-  if (!options.needs_camera_pose && !recording.camera.T_parent_camera)
-    recording.camera.T_parent_camera = Eigen::Isometry3d::Identity();
+  if (!options.needs_camera_pose && !recording.camera.camera.T_parent_camera)
+    recording.camera.camera.T_parent_camera = Eigen::Isometry3d::Identity();
   std::vector<std::string> names;
   for (const RecordedRobot& robot : recording.robots) names.push_back(robot.name);
   check_robots_of(options.joints, names);

@@ -25,13 +25,11 @@ LiveWorker::Tools LiveWorker::make_tools(const SensorSetup& setup) const {
   const JudgedCameras& cameras = *setup.cameras();
   PipelineConfig config = config_;
   config.has_depth = cameras.has_depth;
-  config.camera_parent = setup.mount.parent;
-  config.T_parent_camera = setup.mount.T_parent_camera;
   Tools tools{.session = Session(robot, cameras.judged, config, options_.drift),
               .encoder = ResultEncoder(robot, cameras.judged, options_.points),
               .depth = DepthInput(cameras)};
   if (calibration_ != nullptr)
-    calibration_->follow(robot, cameras.judged, config.camera_parent, config.T_parent_camera);
+    calibration_->follow(robot, cameras.judged, cameras.judged.parent, cameras.judged.pose());
   return tools;
 }
 

@@ -40,8 +40,8 @@ MomentPainter::MomentPainter(const Robot& robot, const ForecastCamera& camera,
                              const RobotPose& start)
     : robot_(robot),
       targets_(targets),
-      parent_(find_camera_parent(robot, camera.parent)),
-      T_parent_camera_(camera.T_parent_camera),
+      parent_(find_camera_parent(robot, camera.camera.parent)),
+      T_parent_camera_(camera.camera.pose()),
       camera_(camera.camera) {
   if (!camera_.distortion.is_none()) {
     rectification_.emplace(camera_);

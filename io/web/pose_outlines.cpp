@@ -11,10 +11,11 @@ namespace penumbra::io {
 std::optional<PartBytes> PoseOutlines::draw(const RobotPose& pose, const CalibrationProgress& of) {
   if (!of.is_ready() || (pose.positions.empty() && pose.T_root_link.empty())) return std::nullopt;
   const std::lock_guard lock(mutex_);
-  if (!pipeline_ || parent_ != of.camera_parent) {
+  if (!pipeline_ || camera_.parent != of.camera_parent) {
+    camera_.parent = of.camera_parent;
+    camera_.T_parent_camera = of.found->T_parent_camera;
     PipelineConfig config;
     config.has_depth = false;
-    config.camera_parent = parent_ = of.camera_parent;
     pipeline_.emplace(robot_, camera_, config);
   }
   Image<std::uint8_t> image(camera_.intrinsics.width(), camera_.intrinsics.height());

@@ -24,10 +24,9 @@ class PoseOutlines {
 
  private:
   Robot robot_;
-  Camera camera_;
   std::mutex mutex_;
-  std::optional<Pipeline> pipeline_;  // guarded by mutex_; of the link `parent_`
-  std::string parent_;
+  Camera camera_;                     // guarded by mutex_
+  std::optional<Pipeline> pipeline_;  // likewise; of the camera
 };
 
 }  // namespace penumbra::io

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <penumbra/base/error.hpp>
 
@@ -137,14 +137,33 @@ struct DepthRange {
   bool operator==(const DepthRange&) const = default;
 };
 
-/// A calibrated depth camera, without its pose.
+/// A calibrated depth camera, and where it is.
 struct Camera {
-  Intrinsics intrinsics;  ///< of the image as received
-  Distortion distortion;  ///< of the image as received; none if it is already rectified
-  DepthRange range;
-  std::string frame_id;  ///< the optical frame; may be empty
+  Intrinsics intrinsics;       ///< of the image as received
+  Distortion distortion = {};  ///< of the image as received; none if it is already rectified
+  DepthRange range = {};
+  std::string frame_id = {};  ///< the optical frame; may be empty
 
-  bool operator==(const Camera&) const = default;
+  std::string parent = {};  ///< link that carries the camera; empty: the root
+  /// Pose of the optical frame in that link's frame, metres; null: not known. What needs it then
+  /// throws InputError: it is never taken for the identity.
+  std::optional<Eigen::Isometry3d> T_parent_camera = {};
+
+  bool operator==(const Camera& other) const {
+    return intrinsics == other.intrinsics && distortion == other.distortion &&
+           range == other.range && frame_id == other.frame_id && parent == other.parent &&
+           T_parent_camera.has_value() == other.T_parent_camera.has_value() &&
+           (!T_parent_camera || T_parent_camera->matrix() == other.T_parent_camera->matrix());
+  }
+
+  /// Returns the pose. Throws InputError if it is not known.
+  [[nodiscard]] const Eigen::Isometry3d& pose() const {
+    if (!T_parent_camera)
+      throw InputError(
+          "camera: its pose is missing; set T_parent_camera, the pose of the optical frame (x "
+          "right, y down, z forward) in the frame of link 'parent', metres");
+    return *T_parent_camera;
+  }
 
   /// Returns itself. Throws InputError, with the values, unless 0 <= near < far.
   const Camera& check() const {

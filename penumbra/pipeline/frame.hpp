@@ -13,6 +13,7 @@
 
 #include <penumbra/base/image.hpp>
 #include <penumbra/cloud/scan.hpp>
+#include <penumbra/labels/labels.hpp>
 #include <penumbra/poses/robot_pose.hpp>
 #include <penumbra/robot/trajectory.hpp>
 #include <penumbra/targets/target.hpp>
@@ -114,6 +115,9 @@ struct FrameReport {
   /// a scan all are, unless the status is ok, or missing_link because the pose of a link is
   /// unknown: then those that it could be at.
   ImageView<const std::uint8_t> labels;
+
+  /// Returns the label of a pixel of that image.
+  [[nodiscard]] Label label(int u, int v) const { return static_cast<Label>(labels(u, v)); }
 
   std::span<const TargetReport> targets;  ///< in the order of the frame's targets
 

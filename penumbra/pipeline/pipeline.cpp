@@ -73,8 +73,8 @@ Pipeline::Pipeline(Robot robot, const Camera& camera, const PipelineConfig& conf
   check_is_drawn(robot);
   auto judge = std::make_unique<ImageJudge>(robot, camera, config);
   const ImageJudge* const images = judge.get();
-  state_ = std::make_unique<State>(std::move(robot), config.camera_parent, config.T_parent_camera,
-                                   std::move(judge), camera.frame_id);
+  state_ = std::make_unique<State>(std::move(robot), camera.parent, camera.pose(), std::move(judge),
+                                   camera.frame_id);
   state_->image_judge = images;
 }
 Pipeline::Pipeline(Robot robot, const std::string& sensor_parent,

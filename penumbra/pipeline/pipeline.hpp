@@ -34,9 +34,6 @@ struct PipelineConfig {
   /// pixels are unknown, and verdicts come from the model alone: from what the robot hides of
   /// targets whose depth is known.
   bool has_depth = true;
-  std::string camera_parent;  ///< link that carries the camera; empty: the root
-  /// Pose of the optical frame in that link's frame, metres.
-  Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();
   /// Seconds for which frames are stored for targets of an earlier stamp, up to max_target_history.
   /// 0: no storage, and such targets are unknown. Costs time and memory: docs/targets.md.
   double target_history = 0.0;
@@ -52,7 +49,8 @@ class FrameJudge;
 class Pipeline {
  public:
   /// Throws InputError for a robot without geometry, an unknown camera parent, a camera pose that
-  /// is not rigid or over 1000 km away, and as Camera, LabelRule and make_depth_renderer do.
+  /// is missing, not rigid or over 1000 km away, and as Camera, LabelRule and make_depth_renderer
+  /// do.
   Pipeline(Robot robot, const Camera& camera, const PipelineConfig& config = {});
   /// Of a sensor of points: its frames have scans. Targets are 3-D boxes and points, judged on the
   /// rays that meet them at the scan's begin; what has no measured ray, or is of a cloud without

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/pipeline/pipeline.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 
 namespace penumbra {
@@ -138,6 +139,19 @@ Image<std::uint8_t> robot_mask(const VirtualDepthView& virtual_depth) {
   for (int v = 0; v < depth.height; ++v)
     for (int u = 0; u < depth.width; ++u) mask(u, v) = depth(u, v) > 0.0F ? 255 : 0;
   return mask;
+}
+
+Image<std::uint8_t> robot_mask(const Robot& robot, const Camera& camera, const RobotPose& pose) {
+  PipelineConfig config;
+  config.has_depth = false;
+  Pipeline pipeline(robot, camera, config);
+  const FrameReport& report = pipeline.process({.pose = pose});
+  if (report.status != FrameStatus::ok) throw InputError("robot_mask: " + report.message);
+  if (!report.near_links.empty())
+    throw InputError("robot_mask: part of link '" + robot.links()[report.near_links.front()] +
+                     "' lies within 1 cm of the camera and cannot be drawn: correct the camera's "
+                     "pose, or name the link in ignore_links");
+  return robot_mask(report.virtual_depth);
 }
 
 Image<std::uint8_t> front_of(const ImageView<const float>& virtual_depth, const DepthView& measured,

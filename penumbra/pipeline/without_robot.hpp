@@ -81,6 +81,12 @@ class CloudMaker {
 /// Returns 255 where the robot, or what it carries, is drawn, else 0: which pixels of a picture
 /// show it, if nothing stands before it.
 [[nodiscard]] Image<std::uint8_t> robot_mask(const VirtualDepthView& virtual_depth);
+/// The same of a pose, for example {.positions = ...}, in the camera's own image; 0 where its lens
+/// model does not reach. For many frames use a Session. Throws InputError if the mask would lack
+/// something: the camera's pose or joint positions are missing, not finite or not one for each of
+/// Robot::variables(), a mesh could not be read, or a part is within 1 cm of the camera.
+[[nodiscard]] Image<std::uint8_t> robot_mask(const Robot& robot, const Camera& camera,
+                                             const RobotPose& pose);
 
 /// Returns 255 where the rendered robot stands before what a depth image shows, else 0: what to
 /// paint of another robot over that scene. It is in front up to the tolerance behind the measured

@@ -133,7 +133,7 @@ CameraPredictor::CameraPredictor(const Robot& robot, const ForecastCamera& camer
       free_(clearance > 0 ? clearance : std::numeric_limits<double>::quiet_NaN()),
       rule_(within_range(camera.rule)),
       label_rule_(rule_),
-      poses_(robot, camera.parent, camera.T_parent_camera, {}),
+      poses_(robot, camera.camera.parent, camera.camera.pose(), {}),
       renderer_(make_depth_renderer(Backend::cpu, camera_.intrinsics,
                                     bodies_with(robot, start.attached))),
       near_plane_(camera_.intrinsics, bodies_with(robot, start.attached)),

@@ -259,8 +259,9 @@ struct LookAhead::State {
     const ForecastCamera& first = cameras.front();
     std::vector<Eigen::Isometry3d> T_root_link(robot.links().size());
     robot.forward_kinematics(start.positions, T_root_link);
-    const Eigen::Isometry3d T_root_camera = T_root_link[find_camera_parent(robot, first.parent)] *
-                                            start.T_parent_camera.value_or(first.T_parent_camera);
+    const Eigen::Isometry3d T_root_camera =
+        T_root_link[find_camera_parent(robot, first.camera.parent)] *
+        start.T_parent_camera.value_or(first.camera.pose());
     targets.clear();
     for (const ForecastTarget& target : given)
       targets.push_back(planning::anchored(target, first.camera, T_root_camera));

@@ -25,8 +25,6 @@ namespace penumbra {
 struct ForecastCamera {
   std::string name;
   Camera camera;
-  std::string parent = {};  ///< link that carries it; empty: the root
-  Eigen::Isometry3d T_parent_camera = Eigen::Isometry3d::Identity();  ///< metres, optical frame
   LabelRule rule = {};  ///< its tolerance separates robot and target
 };
 

@@ -36,11 +36,7 @@ Forecast cut(const Forecast& intervals, double from, double until) {
 struct PlanForecast::State {
   State(const Robot& of, const Camera& images, const PipelineConfig& config)
       : robot(of),
-        camera{.name = "camera",
-               .camera = images,
-               .parent = config.camera_parent,
-               .T_parent_camera = config.T_parent_camera,
-               .rule = config.rule},
+        camera{.name = "camera", .camera = images, .rule = config.rule},
         positions(robot.variables().size()) {}
 
   [[nodiscard]] std::string follow(const Frame& frame);

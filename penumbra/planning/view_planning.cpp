@@ -19,9 +19,9 @@ namespace penumbra {
 namespace {
 
 std::size_t link_of(const Robot& robot, const ForecastCamera& candidate) {
-  if (candidate.parent.empty()) return 0;
-  if (const auto link = robot.find_link(candidate.parent)) return *link;
-  throw InputError("candidate '" + candidate.name + "': '" + candidate.parent +
+  if (candidate.camera.parent.empty()) return 0;
+  if (const auto link = robot.find_link(candidate.camera.parent)) return *link;
+  throw InputError("candidate '" + candidate.name + "': '" + candidate.camera.parent +
                    "' is not a link of robot '" + robot.name() + "'");
 }
 
@@ -38,7 +38,10 @@ class CandidateJudge {
 
   /// Returns whether a candidate is this camera in another place.
   [[nodiscard]] bool serves(const ForecastCamera& candidate) const {
-    return candidate.camera == camera_.camera && candidate.rule == camera_.rule;
+    Camera moved = camera_.camera;
+    moved.parent = candidate.camera.parent;
+    moved.T_parent_camera = candidate.camera.T_parent_camera;
+    return candidate.camera == moved && candidate.rule == camera_.rule;
   }
 
   /// Writes the verdicts of the frame's targets; returns why the first unknown one is.
@@ -47,7 +50,7 @@ class CandidateJudge {
     const std::size_t link = link_of(pipeline_.robot(), candidate);
     if (is_uncertain(motion, link)) return "the pose of its link is not known";
     Frame frame{.pose = motion.pose, .targets = motion.targets};
-    frame.pose.T_parent_camera = motion.pose.T_root_link[link] * candidate.T_parent_camera;
+    frame.pose.T_parent_camera = motion.pose.T_root_link[link] * candidate.camera.pose();
     frame.pose.uncertain_reason = "not known in this frame";
     for (Target& target : frame.targets) {
       target.has_identity = false;  // each frame is judged alone

@@ -60,7 +60,7 @@ struct RobotPose {
   std::optional<std::int64_t> age = {};  ///< nanoseconds from the stamp to the farthest state used
   /// Poses of all links, if they do not follow from `positions` alone; the root's is the identity.
   std::vector<Eigen::Isometry3d> T_root_link = {};
-  /// The camera's pose in its parent link; null: the configuration's.
+  /// The camera's pose in its parent link; null: Camera's, or CloudConfig's.
   std::optional<Eigen::Isometry3d> T_parent_camera = {};
   /// Links whose pose is unknown although the robot's is known. Targets and estimates given in them
   /// are not judged. Those with geometry are a `missing_link`: pixels are unknown wherever they or

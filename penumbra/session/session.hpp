@@ -27,7 +27,7 @@ class Warnings;
 class Session {
  public:
   /// Throws InputError as Pipeline does.
-  Session(Robot robot, const Camera& camera, const PipelineConfig& config,
+  Session(Robot robot, const Camera& camera, const PipelineConfig& config = {},
           const DriftLimits& limits = {});
   /// Of a sensor of points. `limits`: ranges of lidars are known to about a centimetre.
   Session(const Robot& robot, const CloudConfig& config,

@@ -45,8 +45,7 @@ Warnings::Warnings(const Robot& robot)
 Warnings::Warnings(const Pipeline& pipeline, const Camera& camera, const PipelineConfig& config)
     : Warnings(pipeline.robot()) {
   has_depth_ = config.has_depth;
-  const std::size_t parent =
-      config.camera_parent.empty() ? 0 : *robot_.find_link(config.camera_parent);
+  const std::size_t parent = find_camera_parent(robot_, camera.parent);
   sensor_.emplace(
       Sensor{.setup = has_depth_ ? SetupCheck(robot_, pipeline.report_camera(), parent)
                                  : SetupCheck(robot_, camera, parent, SetupCheck::Images::color),

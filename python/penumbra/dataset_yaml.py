@@ -155,14 +155,11 @@ def _arguments(root: dict[str, Any], folder: pathlib.Path) -> dict[str, Any]:
         raise InputError("camera.pose: is needed: four rows of four numbers, or a file of them")
     if layout.pose and "{camera}" in layout.pose and pose is None and "name" not in camera:
         raise InputError("camera.name: is needed for the camera's pose in the episodes")
-    config = PipelineConfig(
-        camera_parent=_of(camera, "camera", "parent"),
-        rule=LabelRule.for_sensor(camera.get("sensor", "realsense_d4xx")),
-    )
+    read_pose = None
     if pose is not None:
         layout = layout._replace(pose="")
         read_pose = read_pose_csv(folder / pose) if isinstance(pose, str) else poses_of(pose, 0)
-        config = config.replace(T_parent_camera=read_pose)
+    placed = {"parent": _of(camera, "camera", "parent"), "T_parent_camera": read_pose}
     robot = _only(root.get("robot"), "robot", ROBOT_KEYS)
     recorded, joints = None, root.get("joints")
     if "name" in robot:
@@ -174,8 +171,8 @@ def _arguments(root: dict[str, Any], folder: pathlib.Path) -> dict[str, Any]:
         joints = _joints(joints, None)
     return {
         "robot": _robot(robot, folder),
-        "camera": _camera(camera, folder),
-        "config": config,
+        "camera": _camera(camera, folder).replace(**placed),
+        "config": PipelineConfig(rule=LabelRule.for_sensor(camera.get("sensor", "realsense_d4xx"))),
         "joints": joints,
         "recorded": recorded,
         "layout": layout,

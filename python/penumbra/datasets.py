@@ -86,7 +86,8 @@ class Dataset:
         clouds: CloudOptions = CloudOptions(),
         recorded: Optional[Recorded] = None,
     ) -> None:
-        """config: the camera's parent and pose, and the rule that clouds are made by.
+        """camera: its pose may be missing if each episode has one.
+        config: with the rule that clouds are made by.
         joints: one of each of robot.variables; None: the columns are these.
         recorded: the names of all columns of an episode; None: there may be others.
         depth_scale: metres per unit; None: 0.001 for integers, 1 for floats."""
@@ -130,7 +131,9 @@ class Dataset:
         joints = self._joints(columns)
         _check_limits(joints, columns, self._columns, self.robot, self._recorded)
         _check_degrees(columns, self._columns, self.robot, self._recorded)
-        of_camera = self.config.T_parent_camera if pose is None else poses_of(pose, len(joints))
+        of_camera = self.camera.T_parent_camera if pose is None else poses_of(pose, len(joints))
+        if of_camera is None:
+            raise InputError("the pose of its camera is missing")
         k = self.camera.intrinsics
         for what, images in (("colour", color), ("depth", depth)):
             height, width = images(0).shape[:2] if images else (k.height, k.width)
@@ -249,7 +252,8 @@ class Dataset:
 
     @functools.cached_property
     def _session(self) -> Session:
-        return Session(self.robot, self.camera, self.config)
+        # Each frame has its own pose.
+        return Session(self.robot, self.camera.replace(T_parent_camera=np.eye(4)), self.config)
 
     def _joints(self, columns: NDArray[Any]) -> NDArray[np.float64]:
         if columns.ndim != 2:

@@ -65,7 +65,12 @@ class Recorder:
         """folder: new or empty. robot, camera, config: as of Session; the robot comes from a file.
         targets: a targets.yaml. Raises InputError."""
         config = config or PipelineConfig()
-        parent = config.camera_parent or robot.links[0]
+        parent = camera.parent or robot.links[0]
+        if camera.T_parent_camera is None:
+            raise InputError(
+                "camera: its pose is missing; set T_parent_camera, if only to np.eye(4) for "
+                "'penumbra calibrate --search'"
+            )
         if robot.urdf is None:
             raise InputError("robot: a recording names its URDF file; use Robot.load")
         if robot.find_link(parent) is None:
@@ -96,7 +101,7 @@ class Recorder:
             self._folder.mkdir(parents=True, exist_ok=True)
             if any(self._folder.iterdir()):
                 raise InputError(f"{self._folder}: is not empty; choose a new or empty folder")
-            _write_pose(self._folder / "camera_pose.csv", config.T_parent_camera)
+            _write_pose(self._folder / "camera_pose.csv", camera.T_parent_camera)
             self._write_yaml("camera_info.yaml", _camera_info(camera))
             self._rows = open(self._folder / self._frames["joints"], "x", encoding="utf-8")
         except OSError as error:

@@ -154,7 +154,7 @@ TinyBag recording_bag(const std::filesystem::path& folder,
   const std::int64_t begin = *frames.read(0, false).stamp;
   bag.add("/robot_description", begin, io::StringMessage{read_file(recording.robots.front().urdf)});
   bag.add("/tf_static", begin,
-          io::TfMessage{{{{0, recording.camera.parent}, camera_frame, T_parent_camera}}});
+          io::TfMessage{{{{0, recording.camera.camera.parent}, camera_frame, T_parent_camera}}});
   io::CameraInfoMessage info =
       camera_info_of(recording.camera.camera.intrinsics, {0, camera_frame});
   for (std::size_t i = 0; i < frames.size(); ++i) {

@@ -100,7 +100,7 @@ def messages_of(given, urdf_text, parent):
     frames, frame_id, i = list(given), given.camera.frame_id, given.camera.intrinsics
     start, camera = frames[0].stamp, "/camera/camera/depth/"
     yield "/robot_description", "std_msgs/msg/String", start, cdr(urdf_text)
-    mount = static_transform(parent, frame_id, given.config.T_parent_camera, start)
+    mount = static_transform(parent, frame_id, given.camera.T_parent_camera, start)
     yield "/tf_static", "tf2_msgs/msg/TFMessage", start, mount
     for frame in frames:
         stamp = frame.stamp

@@ -6,7 +6,9 @@
 #include <penumbra/fusion/target_fusion.hpp>
 #include <penumbra/pipeline/frame_queue.hpp>
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/pipeline/without_robot.hpp>
 #include <penumbra/planning/look_ahead.hpp>
+#include <penumbra/session/session.hpp>
 #include <penumbra/time/pose_history.hpp>
 #include <penumbra/tracking/trackers.hpp>
 
@@ -17,11 +19,11 @@ struct Arm {
 extern Arm arm;
 extern penumbra::Robot robot;
 extern penumbra::Pipeline pipeline, left, right;
-extern penumbra::Camera depth_camera, colour_camera;
+extern penumbra::Camera camera, depth_camera, colour_camera;
 extern penumbra::Frame frame, left_frame, right_frame;
 extern penumbra::DepthView depth;
 extern penumbra::Verdict verdict;
-extern Eigen::Isometry3d T_parent_child, T_colour_depth, T_base_object, T_root_camera;
+extern Eigen::Isometry3d T_parent_child, T_colour_depth, T_base_object;
 extern std::vector<std::string> names;
 extern std::vector<double> positions, configurations;
 extern std::vector<penumbra::TrajectoryPoint> points;

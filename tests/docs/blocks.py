@@ -47,6 +47,22 @@ def all_blocks(*languages: str) -> List[Block]:
     return [block for document in DOCUMENTS for block in blocks_of(document) if block.language in languages]
 
 
+# What the first lines of these take.
+GIVEN = """
+import penumbra
+given = penumbra.open("examples/arm_over_table")
+robot, camera = str(given.robot.urdf), given.camera
+depth, joints = given[4].depth, dict(zip(given.robot.variables, given[4].pose.positions))
+"""
+BEFORE = {"README.md": GIVEN, "python.md": GIVEN}
+
+
+def program_of(document: pathlib.Path) -> str:
+    """A document's blocks in their order, as one program."""
+    blocks = [block.text for block in blocks_of(document) if block.language == "python"]
+    return "\n".join([BEFORE.get(document.name, ""), *blocks])
+
+
 def commands_of(block: Block) -> List[Command]:
     """Lines of a shell: those that end in a backslash go on, && parts commands, # begins a comment."""
     commands, pending, first = [], "", 0

@@ -16,7 +16,7 @@ from PIL import Image
 
 import penumbra
 from penumbra import datasets
-from blocks import DOCUMENTS, ROOT, all_blocks, blocks_of
+from blocks import DOCUMENTS, ROOT, all_blocks, blocks_of, program_of
 from conftest import SHIPPED, in_folder
 
 KNOWN = ("", "sh", "python", "cpp", "cmake", "yaml", "json", "csv", "text")
@@ -34,6 +34,7 @@ SAID = {
     "look_ahead.md": {r"^lid \d\.\d\d s to \d\.\d\d s: hidden \w+$": 1},
     "point_clouds.md": {r"\A9\d{4} of 100000 points stay\n\Z": 1},
     "python.md": {r"^\d+ ok \d+ front pixels, \d{5,} points$": 12, r"FrameStatus\.bad_depth": 1, "% behind gripper": 1},
+    "README.md": {r"\A\Z": 1},
     "robot_masks.md": {r"\A12 frames, \d{5} pixels in the last one\nepisode_000007 12\n\Z": 1},
     "targets.md": {r"^cylinder_7 (?:visible|partial|hidden|unknown)": 12},
 }
@@ -42,9 +43,7 @@ SAID = {
 @pytest.mark.parametrize("document", [d for d in DOCUMENTS if any(b.language == "python" for b in blocks_of(d))],
                          ids=lambda d: d.name)
 def test_python_runs(document, work):
-    """A document's blocks in their order, as one program."""
-    text = "\n".join(b.text for b in blocks_of(document) if b.language == "python")
-    done = subprocess.run([sys.executable, "-c", in_folder(text, work)], cwd=work, env=os.environ,
+    done = subprocess.run([sys.executable, "-c", in_folder(program_of(document), work)], cwd=work, env=os.environ,
                           capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     for pattern, lines in SAID[document.name].items():

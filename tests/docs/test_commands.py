@@ -13,7 +13,7 @@ import urllib.request
 
 import pytest
 
-from blocks import DOCUMENTS, ROOT, blocks_of, commands_of, inline_code
+from blocks import DOCUMENTS, ROOT, blocks_of, commands_of, inline_code, program_of
 from conftest import PROGRAM, in_folder
 
 PATIENCE = 1800  # seconds that a command may take on a busy machine
@@ -97,8 +97,7 @@ def shell_blocks(document):
                          ids=lambda d: str(d.relative_to(ROOT)))
 def test_commands_run(document, work, environment):
     if document.name in PROGRAMS_FIRST:
-        programs = [block.text for block in blocks_of(document) if block.language == "python"]
-        run([sys.executable, "-c", "\n".join(programs)], work, environment)
+        run([sys.executable, "-c", program_of(document)], work, environment)
     for block in shell_blocks(document):
         for command in commands_of(block):
             words = [in_folder(word, work) for word in command.words]

@@ -66,10 +66,10 @@ TEST_F(TargetsTest, NothingIsAcceptedWithoutPoseOrDepth) {
 }
 
 TEST_F(TargetsTest, EstimatesOfTheCameraAreBroughtToTheRoot) {
-  PipelineConfig config = plain_config();
-  config.camera_parent = "slab";  // eye in hand
-  config.T_parent_camera = at(0.25, 0, -1.2);
-  Pipeline pipeline(slab_robot(), slab_camera(), config);
+  Camera camera = slab_camera();
+  camera.parent = "slab";  // eye in hand
+  camera.T_parent_camera = at(0.25, 0, -1.2);
+  Pipeline pipeline(slab_robot(), camera, plain_config());
   const Image<float> wall(depth_.width(), depth_.height(), 3.0F);
   for (int i = 0; i < 3; ++i) {
     Target target = estimated(i * 100 * ms, PixelBox{2, 100, 12, 12}, 0.0);

@@ -3,6 +3,7 @@
 #include "slab_scene.hpp"
 
 #include <penumbra/diagnosis/diagnosis.hpp>
+#include <penumbra/pipeline/without_robot.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -44,6 +45,7 @@ TEST_P(PipelineOf, LabelsEveryPixelAsTheRuleSays) {
     EXPECT_EQ(report.stamp, 7);
     EXPECT_FALSE(report.joint_age.has_value());
     EXPECT_EQ(pixels_of(report.labels), pixels_of(scene.labels.view()));
+    EXPECT_EQ(report.label(73, 57), Label(scene.labels(73, 57)));
     std::size_t counts[label_count] = {};
     for (const std::uint8_t label : pixels_of(scene.labels.view())) ++counts[label];
     EXPECT_EQ(report.pixels.front, counts[1]);
@@ -55,29 +57,60 @@ TEST_P(PipelineOf, LabelsEveryPixelAsTheRuleSays) {
   }
 }
 
-TEST(Pipeline, RefusesAFaultyConfiguration) {
-  using Config = PipelineConfig;
-  const std::pair<const char*, std::function<void(Config&)>> faults[] = {
-      {"slap", [](Config& c) { c.camera_parent = "slap"; }},
-      {"rigid", [](Config& c) { c.T_parent_camera.linear() *= 1.001; }},
-      {"rigid", [](Config& c) { c.T_parent_camera.linear()(0, 0) = -1.0; }},
-      {"rigid", [](Config& c) { c.T_parent_camera.translation().x() = nan; }},
-      {"camera pose", [](Config& c) { c.T_parent_camera.translation().x() = 1e300; }},
-      {"0", [](Config& c) { c.renderer.threads = 0; }}};
-  for (const auto& [part, spoil] : faults) {
-    Config config = plain_config();
-    spoil(config);
-    expect_refused([&, &c = config] { Pipeline(slab_robot(), slab_camera(), c); }, {part});
+TEST(RobotMask, IsWhereRaysMeetTheRobot) {
+  const Camera camera = slab_camera();
+  const Intrinsics& k = camera.intrinsics;
+  for (const double slide : {-0.4, 0.0, 0.7}) {
+    const Image<std::uint8_t> mask = robot_mask(slab_robot(), camera, {.positions = {slide}});
+    Image<std::uint8_t> expected(k.width(), k.height());
+    for (const auto [u, v] : each_pixel(k))
+      expected(u, v) = cast(k.ray(u, v), slide).depth > 0.0 ? 255 : 0;
+    EXPECT_EQ(pixels_of(mask.view()), pixels_of(std::as_const(expected).view()));
   }
-  Camera camera = slab_camera();
-  camera.range = {3.0, 0.5};
-  expect_refused([&] { Pipeline(slab_robot(), camera, plain_config()); }, {"0.5"});
+}
+
+TEST(RobotMask, RefusesWhatItWouldLack) {
+  const auto refused = [](const Robot& robot, const Camera& camera, std::vector<double> positions,
+                          const char* part) {
+    const RobotPose pose{.positions = std::move(positions)};
+    expect_refused([&] { static_cast<void>(robot_mask(robot, camera, pose)); }, {part});
+  };
+  Camera nowhere = slab_camera(), close = slab_camera();
+  nowhere.T_parent_camera.reset();
+  close.T_parent_camera->translation().z() = slab_depth - 0.005;
+  refused(slab_robot(), nowhere, {0.0}, "T_parent_camera");
+  refused(slab_robot(), close, {0.0}, "'slab'");
+  refused(slab_robot(), slab_camera(), {}, "joint");
+  refused(slab_robot(), slab_camera(), {0.0, 0.0}, "joint");
+  refused(slab_robot(), slab_camera(), {nan}, "slide");
+  refused(slab_robot_without_mesh(), slab_camera(), {0.0}, "'lost'");
+}
+
+TEST(Pipeline, RefusesAFaultyConfiguration) {
+  const std::pair<const char*, std::function<void(Camera&)>> faults[] = {
+      {"slap", [](Camera& c) { c.parent = "slap"; }},
+      {"T_parent_camera", [](Camera& c) { c.T_parent_camera.reset(); }},
+      {"rigid", [](Camera& c) { c.T_parent_camera->linear() *= 1.001; }},
+      {"rigid", [](Camera& c) { c.T_parent_camera->linear()(0, 0) = -1.0; }},
+      {"rigid", [](Camera& c) { c.T_parent_camera->translation().x() = nan; }},
+      {"camera pose", [](Camera& c) { c.T_parent_camera->translation().x() = 1e300; }},
+      {"0.5", [](Camera& c) {
+         c.range = {3.0, 0.5};
+       }}};
+  for (const auto& [part, spoil] : faults) {
+    Camera camera = slab_camera();
+    spoil(camera);
+    expect_refused([&, &c = camera] { Pipeline(slab_robot(), c, plain_config()); }, {part});
+  }
+  PipelineConfig config = plain_config();
+  config.renderer.threads = 0;
+  expect_refused([&] { Pipeline(slab_robot(), slab_camera(), config); }, {"0"});
 }
 
 /// The fringe of a thing at the slab's left border, at its depth, after a frame in which the slab
 /// was far from it.
 std::size_t fringe_of_thing(double scene_memory, std::int64_t seconds_later = 1) {
-  const Camera camera{Intrinsics(1288, 968, 962.4, 949.6, 585.7, 459.4), {}, {}, {}};
+  const Camera camera = camera_at_root(Intrinsics(1288, 968, 962.4, 949.6, 585.7, 459.4));
   PipelineConfig config = plain_config();
   config.rule.fringe_reach = 8;
   config.rule.scene_memory = scene_memory;
@@ -234,9 +267,9 @@ TEST_F(FrameStatusTest, DepthWithoutAnyMeasurement) {
 
 /// The slab's middle lies just behind its near face.
 TEST(FrameStatusOfRobot, ACameraInsideOfALinkIsAFaultOfTheFrame) {
-  PipelineConfig config = plain_config();
-  config.T_parent_camera.translation() = Vector3d(0.0, 0.0, -1.0);
-  Pipeline pipeline(slab_robot(), slab_camera(), config);
+  Camera camera = slab_camera();
+  camera.T_parent_camera->translation() = Vector3d(0.0, 0.0, -1.0);
+  Pipeline pipeline(slab_robot(), camera, plain_config());
   const Image<float> depth = scene_depth(slab_camera(), 0.0);
   for (const bool is_inside : {true, false, true}) {
     const FrameReport& report =

@@ -41,9 +41,16 @@ inline Robot slab_robot_without_mesh() {
   return parse(slab_urdf(lost), {.allow_missing_meshes = true});
 }
 
+/// A camera in the root's frame.
+inline Camera camera_at_root(const Intrinsics& intrinsics) {
+  Camera camera{intrinsics, {}, {}, {}};
+  camera.T_parent_camera = Isometry3d::Identity();
+  return camera;
+}
+
 /// Its principal point is off the centre, and no box edge meets a pixel centre.
 inline Camera slab_camera() {
-  return {Intrinsics(161, 121, 120.3, 118.7, 73.21, 57.43), {}, {}, {}};
+  return camera_at_root(Intrinsics(161, 121, 120.3, 118.7, 73.21, 57.43));
 }
 
 /// Nothing but the tolerance: 0.02 m everywhere, no clean-up.

@@ -13,7 +13,7 @@ const std::vector<std::string> slide_joint = {"slide"};
 
 ForecastCamera cell_camera(const Vector3d& at = Vector3d::Zero()) {
   ForecastCamera camera{.name = "cell", .camera = slab_camera()};
-  camera.T_parent_camera.translation() = at;
+  camera.camera.T_parent_camera->translation() = at;
   return camera;
 }
 

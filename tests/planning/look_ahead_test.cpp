@@ -158,8 +158,8 @@ void judge_motions(const Robot& robot, int motions, std::mt19937_64& random, Tal
   std::vector<double> positions(robot.variables().size());
   for (int motion = 0; motion < motions; ++motion) {
     const Scene scene(robot, random);
-    const ForecastCamera camera{
-        .name = "cell", .camera = forecast_camera(), .T_parent_camera = scene.T_root_camera};
+    ForecastCamera camera{.name = "cell", .camera = forecast_camera()};
+    camera.camera.T_parent_camera = scene.T_root_camera;
     const std::vector<TargetForecast> forecasts =
         LookAhead(robot, {camera}, scene.targets(), RobotPose{.positions = scene.first})
             .along(*scene.trajectory);

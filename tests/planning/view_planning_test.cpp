@@ -27,8 +27,9 @@ const std::vector<Ball> balls = {{"behind the slab", {0.05, 0.02, 1.9}, 0.08},
 
 ForecastCamera candidate(const std::string& name, const std::string& link,
                          const Isometry3d& T_link_camera, const DepthRange& range = {}) {
-  ForecastCamera camera{
-      .name = name, .camera = slab_camera(), .parent = link, .T_parent_camera = T_link_camera};
+  ForecastCamera camera{.name = name, .camera = slab_camera()};
+  camera.camera.parent = link;
+  camera.camera.T_parent_camera = T_link_camera;
   camera.camera.range = range;
   camera.rule.tolerance = planned_tolerance;
   return camera;
@@ -127,7 +128,7 @@ TEST(ViewPlanning, VerdictsAreThoseOfRays) {
     for (std::size_t f = 0; f < motion.size(); ++f)
       for (std::size_t t = 0; t < balls.size(); ++t) {
         visible[c][t] += views.at(c, f, t) == Verdict::visible;
-        const auto wanted = verdict_by_rays(balls[t], candidates[c].T_parent_camera, boxes[f]);
+        const auto wanted = verdict_by_rays(balls[t], candidates[c].camera.pose(), boxes[f]);
         if (!wanted) continue;
         ++compared[*wanted];
         EXPECT_EQ(views.at(c, f, t), *wanted)

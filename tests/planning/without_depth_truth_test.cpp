@@ -74,7 +74,7 @@ struct Counts {
 
 void judge_scenes(const Robot& robot, int scenes, std::mt19937_64& random, Counts& counts) {
   LinkRays links(robot);
-  const Camera camera = forecast_camera();
+  Camera camera = forecast_camera();
   std::vector<Isometry3d> T(robot.links().size());
   for (int scene = 0; scene < scenes; ++scene) {
     std::vector<double> positions = robot.rest_positions();
@@ -83,14 +83,13 @@ void judge_scenes(const Robot& robot, int scenes, std::mt19937_64& random, Count
     links.place(T);
     PipelineConfig config;
     config.has_depth = false;
-    config.T_parent_camera = random_viewpoint(random);
-    const Vector3d from = config.T_parent_camera.translation();
+    camera.T_parent_camera = random_viewpoint(random);
+    const Vector3d from = camera.pose().translation();
     const Vector3d link = T[random() % T.size()].translation();
     const Vector3d beside = random_triple(random, 1.0);
     const Vector3d at =
         link + uniform(random, -0.3, 0.6) * (link - from).normalized() + 0.1 * beside;
-    const std::vector<Placed> placed =
-        placed_at(at, config.T_parent_camera, camera.intrinsics, random);
+    const std::vector<Placed> placed = placed_at(at, camera.pose(), camera.intrinsics, random);
     Pipeline pipeline(robot, camera, config);
     Frame frame{.pose = {.positions = positions}};
     for (const Placed& each : placed)

@@ -8,13 +8,14 @@ from conftest import refuses, SHIPPED
 
 GIVEN = penumbra.open(SHIPPED)
 FRAMES = list(GIVEN)
-TRUTH = GIVEN.config.T_parent_camera
+TRUTH = GIVEN.camera.T_parent_camera
 ROUGH = TRUTH.copy()
 ROUGH[:3, 3] += [0.05, -0.04, 0.04]
 
 
 def calibrated(frames, initial, **options):
-    return penumbra.calibrate(frames, GIVEN.camera.intrinsics, GIVEN.robot, initial, **options)
+    camera = GIVEN.camera.replace(T_parent_camera=initial)
+    return penumbra.calibrate(frames, camera, GIVEN.robot, **options)
 
 
 def test_a_rough_guess_ends_at_the_true_pose():
@@ -27,17 +28,17 @@ def test_a_rough_guess_ends_at_the_true_pose():
 
 
 def test_an_opened_input_is_calibrated_as_on_the_command_line():
-    found = penumbra.calibrate(GIVEN, GIVEN.camera, GIVEN.robot, GIVEN.config)
-    by_list = calibrated(FRAMES, TRUTH, camera_parent=GIVEN.config.camera_parent)
+    found = penumbra.calibrate(GIVEN, GIVEN.camera, GIVEN.robot)
+    by_list = calibrated(FRAMES, TRUTH)
     assert found.is_good and np.array_equal(found.T_parent_camera, by_list.T_parent_camera)
-    # As a bag whose tf has the camera, the configuration of which has no pose.
+    # As a bag whose tf has the camera, whose own pose is not known.
     by_tf = [frame.replace(pose=frame.pose.replace(T_parent_camera=ROUGH)) for frame in FRAMES]
-    config = GIVEN.config.replace(T_parent_camera=np.eye(4))
-    found = penumbra.calibrate(by_tf, GIVEN.camera, GIVEN.robot, config)
+    found = calibrated(by_tf, None)
     assert found.is_good
     assert np.linalg.norm(found.T_parent_camera[:3, 3] - TRUTH[:3, 3]) < 0.003
     moved = by_tf[:3] + FRAMES[3:4] + [by_tf[4].replace(pose=by_tf[4].pose.replace(T_parent_camera=TRUTH))]
-    refuses("frame 4: the camera moves", lambda: penumbra.calibrate(moved, GIVEN.camera, GIVEN.robot, config))
+    refuses("frame 4: the camera moves", lambda: calibrated(moved, None))
+    refuses("T_parent_camera", lambda: calibrated(FRAMES, None))
 
 
 def test_faults_are_told():

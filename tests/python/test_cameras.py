@@ -54,8 +54,7 @@ def test_robots_are_joined_and_fail_alone():
     aside = pose(0, 0.6, 0)
     both = penumbra.Robot.join([("a", opened.robot, np.eye(4)), ("b", opened.robot, aside)])
     assert both.links[0] == "world" and both.links[1] == "a/base_link"
-    config = opened.config.replace(camera_parent="a/base_link")
-    session = penumbra.Session(both, opened.camera, config)
+    session = penumbra.Session(both, opened.camera.replace(parent="a/base_link"), opened.config)
     frame = opened.frames[0]
     joints = list(frame.pose.positions)
     poses = both.forward_kinematics(joints + joints)

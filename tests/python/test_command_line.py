@@ -67,7 +67,7 @@ def test_an_input_is_what_run_takes():
     assert frames[0].color.shape == (480, 640, 3) and given.targets.name == "targets.yaml"
     assert iter(given).size == 3 and given.messages == ()
     shown = given.camera.intrinsics.width, given.camera.intrinsics.height
-    assert shown == (640, 480) and given.config.camera_parent == "base_link"
+    assert shown == (640, 480) and given.camera.parent == "base_link"
 
 
 def test_a_bag_tells_what_is_taken_of_it():

@@ -38,7 +38,7 @@ def joints(arm):
 def truth(arm, joints):
     """Link images of the renderer alone."""
     renderer = penumbra.Renderer(penumbra.Backend.cpu, arm.camera.intrinsics, arm.robot.bodies)
-    to_camera = np.linalg.inv(arm.config.T_parent_camera)
+    to_camera = np.linalg.inv(arm.camera.T_parent_camera)
     drawn = []
     for of in joints:
         image = renderer.render(to_camera @ arm.robot.forward_kinematics(of))
@@ -193,7 +193,7 @@ def test_an_npz_file_is_an_episode(joints, truth, tmp_path):
 
 def test_a_camera_that_moves_has_a_pose_for_each_frame(arm, joints, truth):
     dataset = datasets.Dataset(arm.robot, arm.camera, arm.config)
-    poses = np.tile(arm.config.T_parent_camera, (len(joints), 1, 1))
+    poses = np.tile(arm.camera.T_parent_camera, (len(joints), 1, 1))
     poses[1, 2, 3] += 0.1
     drawn = masks_of(dataset, dataset.episode("moving", joints, pose=poses))
     same = [np.array_equal(a, b) for a, b in zip(drawn, truth)]
@@ -440,7 +440,7 @@ def test_clouds_are_the_pipelines_without_the_robot(kind, arm, joints, tmp_path)
     clouds = np.load(tmp_path / "out" / "clouds.npz")
     assert clouds["points"].shape == (5, 256, 3) and clouds["colors"].shape == (5, 256, 3)
     assert clouds["robot_points"].shape == (5, 128, 3) and (clouds["counts"] == 256).all()
-    to_camera = np.linalg.inv(arm.config.T_parent_camera)
+    to_camera = np.linalg.inv(arm.camera.T_parent_camera)
     for t, frame in enumerate(frames):
         image = (frame.depth / 1000).astype(np.float32) if kind == "metres" else frame.depth
         report = arm.session.process(penumbra.Frame(image, frame.pose.positions))

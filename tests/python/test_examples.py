@@ -49,7 +49,7 @@ def test_filter_cloud_keeps_what_is_not_the_robot(tmp_path):
     # A pixel by hand: its ray times its depth, from the camera to the root link.
     v, u = np.argwhere(kept)[1000]
     p = opened.camera.intrinsics.ray(u, v) * frame.depth[v, u] / 1000
-    T = opened.config.T_parent_camera
+    T = opened.camera.T_parent_camera
     assert np.allclose(points["p"][1000], T[:3, :3] @ p + T[:3, 3], atol=1e-4)
     # Most of what is left is table and floor: nothing hangs in the air where the arm was.
     assert np.median(points["p"][:, 2]) < 0.3
@@ -78,7 +78,7 @@ def test_batch_folder_judges_all_and_tells_what_fails(tmp_path):
 def test_calibrate_writes_the_pose(tmp_path):
     assert "within" in run("calibrate.py", SHIPPED, tmp_path / "pose.csv")
     found = np.loadtxt(tmp_path / "pose.csv", delimiter=",")
-    assert np.allclose(found, Opened(SHIPPED).config.T_parent_camera, atol=0.01)
+    assert np.allclose(found, Opened(SHIPPED).camera.T_parent_camera, atol=0.01)
 
 
 def test_pick_and_place_holds_the_part_where_it_is():

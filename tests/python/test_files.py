@@ -182,7 +182,7 @@ def test_init_finds_what_a_recording_has(folder):
     told = run("init", folder).stdout
     assert "penumbra run" in told and "parent" in told
     made, shipped = (penumbra.open(each, color=True) for each in (folder, SHIPPED))
-    assert made.config.camera_parent == shipped.config.camera_parent
+    assert made.camera.parent == shipped.camera.parent
     for ours, theirs in zip(made, shipped, strict=True):
         np.testing.assert_array_equal(ours.depth, theirs.depth)
         np.testing.assert_array_equal(ours.color, theirs.color)

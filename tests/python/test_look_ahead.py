@@ -18,8 +18,7 @@ class Cell:
         self.frame = self.given[0]
         self.start = self.frame.pose
         self.camera = penumbra.ForecastCamera(
-            "cell", self.given.camera, parent=self.given.config.camera_parent,
-            T_parent_camera=self.given.config.T_parent_camera, rule=self.given.config.rule)
+            "cell", self.given.camera, rule=self.given.config.rule)
         self.lid = penumbra.Target("lid", penumbra.PointTarget([0.42, 0.56, 0.30], frame=""), depth_margin=0.05)
         rows = MOTION.read_text().splitlines()
         self.joints = rows[0].split(",")[1:]

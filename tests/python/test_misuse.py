@@ -150,10 +150,10 @@ def test_renderers_refuse_poses(opened):
 
 
 def test_an_inverted_camera_pose_is_diagnosed(opened):
-    pose = opened.config.T_parent_camera
+    pose = opened.camera.T_parent_camera
     for cause, T_parent_camera in (("none", pose), ("camera_inverted", np.linalg.inv(pose))):
-        config = opened.config.replace(T_parent_camera=T_parent_camera)
-        session = penumbra.Session(opened.robot, opened.camera, config)
+        camera = opened.camera.replace(T_parent_camera=T_parent_camera)
+        session = penumbra.Session(opened.robot, camera, opened.config)
         for frame in opened.frames:
             session.process(frame)
-        assert session.diagnosis.cause == cause, session.diagnosis.message
+        assert session.diagnosis().cause == cause, session.diagnosis().message

@@ -85,19 +85,20 @@ def test_setup_and_settings_are_kept(out, given, frames, tmp_path):
     robot = penumbra.Robot.load(given.robot.urdf, options)
     lens = penumbra.Distortion("rational_polynomial", [0.1, -0.05, 1e-5, -2e-4, 0.01, 0.02, 0.03, -0.01])
     camera = penumbra.Camera(given.camera.intrinsics, distortion=lens, frame_id='my "camera": 1',
-                             range=penumbra.DepthRange(near=0.3, far=9))
+                             range=penumbra.DepthRange(near=0.3, far=9),
+                             T_parent_camera=given.camera.T_parent_camera)
     rule = penumbra.LabelRule(tolerance=penumbra.Tolerance(a=0.02), fringe_reach=11, beyond_factor=1.5,
                               front_min_width=3, edge_margin=4, range=penumbra.DepthRange(near=0.1, far=4))
-    config = given.config.replace(rule=rule, camera_parent="")
+    config = given.config.replace(rule=rule)
     frame = frames[4]
     with penumbra.Recorder(out, robot, camera, config) as recorder:
         recorder.add(frame.depth, frame.pose)
     read = penumbra.open(out)
     kept = read.camera
-    assert (read.config.camera_parent, kept.range.near, kept.range.far) == ("base_link", 0.3, 4)
+    assert (kept.parent, kept.range.near, kept.range.far) == ("base_link", 0.3, 4)
     assert kept.frame_id == camera.frame_id and kept.intrinsics == camera.intrinsics
     assert np.array_equal(kept.distortion.coefficients, lens.coefficients)
-    assert np.array_equal(read.config.T_parent_camera, config.T_parent_camera)
+    assert np.array_equal(kept.T_parent_camera, camera.T_parent_camera)
     again = penumbra.Session(read.robot, kept, read.config)
     report = penumbra.Session(robot, camera, config).process(frame)
     assert np.array_equal(again.process(frame).labels, report.labels) and report.pixels.fringe
@@ -149,12 +150,14 @@ def test_frames_that_are_no_frames_are_refused_and_not_written(out, given, frame
 
 
 def test_setups_that_cannot_be_recorded_are_input_errors(out, given, frames, tmp_path):
-    def refused(says, folder=out, robot=given.robot, config=given.config, **options):
-        refuses(says, lambda: penumbra.Recorder(folder, robot, given.camera, config, **options))
+    def refused(says, folder=out, robot=given.robot, targets=None, **changes):
+        camera = given.camera.replace(**changes)
+        refuses(says, lambda: penumbra.Recorder(folder, robot, camera, given.config, targets=targets))
 
     refused("no file", targets=tmp_path / "targets.yaml")
-    refused("nowhere", config=given.config.replace(camera_parent="nowhere"))
-    refused("rigid", config=given.config.replace(T_parent_camera=np.diag([2.0, 2, 2, 1])))
+    refused("nowhere", parent="nowhere")
+    refused("rigid", T_parent_camera=np.diag([2.0, 2, 2, 1]))
+    refused("pose is missing", T_parent_camera=None)
     refused("Robot.load", robot=penumbra.Robot.join([("one", given.robot, np.eye(4))]))
     refused("cannot be written", folder="/proc/recording")
     record(out, given, frames[:1])  # the folder is there, and still empty

@@ -66,9 +66,9 @@ def test_a_box_before_a_wall():
         POINTS, np.linalg.inv(report.T_root_camera) @ report.T_root_link, origin=[0, 0, 0])
     assert np.array_equal(found.labels, report.labels[0]) and np.array_equal(found.links, report.link_image[0])
     assert report.virtual_depth is None and report.robot_mask is None
-    refuses("no image", report.filtered_depth, ValueError)
+    refuses("no image", report.without_robot, ValueError)
     refuses("no image", report.points, ValueError)
-    assert session.notes == () and "slider" in repr(session)
+    assert session.warnings() == () and "slider" in repr(session)
     refuses("scans", lambda: session.intrinsics, RuntimeError)
     merged = session.process(penumbra.Frame(None, [0.0], scan=penumbra.Scan(POINTS, origin=None)))
     assert np.array_equal(merged.labels, report.labels)

@@ -67,7 +67,7 @@ def test_the_stages_alone_make_what_the_pipeline_makes(opened):
     report = opened.session.process(frame)
     T_root_link = opened.robot.forward_kinematics(frame.pose.positions)
     assert np.array_equal(T_root_link, report.T_root_link)
-    assert np.allclose(report.T_root_camera, opened.config.T_parent_camera)
+    assert np.allclose(report.T_root_camera, opened.camera.T_parent_camera)
 
     renderer = penumbra.Renderer(penumbra.Backend.cpu, opened.camera.intrinsics, opened.robot.bodies)
     shown = renderer.render(np.linalg.inv(report.T_root_camera) @ T_root_link)
@@ -84,7 +84,7 @@ def test_the_stages_alone_make_what_the_pipeline_makes(opened):
 @pytest.mark.parametrize("image", list(penumbra.ImageSpace))
 def test_the_mask_of_the_robot_is_where_virtual_depth_is(opened, image):
     lens = penumbra.Distortion("plumb_bob", [0.1, -0.05, 0.001, 0.002, 0.0])
-    camera = penumbra.Camera(opened.camera.intrinsics, distortion=lens)
+    camera = opened.camera.replace(distortion=lens)
     session = penumbra.Session(opened.robot, camera, opened.config.replace(image=image))
     report = session.process(opened.frames[5])
     mask = report.robot_mask
@@ -176,7 +176,7 @@ def test_points_without_the_robot(shipped):
     frame = shipped.frames[4]
     report = shipped.session.process(frame)
     trusted = np.isin(report.labels, [penumbra.Label.clear, penumbra.Label.front])
-    filtered = report.filtered_depth()
+    filtered = report.without_robot()
     assert np.array_equal(filtered, np.where(trusted, frame.depth, 0))
     color = np.arange(filtered.size * 3, dtype=np.uint32).astype(np.uint8).reshape(*filtered.shape, 3)
     cloud = report.points(color=color)
@@ -194,7 +194,7 @@ def test_points_without_the_robot(shipped):
     refuses("no link 'hand'", lambda: report.points(frame="hand"))
     refuses("color", lambda: report.points(color=color[:-1]), ValueError)
     shipped.session.process(frame)
-    refuses("another frame", lambda: report.filtered_depth(), ValueError)
+    refuses("another frame", lambda: report.without_robot(), ValueError)
 
 
 def test_a_camera_comes_from_opencvs_matrix():
@@ -224,15 +224,15 @@ def test_what_the_command_line_notes_is_noted(opened):
     session = opened.session
     for frame in opened.frames:
         session.process(frame)
-    assert session.notes == opened.robot.notes
+    assert session.warnings() == opened.robot.notes
     degrees = np.rad2deg(opened.frames[4].pose.positions)
     session.process(opened.frames[4].replace(pose=degrees))
-    assert any("radians" in note for note in session.notes)
+    assert any("radians" in note for note in session.warnings())
     session.begin_sequence()
-    assert session.notes == opened.robot.notes
+    assert session.warnings() == opened.robot.notes
     millimetres = opened.frames[4].depth.astype(np.float32)
     session.process(opened.frames[4].replace(depth=millimetres))
-    assert any("millimetres" in note for note in session.notes)
+    assert any("millimetres" in note for note in session.warnings())
 
 
 def test_without_depth_verdicts_come_from_the_model():
@@ -247,4 +247,4 @@ def test_without_depth_verdicts_come_from_the_model():
         assert np.array_equal(report.robot_mask, report.labels == penumbra.Label.unknown)
         verdicts.append(report.targets[0].verdict)
     assert {penumbra.Verdict.visible, penumbra.Verdict.hidden} <= set(verdicts)
-    assert any("no depth camera" in note for note in session.notes)
+    assert any("no depth camera" in note for note in session.warnings())

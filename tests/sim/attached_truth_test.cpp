@@ -45,7 +45,7 @@ void add(const sim::SimFrame& truth, const FrameReport& report, Counts& counts) 
 Counts count(std::uint64_t seed, bool noisy, int frames) {
   sim::Simulation simulation("carry", without_color(seed, noisy));
   const Robot& robot = simulation.robot();
-  Pipeline pipeline(robot, simulation.camera(), config_of(simulation));
+  Pipeline pipeline(robot, simulation.camera());
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   AttachedBody held{.name = "held", .link = "tool0", .mesh = {}};
   Counts counts;

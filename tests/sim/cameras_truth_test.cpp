@@ -58,7 +58,7 @@ class Rig {
       options.camera = static_cast<int>(i);
       simulations_.emplace_back("random", options);
       const sim::Simulation& simulation = simulations_.back();
-      pipelines_.emplace_back(simulation.robot(), simulation.camera(), config_of(simulation));
+      pipelines_.emplace_back(simulation.robot(), simulation.camera());
       views_.push_back(
           {std::to_string(i), pipelines_.back().intrinsics(), pipelines_.back().rule().tolerance});
     }

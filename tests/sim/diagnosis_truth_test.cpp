@@ -65,9 +65,9 @@ class DiagnosisTruth : public testing::Test {
   Diagnosis diagnosed(const std::function<void(Given&)>& spoil = [](Given&) {}) {
     Given given = *given_;
     spoil(given);
-    const Camera camera{given.camera, {}, {}, {}};
+    Camera camera{given.camera, {}, {}, {}};
+    camera.T_parent_camera = given.T_base_camera;
     PipelineConfig config;
-    config.T_parent_camera = given.T_base_camera;
     config.has_depth = given.color.empty();
     Session session(simulation_->robot(), camera, config);
     for (std::size_t i = 0; i < given.joints.size(); ++i) {

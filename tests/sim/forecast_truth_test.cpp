@@ -89,10 +89,7 @@ void compare(const sim::Simulation& simulation, const Executed& executed, std::s
       .shape = BoxTarget{
           .pose = now, .size = simulation.object_size(), .frame = ReferenceFrame::root()}};
   parcel.velocity = (now.translation() - before.translation()) * rate / tenth;
-  const auto forecast = LookAhead(robot,
-                                  {{.name = "camera",
-                                    .camera = simulation.camera(),
-                                    .T_parent_camera = simulation.T_base_camera()}},
+  const auto forecast = LookAhead(robot, {{.name = "camera", .camera = simulation.camera()}},
                                   {parcel}, {.positions = executed.joints[from]})
                             .along(plan);
   const CameraForecast& seen = forecast[0].cameras[0];

@@ -88,7 +88,7 @@ class ModalBench {
   explicit ModalBench(std::uint64_t seed)
       : random_(seeded_random(seed)),
         simulation_("random", without_color(seed, true)),
-        pipeline_(simulation_.robot(), simulation_.camera(), config_of(simulation_)),
+        pipeline_(simulation_.robot(), simulation_.camera()),
         judge_(simulation_.camera(), pipeline_.rule(), pipeline_.robot().links().size()) {}
 
   void run(int frames, Tallies& tallies) {

@@ -81,10 +81,4 @@ inline constexpr double degree = std::numbers::pi / 180.0;  // rad
       .seed = seed, .depth = noisy ? sim::DepthNoise::d415() : sim::DepthNoise(), .color = false};
 }
 
-[[nodiscard]] inline PipelineConfig config_of(const sim::Simulation& simulation) {
-  PipelineConfig config;
-  config.T_parent_camera = simulation.T_base_camera();
-  return config;
-}
-
 }  // namespace penumbra::test

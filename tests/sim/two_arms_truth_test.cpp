@@ -39,7 +39,7 @@ Ways count(std::uint64_t seed, bool noisy, int frames) {
   for (const auto& [name, T] : simulation.arms())
     arms.push_back({name, Robot::load(simulation.urdf(), {.geometry = Geometry::visual}), T});
   const Robot both = Robot::join(arms);
-  Pipeline pipeline(both, simulation.camera(), config_of(simulation));
+  Pipeline pipeline(both, simulation.camera());
   std::vector<std::size_t> links{0};  // of MuJoCo's ids
   for (const std::string& link : simulation.robot().links())
     links.push_back(both.find_link(link).value());

@@ -92,7 +92,7 @@ class Bench {
  public:
   Bench(std::uint64_t seed, bool noisy)
       : simulation_("random", without_color(seed, noisy)),
-        pipeline_(simulation_.robot(), simulation_.camera(), config_of(simulation_)),
+        pipeline_(simulation_.robot(), simulation_.camera()),
         judge_(simulation_.camera(), pipeline_.rule(), pipeline_.robot().links().size()) {}
 
   void run(int frames, Tallies& tallies) {

@@ -37,7 +37,7 @@ std::vector<RealFrame> load_real_frames(const std::filesystem::path& folder) {
   const std::vector<Body> bodies = bodies_of(robot);
   const auto renderer = make_depth_renderer(Backend::reference, intrinsics, bodies);
   const io::FrameReader reader(recording, robot);
-  const std::size_t parent = robot.find_link(recording.camera.parent).value();
+  const std::size_t parent = robot.find_link(recording.camera.camera.parent).value();
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   std::vector<RealFrame> frames;
   for (std::size_t i = 0; i < reader.size(); ++i) {
@@ -46,7 +46,7 @@ std::vector<RealFrame> load_real_frames(const std::filesystem::path& folder) {
     if (frame.source_status != FrameStatus::ok) throw InputError(frame.source_message);
     robot.forward_kinematics(frame.pose.positions, poses);
     const Eigen::Isometry3d T_camera_root =
-        (poses[parent] * *recording.camera.T_parent_camera).inverse();
+        (poses[parent] * *recording.camera.camera.T_parent_camera).inverse();
     for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
     frames.push_back(
         real_frame(intrinsics, renderer->render(poses),

@@ -112,11 +112,8 @@ LookAheadService::Service::Response LookAheadService::answer(const Service::Requ
         seen.positions.size() != robot.variables().size() ||
         seen.pose.positions.size() != robot.variables().size())
       throw penumbra::InputError("the robot's joint positions are not known");
-    const penumbra::ForecastCamera camera{.name = "camera",
-                                          .camera = seen.setup->cameras()->judged,
-                                          .parent = seen.setup->mount.parent,
-                                          .T_parent_camera = seen.setup->mount.T_parent_camera,
-                                          .rule = seen.rule};
+    const penumbra::ForecastCamera camera{
+        .name = "camera", .camera = seen.setup->cameras()->judged, .rule = seen.rule};
     std::vector<penumbra::ForecastTarget> targets;
     for (const penumbra::Target& target : seen.targets) targets.push_back({.target = target});
     penumbra::LookAhead ahead(robot, {camera}, targets, seen.pose, {.clearance = 0});

@@ -131,10 +131,10 @@ TEST_F(NodeTest, CalibratesWhileItRunsAndAppliesWhenAsked) {
   ASSERT_TRUE(found);
   // docs/calibration.md: 95 % of poses by three frames end within 6.5 mm.
   constexpr double near_truth = 0.01;  // metres
-  EXPECT_EQ(found->transform.header.frame_id, player_->recording.camera.parent);
+  EXPECT_EQ(found->transform.header.frame_id, player_->recording.camera.camera.parent);
   EXPECT_EQ(found->transform.child_frame_id, Player::frame_id);
   const auto& at = found->transform.transform.translation;
-  const Eigen::Vector3d truth = player_->recording.camera.T_parent_camera->translation();
+  const Eigen::Vector3d truth = player_->recording.camera.camera.T_parent_camera->translation();
   EXPECT_LT((Eigen::Vector3d(at.x, at.y, at.z) - truth).norm(), near_truth) << found->message;
   EXPECT_GT(found->position_error, 0.0);
   EXPECT_NE(found->command.find("static_transform_publisher"), std::string::npos);

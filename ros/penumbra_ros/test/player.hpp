@@ -52,10 +52,10 @@ class Player {
     description_->publish(text);
     tf2_msgs::msg::TFMessage mount;
     auto& transform = mount.transforms.emplace_back();
-    transform.header.frame_id = recording.camera.parent;
+    transform.header.frame_id = recording.camera.camera.parent;
     transform.child_frame_id = frame_id;
-    const Eigen::Vector3d at = recording.camera.T_parent_camera->translation();
-    const Eigen::Quaterniond turn(recording.camera.T_parent_camera->linear());
+    const Eigen::Vector3d at = recording.camera.camera.T_parent_camera->translation();
+    const Eigen::Quaterniond turn(recording.camera.camera.T_parent_camera->linear());
     transform.transform.translation.x = at.x();
     transform.transform.translation.y = at.y();
     transform.transform.translation.z = at.z();

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <penumbra/base/version.hpp>
-#include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/session/session.hpp>
 
 int main() {
   constexpr std::string_view urdf = R"(
@@ -19,11 +19,12 @@ int main() {
       </joint>
     </robot>)";
   // The camera sits on the base and looks along z: the box's face is 1 m + 0.5 m - 0.1 m away.
-  const penumbra::Camera camera{.intrinsics = penumbra::Intrinsics(64, 48, 60, 60, 32, 24)};
-  penumbra::Pipeline pipeline(penumbra::Robot::parse(urdf, "."), camera);
+  const penumbra::Camera camera{.intrinsics = penumbra::Intrinsics(64, 48, 60, 60, 32, 24),
+                                .T_parent_camera = Eigen::Isometry3d::Identity()};
+  penumbra::Session session(penumbra::Robot::parse(urdf, "."), camera);
   const std::vector<double> joints{0.5};
   const penumbra::Image<float> depth(64, 48, 1.4F);
-  const auto& report = pipeline.process({.depth = depth.view(), .pose = {.positions = joints}});
+  const auto& report = session.process({.depth = depth.view(), .pose = {.positions = joints}});
   std::cout << "penumbra " PENUMBRA_VERSION ": depth " << report.virtual_depth.depth(32, 24)
             << ", occluded " << report.pixels.occluded << '\n';
 }
