@@ -250,6 +250,14 @@ Value replaced(const std::string& text, const List& arguments) {
   return out;
 }
 
+template <bool front, bool back>
+Value stripped(const std::string& text, const List& arguments) {
+  const std::string letters = arguments.empty() ? " \t\r\n\v\f" : text_at(arguments, 0);
+  const std::size_t first = front ? text.find_first_not_of(letters) : 0;
+  const std::size_t end = back ? text.find_last_not_of(letters) + 1 : text.size();
+  return first < end ? text.substr(first, end - first) : std::string();
+}
+
 template <auto letter>
 Value cased(std::string text, const List&) {
   std::ranges::transform(text, text.begin(), [](char c) {
@@ -275,8 +283,9 @@ constexpr TextMethod text_methods[] = {
      [](const std::string& t, const List& a) {
        return cased<[](int c) { return std::toupper(c); }>(t, a);
      }},
-    {"strip", 0, 0,
-     [](const std::string& t, const List&) { return Value(std::string(trimmed(t))); }},
+    {"strip", 0, 1, stripped<true, true>},
+    {"lstrip", 0, 1, stripped<true, false>},
+    {"rstrip", 0, 1, stripped<false, true>},
     {"startswith", 1, 1,
      [](const std::string& t, const List& a) { return Value(t.starts_with(text_at(a, 0))); }},
     {"endswith", 1, 1,

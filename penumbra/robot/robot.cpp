@@ -197,7 +197,11 @@ static detail::Urdf read_description(std::string_view xml, const std::string& fi
   if (root.name == "mujoco" && !options.arguments.empty())
     throw InputError(file + ": an MJCF takes no arguments; they are for xacro files");
   if (root.name == "mujoco") return detail::read_mjcf(std::move(root), folder);
-  return detail::read_urdf(detail::expand_xacro(root, folder, options.arguments, packages));
+  std::vector<std::string> notes;
+  detail::Urdf urdf =
+      detail::read_urdf(detail::expand_xacro(root, folder, options.arguments, packages, notes));
+  urdf.warnings.insert(urdf.warnings.end(), notes.begin(), notes.end());
+  return urdf;
 }
 
 std::unique_ptr<Robot::Model> Robot::make_model(std::string_view xml, const std::string& file,

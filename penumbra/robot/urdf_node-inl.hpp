@@ -25,6 +25,10 @@ struct ElementRule {
 
 using UrdfWarnings = std::map<std::string, std::string>;  ///< kind of unknown content -> a line
 
+/// Returns the one of some names, with spaces between them, that is close to another name.
+[[nodiscard]] std::optional<std::string_view> similar_name(std::string_view names,
+                                                           std::string_view name);
+
 /// An element of a URDF. Every function throws InputError that names file, line and element.
 class UrdfNode {
  public:

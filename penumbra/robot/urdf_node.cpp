@@ -57,17 +57,16 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
-/// Returns the known name that is close to this one, if there is one.
-std::optional<std::string_view> similar_name(std::string_view read, std::string_view name) {
+}  // namespace
+
+std::optional<std::string_view> similar_name(std::string_view names, std::string_view name) {
   constexpr std::size_t letters_per_mistake = 4;
-  for (const std::string_view known : words(read)) {
+  for (const std::string_view known : words(names)) {
     const std::size_t mistakes = std::max<std::size_t>(known.size() / letters_per_mistake, 1);
     if (name.size() <= known.size() + mistakes && distance(name, known) <= mistakes) return known;
   }
   return std::nullopt;
 }
-
-}  // namespace
 
 void UrdfNode::expect(const ElementRule& rule) const {
   for (const XmlAttribute& a : xml_->attributes)

@@ -10,6 +10,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/text.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
+#include <penumbra/robot/urdf_node-inl.hpp>
 #include <penumbra/robot/xacro-inl.hpp>
 #include <penumbra/robot/xacro_scope-inl.hpp>
 
@@ -27,17 +28,20 @@ class Expander {
  public:
   Expander(fs::path folder, std::map<std::string, std::string> arguments, FileLocator& packages)
       : folders_{std::move(folder)}, arguments_(std::move(arguments)), packages_(packages) {
-    for (const auto& [name, value] : arguments_) undeclared_.insert(name);
+    for (const auto& [name, value] : arguments_) unused_.insert(name);
   }
 
-  XmlElement expand(const XmlElement& root) {
+  XmlElement expand(const XmlElement& root, std::vector<std::string>& notes) {
     Scope& top = make_scope(nullptr, false);
     XmlElement out = shell_of(root, top);
     add_functions(top);
     expand_children(root, top, out);
-    if (!undeclared_.empty())
-      throw InputError(*root.file + ": it has no argument " + in_quotes(*undeclared_.begin()) +
-                       (declared_.empty() ? "; it declares none" : "; it declares " + declared_));
+    for (const std::string& name : unused_) {
+      const std::string what = *root.file + ": no file uses the argument " + in_quotes(name);
+      if (const auto near = similar_name(declared_, name))
+        throw InputError(what + "; is " + in_quotes(std::string(*near)) + " meant?");
+      notes.push_back(what);
+    }
     return out;
   }
 
@@ -119,7 +123,7 @@ class Expander {
     if (found == arguments_.end())
       throw InputError("the argument " + in_quotes(name) + " is not given; give it: " + name +
                        ":=VALUE");
-    undeclared_.erase(name);
+    unused_.erase(name);
     return found->second;
   }
 
@@ -148,6 +152,13 @@ class Expander {
     std::string name = to_text(required_attribute(element, key, scope));
     if (name.empty()) fail(element, "the attribute " + in_quotes(key) + " is empty");
     return name;
+  }
+
+  /// Macros, arguments and blocks have names without expressions.
+  [[nodiscard]] std::string name_as_written(const XmlElement& element) const {
+    const std::string* name = element.attribute("name");
+    if (name == nullptr || name->empty()) fail(element, "the attribute \"name\" is missing");
+    return *name;
   }
 
   bool is_set(const XmlElement& element, const std::string& key, bool absent, Scope& scope) {
@@ -255,7 +266,7 @@ class Expander {
 
   void define_macro(const XmlElement& element, Scope& scope) {
     expect(element, {"name", "params"});
-    std::string name = name_of(element, scope);
+    std::string name = name_as_written(element);
     if (name.starts_with("xacro:")) name = name.substr(name.find(':') + 1);
     Macro macro{std::make_shared<XmlElement>(element), {}};
     const std::string* list = element.attribute("params");
@@ -271,10 +282,10 @@ class Expander {
   }
 
   void declare_argument(const XmlElement& element, Scope& scope) {
-    expect(element, {"name", "default"});
-    const std::string name = name_of(element, scope);
-    undeclared_.erase(name);
-    declared_ += (declared_.empty() ? "" : ", ") + name;
+    expect(element, {"name", "default", "doc"});
+    const std::string name = name_as_written(element);
+    unused_.erase(name);
+    declared_ += name + " ";
     const auto value = optional_attribute(element, "default", scope);
     if (value) arguments_.try_emplace(name, to_text(*value));
   }
@@ -327,7 +338,7 @@ class Expander {
 
   void insert_block(const XmlElement& element, Scope& scope, XmlElement& out) {
     expect(element, {"name"});
-    const std::string name = name_of(element, scope);
+    const std::string name = name_as_written(element);
     if (const Block content = scope.find_block("**" + name))
       expand_children(*content, scope, out);
     else if (const Block whole = scope.find_block("*" + name))
@@ -430,8 +441,8 @@ class Expander {
 
   std::vector<fs::path> folders_;  // of the files that include one another
   std::map<std::string, std::string> arguments_;
-  std::set<std::string> undeclared_;  // given arguments that no file has named yet
-  std::string declared_;
+  std::set<std::string> unused_;  // given arguments that no file has named yet
+  std::string declared_;          // with a space behind each
   FileLocator& packages_;
   Scope::Evaluate evaluate_ = [this](const std::string& text, Scope& scope) {
     return evaluate_text(text, scope);
@@ -445,9 +456,9 @@ class Expander {
 }  // namespace
 
 XmlElement expand_xacro(const XmlElement& root, const fs::path& folder,
-                        const std::map<std::string, std::string>& arguments,
-                        FileLocator& packages) {
-  return Expander(folder, arguments, packages).expand(root);
+                        const std::map<std::string, std::string>& arguments, FileLocator& packages,
+                        std::vector<std::string>& notes) {
+  return Expander(folder, arguments, packages).expand(root, notes);
 }
 
 }  // namespace penumbra::detail

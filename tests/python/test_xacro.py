@@ -83,7 +83,7 @@ class Maker:
         pick = self.random.randrange(7 if depth > 0 else 3)
         if pick < 3:
             return self.random.choice(["'up'", '"it\'s"', "text", "str(b)", "text[1:4]", "text[-2]",
-                                       "'a,b'.split(',')[1]", "text.upper()", "'' 'ab'"])
+                                       "'a,b'.split(',')[1]", "text.upper()", "text.strip('lfand ')", "text.rstrip('_hand')", "' a '.lstrip()", "'' 'ab'"])
         if pick < 5:
             return f"{self.text(depth - 1)} + {self.text(depth - 1)}"
         if pick == 5:

@@ -131,6 +131,7 @@ TEST(Xacro, WhatElementsStandFor) {
            property("d", "D") + "<xacro:m a=\"A\"/>" + property("e", "E") +
            "<xacro:m a=\"Z\" b=\"3\"/>",
        "A2yD5 Z3yDE"},
+      {property("a", "x") + "<xacro:macro name=\"${a}_m\"/>" + child("${a}"), "x"},
       {macro("inner", "", child("${a}")) + macro("outer", "a", "<xacro:inner/>") +
            "<xacro:outer a=\"seen\"/>",
        "seen"},
@@ -216,7 +217,7 @@ TEST(Xacro, WhatIsNotUnderstoodIsAnErrorWithItsLine) {
   }
 }
 
-TEST(Xacro, ArgumentsThatNoFileDeclaresAreAnError) {
+TEST(Xacro, ArgumentsThatNoFileUsesAreSaid) {
   const std::string xml =
       robot_xml("<xacro:arg name=\"hand\" default=\"left\"/><link name=\"$(arg hand)\"/>");
   EXPECT_EQ(parse(xml, {.arguments = {{"hand", "right"}}}).links()[0], "right");
@@ -224,7 +225,10 @@ TEST(Xacro, ArgumentsThatNoFileDeclaresAreAnError) {
     (void)parse(xml, {.arguments = {{"hnad", "right"}}});
   });
   EXPECT_TRUE(holds(message, "\"hnad\""));
-  EXPECT_TRUE(holds(message, "declares hand"));
+  EXPECT_TRUE(holds(message, "\"hand\" meant"));
+  const Robot robot = parse(xml, {.arguments = {{"gripper", "2f85"}}});
+  ASSERT_EQ(robot.notes().size(), 1U);
+  EXPECT_TRUE(holds(robot.notes()[0], "\"gripper\""));
 }
 
 TEST(Xacro, FilesThatIncludeEachOtherAreRefused) {
