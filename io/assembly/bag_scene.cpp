@@ -88,29 +88,28 @@ MessageHandler BagSceneReader::handler_of(const BagTopic& topic) {
   try {
     switch (*role) {
       case TopicRole::depth:
-        if (topic.type == message_type<ImageMessage>())
-          return make_handler<ImageMessage>(topic.definition, take_image);
-        return make_handler<CompressedImageMessage>(topic.definition, take_image);
+        if (is_read_as<ImageMessage>(topic.type))
+          return make_handler<ImageMessage>(topic, take_image);
+        return make_handler<CompressedImageMessage>(topic, take_image);
       case TopicRole::cloud:
         if (topic.type == message_type<LaserScanMessage>())
-          return make_handler<LaserScanMessage>(topic.definition, take_cloud);
+          return make_handler<LaserScanMessage>(topic, take_cloud);
         if (topic.type == message_type<LivoxMessage>())
-          return make_handler<LivoxMessage>(topic.definition, take_cloud);
-        return make_handler<PointCloud2Message>(topic.definition, take_cloud);
+          return make_handler<LivoxMessage>(topic, take_cloud);
+        return make_handler<PointCloud2Message>(topic, take_cloud);
       case TopicRole::camera_info:
-        return make_handler<CameraInfoMessage>(topic.definition, take_info(scene_.camera_info));
+        return make_handler<CameraInfoMessage>(topic, take_info(scene_.camera_info));
       case TopicRole::color_info:
-        return make_handler<CameraInfoMessage>(topic.definition, take_info(scene_.color_info));
+        return make_handler<CameraInfoMessage>(topic, take_info(scene_.color_info));
       case TopicRole::description:
         return make_handler<StringMessage>(
-            topic.definition,
-            [this, robot = topics_.robot_of(topic)](const auto& text, const auto&, auto) {
+            topic, [this, robot = topics_.robot_of(topic)](const auto& text, const auto&, auto) {
               if (find_description(robot) == nullptr)
                 scene_.descriptions.push_back({robot, text.data});
             });
       case TopicRole::transforms:
       case TopicRole::static_transforms:
-        return make_handler<TfMessage>(topic.definition, take_transforms);
+        return make_handler<TfMessage>(topic, take_transforms);
       default:
         return {};
     }

@@ -14,6 +14,7 @@
 #include <io/assembly/judged_cameras.hpp>
 #include <io/files/names.hpp>
 #include <io/files/printable.hpp>
+#include <io/ros/foxglove_messages.hpp>
 
 namespace penumbra::io {
 namespace {
@@ -72,22 +73,33 @@ std::string names_of(const std::vector<const BagTopic*>& topics) {
   return names;
 }
 
+constexpr const char* video_fault =
+    " has foxglove.CompressedVideo, which is not read: decode its frames, and write each as "
+    "foxglove.CompressedImage of the same timestamp";
+
 class Chooser {
  public:
   Chooser(const std::string& bag, std::span<const BagTopic> topics) : bag_(bag) {
     for (const BagTopic& topic : topics)
-      if (topic.encoding == "cdr" && !(topic.messages && *topic.messages == 0))
-        topics_.push_back(&topic);
+      if (!(topic.messages && *topic.messages == 0)) {
+        if (is_readable(topic.type, topic.encoding)) topics_.push_back(&topic);
+        if (topic.type == "foxglove.CompressedVideo") videos_.push_back(&topic);
+      }
     if (topics_.empty()) refuse(nothing_in(topics));
   }
 
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(bag_ + ": " + what); }
 
+  /// Refuses a bag without the images. Videos that it has may be what the user means.
+  [[noreturn]] void refuse_images(const std::string& what) const {
+    refuse(what + (videos_.empty() ? "" : "; " + names_of(videos_) + video_fault));
+  }
+
   /// Returns all topics of these types. Results of Penumbra are no input unless they are named.
   [[nodiscard]] std::vector<const BagTopic*> of(TopicTypes types, bool with_results = false) const {
     std::vector<const BagTopic*> found;
     for (const BagTopic* topic : topics_)
-      if (std::find(types.begin(), types.end(), topic->type) != types.end() &&
+      if (std::ranges::find(types, ros_type_of(topic->type)) != types.end() &&
           (with_results || topic->name.find("/penumbra/") == std::string::npos))
         found.push_back(topic);
     return found;
@@ -114,6 +126,8 @@ class Chooser {
     if (other != topics_.end())
       refuse(option + ": " + name + " is of type " + printable((*other)->type) + "; expected " +
              one_of(types));
+    if (std::ranges::find(videos_, name, &BagTopic::name) != videos_.end())
+      refuse(option + ": " + name + video_fault);
     refuse(option + ": there is no topic '" + name + "' with messages" + near_names(name, known));
   }
 
@@ -142,14 +156,16 @@ class Chooser {
  private:
   static std::string nothing_in(std::span<const BagTopic> topics) {
     for (const BagTopic& topic : topics)
-      if (topic.encoding != "cdr")
-        return "is not a bag of ROS 2: messages of " + printable(topic.name) + " are encoded as '" +
-               printable(topic.encoding) + "'; expected cdr";
+      if (!is_readable(topic.type, topic.encoding))
+        return "has no messages that can be read: those of " + printable(topic.name) + " (" +
+               printable(topic.type) + ") are encoded as '" + printable(topic.encoding) +
+               "'; expected cdr, or protobuf of Foxglove's schemas";
     return "holds no messages";
   }
 
   const std::string& bag_;
   std::vector<const BagTopic*> topics_;
+  std::vector<const BagTopic*> videos_;
 };
 
 bool is_depth(const std::string& name) {
@@ -169,9 +185,10 @@ TopicUse choose_depth(const Chooser& chooser, const BagOptions& options) {
     return chooser.only_image("depth", "--depth-topic", candidates, "the only images called depth");
   const auto images = chooser.of(types);
   if (images.empty())
-    chooser.refuse(std::string("has no images; depth images are needed") +
-                   (chooser.of(cloud_types).empty() ? "" : "; `penumbra cloud` takes its clouds"));
-  chooser.refuse(
+    chooser.refuse_images(
+        std::string("has no images; depth images are needed") +
+        (chooser.of(cloud_types).empty() ? "" : "; `penumbra cloud` takes its clouds"));
+  chooser.refuse_images(
       "no images are called depth; there are " + names_of(images) +
       "; choose one with --depth-topic; all commands but tune take colour images alone with "
       "--no-depth");
@@ -192,9 +209,17 @@ std::vector<TopicUse> choose_clouds(const Chooser& chooser, const BagOptions& op
 /// Returns the camera_info topic next to an image topic, or null.
 const BagTopic* find_info(const Chooser& chooser, const std::string& image) {
   const std::string wanted = camera_info_topic(image);
-  const auto found = chooser.of(TopicTypes(&info_type, 1),
-                                [&](const std::string& name) { return name == wanted; });
-  return found.empty() ? nullptr : found.front();
+  const std::string folder = wanted.substr(0, wanted.rfind('/') + 1);
+  const BagTopic* calibration = nullptr;  // Foxglove's, which have no usual name
+  int calibrations = 0;
+  for (const BagTopic* topic : chooser.of(TopicTypes(&info_type, 1))) {
+    if (topic->name == wanted) return topic;
+    if (topic->type == info_type || topic->name.substr(0, topic->name.rfind('/') + 1) != folder)
+      continue;
+    calibration = topic;
+    ++calibrations;
+  }
+  return calibrations == 1 ? calibration : nullptr;
 }
 
 TopicUse choose_info(const Chooser& chooser, const BagOptions& options, const std::string& depth) {
@@ -238,7 +263,7 @@ TopicUse choose_only_color(const Chooser& chooser, const BagOptions& options) {
     return chooser.named("color", "--color-topic", *options.color_topic, image_types);
   const auto candidates = chooser.of(image_types, is_color);
   if (candidates.empty())
-    chooser.refuse("no images are called color; choose those to judge with --color-topic");
+    chooser.refuse_images("no images are called color; choose those to judge with --color-topic");
   return chooser.only_image("color", "--color-topic", candidates, "the only images called color");
 }
 
@@ -296,6 +321,12 @@ void choose_transforms(const Chooser& chooser, BagTopics& topics) {
     if (auto found = usual(chooser, "transforms", transforms_type, name,
                            "only recordings of one tree of frames can be read"))
       topics.transforms.push_back(std::move(*found));
+  // Foxglove's have no usual names.
+  for (const BagTopic* topic : chooser.of(TopicTypes(&transforms_type, 1)))
+    if (topic->type != transforms_type &&
+        std::ranges::find(topics.transforms, topic->name, &TopicUse::name) ==
+            topics.transforms.end())
+      topics.transforms.push_back(Chooser::use("transforms", *topic, "by its type"));
 }
 
 PoseSource choose_poses(const Chooser& chooser, const BagOptions& options,
@@ -340,7 +371,7 @@ std::optional<TopicRole> BagTopics::role_of(const BagTopic& topic) const {
   if (is_one_of(targets)) return TopicRole::targets;
   if (is_one_of(attached)) return TopicRole::attached;
   if (is_one_of(plans)) return TopicRole::plan;
-  if (topic.type == joints_type && !joints.empty()) return TopicRole::unused_joints;
+  if (!joints.empty() && ros_type_of(topic.type) == joints_type) return TopicRole::unused_joints;
   if (!is_one_of(transforms)) return std::nullopt;
   return topic.name.ends_with("static") ? TopicRole::static_transforms : TopicRole::transforms;
 }

@@ -129,7 +129,7 @@ void FrameAssembler::finish() {
 template <typename M, typename F>
 MessageHandler FrameAssembler::handler(std::size_t topic, F take) const {
   try {
-    return make_handler<M>(topics_[topic].definition, std::move(take));
+    return make_handler<M>(topics_[topic], std::move(take));
   } catch (const InputError& error) {
     throw InputError(printable(topics_[topic].name) + ": " + error.what());
   }
@@ -161,9 +161,8 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
           });
     case TopicRole::depth:
     case TopicRole::color:
-      return from.type == message_type<ImageMessage>()
-                 ? handler_of_images<ImageMessage>(topic)
-                 : handler_of_images<CompressedImageMessage>(topic);
+      return is_read_as<ImageMessage>(from.type) ? handler_of_images<ImageMessage>(topic)
+                                                 : handler_of_images<CompressedImageMessage>(topic);
     case TopicRole::camera_info:
     case TopicRole::color_info:
       return handler<CameraInfoMessage>(

@@ -8,14 +8,16 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include <io/ros/foxglove_messages.hpp>
 #include <io/ros/message_decoder.hpp>
 
 namespace penumbra::io {
 
-/// A received message in CDR, with its 4 bytes of encapsulation. Up to 3 bytes of padding may
-/// follow.
+/// A received message: in CDR, with its 4 bytes of encapsulation, and up to 3 bytes of padding may
+/// follow; or of a schema of Foxglove in protobuf.
 struct SerializedMessage {
   std::span<const std::byte> data;
   /// Keeps `data` alive without a copy; null: pixels that are kept are copied.
@@ -29,11 +31,19 @@ struct SerializedMessage {
 using MessageHandler =
     std::function<std::optional<std::string>(const SerializedMessage& message, std::int64_t now)>;
 
-/// Returns a handler that calls `take(decoded, message, now)`. `definition`: as BagTopic has it;
-/// empty: the built-in one. Throws InputError for a definition that the decoder refuses.
+/// Returns whether messages of a type, as a bag names it, are read as M.
+template <typename M>
+[[nodiscard]] bool is_read_as(std::string_view type) {
+  return ros_type_of(type) == message_type<M>();
+}
+
+/// Returns a handler that calls `take(decoded, message, now)`. `topic`: a BagTopic or an
+/// InputTopic; one in CDR without a definition has the built-in one. Throws InputError for a
+/// definition that the decoder refuses.
 template <typename M, typename F>
-[[nodiscard]] MessageHandler make_handler(const std::string& definition, F take) {
-  auto decoder = definition.empty() ? Decoder<M>() : Decoder<M>(message_type<M>(), definition);
+[[nodiscard]] MessageHandler make_handler(const auto& topic, F take) {
+  const bool is_built_in = topic.definition.empty() && ros_type_of(topic.type) == topic.type;
+  auto decoder = is_built_in ? Decoder<M>() : Decoder<M>(topic.type, topic.definition);
   return [decoder, take = std::move(take)](const SerializedMessage& message, std::int64_t now) {
     M decoded;
     auto fault = decoder.decode(message.data, decoded);

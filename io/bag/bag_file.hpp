@@ -35,8 +35,8 @@ namespace penumbra::io {
 [[nodiscard]] std::vector<std::filesystem::path> bags_in(const std::filesystem::path& folder,
                                                          std::error_code& fault);
 
-/// Returns `text` if its encoding is ros2msg, else the built-in definition of the type, or an empty
-/// text.
+/// Returns `text` if its encoding is ros2msg or protobuf, else the built-in definition of the type,
+/// or an empty text.
 [[nodiscard]] std::string definition_or_built_in(std::string_view type, std::string_view encoding,
                                                  std::string_view text);
 

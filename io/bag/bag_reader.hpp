@@ -23,10 +23,10 @@ struct OfferedQos {
 struct BagTopic {
   std::string name;  ///< "/joint_states"
   std::string type;  ///< "sensor_msgs/msg/JointState"
-  /// The message definition with all nested messages ("ros2msg"), from the bag or else built in;
-  /// empty if there is neither.
+  /// The message definition with all nested messages ("ros2msg"), from the bag or else built in; of
+  /// messages in protobuf the bag's FileDescriptorSet. Empty if there is neither.
   std::string definition;
-  std::string encoding;                   ///< of the messages: "cdr"
+  std::string encoding;                   ///< of the messages: "cdr", "protobuf"
   std::optional<std::uint64_t> messages;  ///< the number of messages, if the bag has a count
   OfferedQos qos = {};
 

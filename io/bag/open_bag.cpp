@@ -41,8 +41,11 @@ void refuse_ros1(const std::filesystem::path& file) {
     return;
   throw InputError(file.string() +
                    ": is a bag of ROS 1 or a recording of RealSense's SDK, which are not read; "
-                   "convert a bag by rosbags-convert, of the Python package rosbags; play a "
-                   "recording with realsense2_camera and record its topics with ros2 bag");
+                   "convert a bag by `rosbags-convert --src " +
+                   file.string() + " --dst " +
+                   std::filesystem::path(file).replace_extension().string() +
+                   "`, of the Python package rosbags; play a recording with realsense2_camera and "
+                   "record its topics with ros2 bag");
 }
 
 }  // namespace
@@ -70,7 +73,8 @@ std::unique_ptr<BagReader> open_bag(const std::filesystem::path& path) {
 
 std::string definition_or_built_in(std::string_view type, std::string_view encoding,
                                    std::string_view text) {
-  if (encoding == "ros2msg" && !text.empty()) return std::string(text);
+  const bool is_understood = encoding == "ros2msg" || encoding == "protobuf";
+  if (is_understood && !text.empty()) return std::string(text);
   return std::string(definition_of(type));
 }
 

@@ -5,6 +5,7 @@
 
 #include <io/files/printable.hpp>
 #include <io/ros/cdr_reader.hpp>
+#include <io/ros/foxglove_messages.hpp>
 #include <io/ros/lidar_messages.hpp>
 #include <io/ros/message_decoder.hpp>
 #include <io/ros/message_definition.hpp>
@@ -86,6 +87,13 @@ void read_value(CdrReader& reader, M& message) {
 template <typename M>
 Decoder<M>::Decoder(std::string_view type, std::string_view definition) {
   const std::string wanted(M::ros_type);
+  if constexpr (is_in_foxglove<M>) {
+    if (type != ros_type_of(type) && ros_type_of(type) == message_type<M>()) {
+      check_foxglove_schema(type, definition);
+      foxglove_ = type;
+      return;
+    }
+  }
   if (short_type(type) != wanted)
     throw InputError("messages of type '" + printable(type) + "' cannot be read as " + wanted);
   const std::string difference =
@@ -98,6 +106,8 @@ Decoder<M>::Decoder(std::string_view type, std::string_view definition) {
 template <typename M>
 std::optional<std::string> Decoder<M>::decode(std::span<const std::byte> payload,
                                               M& message) const {
+  if constexpr (is_in_foxglove<M>)
+    if (!foxglove_.empty()) return decode_foxglove(foxglove_, payload, message);
   CdrReader reader(payload);
   if (reader.ok()) read_value(reader, message);
   constexpr bool is_beginning = requires { M::is_beginning; };

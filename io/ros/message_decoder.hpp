@@ -17,18 +17,22 @@ template <typename M>
 class Decoder {
  public:
   /// `type`: as a bag names it; `definition`: its ros2msg text. Throws InputError for another type
-  /// than M's, and for a definition whose fields differ from the built-in ones.
+  /// than M's, and for a definition whose fields differ from the built-in ones. A type of Foxglove
+  /// that is read as M (ros_type_of) has messages in protobuf; its definition is the schema.
   Decoder(std::string_view type, std::string_view definition);
 
   /// For messages of the built-in definition.
   Decoder() = default;
 
-  /// Reads a payload, which begins with its encapsulation. Returns what is wrong, one line that
-  /// names the type, the field and the byte, or nothing; after a fault the message is unspecified.
-  /// Spans of the message refer to the payload. Keeps the message's memory, and takes at most about
-  /// thirty times the payload's size.
+  /// Reads a payload, which in CDR begins with its encapsulation. Returns what is wrong, one line
+  /// that names the type, the field and the byte, or nothing; after a fault the message is
+  /// unspecified. Spans of the message refer to the payload. Keeps the message's memory, and takes
+  /// at most about thirty times the payload's size.
   [[nodiscard]] std::optional<std::string> decode(std::span<const std::byte> payload,
                                                   M& message) const;
+
+ private:
+  std::string foxglove_ = {};  // the schema of messages in protobuf
 };
 
 /// Returns the type of M in ROS's spelling, "sensor_msgs/msg/Image".

@@ -39,7 +39,8 @@ TEST_F(BagTest, ReadsSqliteBagsAndFolders) {
 TEST_F(BagTest, OtherBagsAreCalledByTheirNames) {
   write("old.bag", "#ROSBAG V2.0\n");
   for (const char* command : {"run", "cloud", "calibrate"})
-    expect_refused(penumbra({command, path("old.bag"), "-o", out("a.mcap")}), {"old.bag", "ROS 1"});
+    expect_refused(penumbra({command, path("old.bag"), "-o", out("a.mcap")}),
+                   {"ROS 1", "rosbags-convert --src " + path("old.bag").string() + " --dst"});
 }
 
 TEST_F(BagTest, ShowsColorInOverlays) {

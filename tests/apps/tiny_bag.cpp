@@ -57,6 +57,26 @@ std::map<std::string, std::size_t> topic_counts(const std::filesystem::path& fil
   return counts;
 }
 
+void TinyBag::to_foxglove() {
+  remove("/robot_description");
+  for (Message& message : messages) {
+    std::string bytes;
+    const auto convert = [&]<typename M>(M out, const char* schema) {
+      if (message.type != io::message_type<M>()) return;
+      if (io::Decoder<M>().decode(message.data, out)) std::abort();
+      bytes = foxglove::encode(out);
+      message.type = schema;
+    };
+    convert(io::ImageMessage(), "foxglove.RawImage");
+    convert(io::CompressedImageMessage(), "foxglove.CompressedImage");
+    convert(io::CameraInfoMessage(), "foxglove.CameraCalibration");
+    convert(io::JointStateMessage(), "foxglove.JointStates");
+    convert(io::TfMessage(), "foxglove.FrameTransforms");
+    const auto span = std::as_bytes(std::span(bytes));
+    message.data.assign(span.begin(), span.end());
+  }
+}
+
 void TinyBag::sort() {
   std::stable_sort(messages.begin(), messages.end(),
                    [](const Message& a, const Message& b) { return a.log_time < b.log_time; });
@@ -106,11 +126,15 @@ void TinyBag::write_mcap(const std::filesystem::path& file) const {
   for (const Message& message : messages) {
     auto channel = channels.find(message.topic);
     if (channel == channels.end()) {
-      const auto schema =
-          writer.add_schema(message.type, "ros2msg", std::string(io::definition_of(message.type)));
+      const bool is_protobuf = message.type.starts_with("foxglove.");
+      const auto schema = is_protobuf
+                              ? writer.add_schema(message.type, "protobuf", schemas)
+                              : writer.add_schema(message.type, "ros2msg",
+                                                  std::string(io::definition_of(message.type)));
       std::map<std::string, std::string> more;
       if (qos.contains(message.topic)) more = {{"offered_qos_profiles", qos.at(message.topic)}};
-      const auto id = writer.add_channel(message.topic, encoding, schema, more);
+      const auto id =
+          writer.add_channel(message.topic, is_protobuf ? "protobuf" : encoding, schema, more);
       channel = channels.emplace(message.topic, id).first;
     }
     writer.write(channel->second, message.log_time, message.log_time, 0, message.data);

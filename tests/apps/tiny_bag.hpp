@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "../io/foxglove_encoder.hpp"
 #include "../io/messages.hpp"
 
 #include <cstdint>
@@ -71,6 +72,10 @@ struct TinyBag {
       io::encode(decoded, message.data);
     }
   }
+
+  /// All messages become those of Foxglove's schemas in protobuf, which have no robot_description.
+  void to_foxglove();
+  std::string schemas = foxglove::descriptors();  ///< of such messages
 
   void remove(const std::string& topic);
   void rename(const std::string& from, const std::string& to);
