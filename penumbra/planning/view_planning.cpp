@@ -30,18 +30,22 @@ bool is_uncertain(const Frame& frame, std::size_t link) {
   return std::ranges::find(links, link) != links.end();
 }
 
+/// Frames have the pose of each candidate.
+Camera at_root(Camera camera) {
+  camera.parent.clear();
+  camera.T_parent_camera = Eigen::Isometry3d::Identity();
+  return camera;
+}
+
 /// Judges frames as candidates with one camera would see them, by the robot's model alone.
 class CandidateJudge {
  public:
   CandidateJudge(const Robot& robot, const ForecastCamera& camera)
-      : camera_(camera), pipeline_(robot, camera.camera, config_of(camera)) {}
+      : camera_(camera), pipeline_(robot, at_root(camera.camera), config_of(camera)) {}
 
   /// Returns whether a candidate is this camera in another place.
   [[nodiscard]] bool serves(const ForecastCamera& candidate) const {
-    Camera moved = camera_.camera;
-    moved.parent = candidate.camera.parent;
-    moved.T_parent_camera = candidate.camera.T_parent_camera;
-    return candidate.camera == moved && candidate.rule == camera_.rule;
+    return at_root(candidate.camera) == at_root(camera_.camera) && candidate.rule == camera_.rule;
   }
 
   /// Writes the verdicts of the frame's targets; returns why the first unknown one is.

@@ -34,9 +34,8 @@ struct LiveLens {
 
   [[nodiscard]] Camera camera() const {
     return {.intrinsics = Intrinsics(width, height, focal, focal, cx, cy),
-            .distortion = {},
-            .range = {},
-            .frame_id = "optical"};
+            .frame_id = "optical",
+            .T_parent_camera = Isometry3d::Identity()};
   }
 };
 

@@ -10,7 +10,9 @@ const Lens narrow_lens{"without corners", "plumb_bob", {-0.3, 0.0, 0.001, -0.002
 
 /// Of the slab scene.
 Camera lens_camera(const Lens& lens = narrow_lens) {
-  return {Intrinsics(161, 121, 95.0, 96.0, 73.21, 57.43), lens.distortion(), {}, {}};
+  Camera camera = camera_at_root(Intrinsics(161, 121, 95.0, 96.0, 73.21, 57.43));
+  camera.distortion = lens.distortion();
+  return camera;
 }
 
 /// What each raw pixel sees, by a ray cast through the lens model; link -1 where no pinhole image
@@ -208,10 +210,10 @@ TEST(TargetsInTheRawImage, OfARadiusInMetresGrowWithTheLens) {
 
 Camera fisheye(double focal) {
   const Intrinsics k = slab_camera().intrinsics;
-  return {Intrinsics(k.width(), k.height(), focal, focal, k.width() / 2.0, k.height() / 2.0),
-          Distortion("equidistant", std::array{0.0, 0.0, 0.0, 0.0}),
-          {},
-          {}};
+  Camera camera = camera_at_root(
+      Intrinsics(k.width(), k.height(), focal, focal, k.width() / 2.0, k.height() / 2.0));
+  camera.distortion = Distortion("equidistant", std::array{0.0, 0.0, 0.0, 0.0});
+  return camera;
 }
 
 struct FisheyeCounts {
