@@ -51,6 +51,13 @@ void check_start(std::string_view xml, const std::string& file) {
   if (parts > most_parts)
     throw InputError(file + ": has more than " + std::to_string(most_parts) +
                      " tags and attributes; check that it is the right file");
+  // tinyxml2 compares each attribute of a tag with all others.
+  constexpr std::size_t most_attributes = 10'000;
+  std::size_t attributes = 0;
+  for (const char c : xml) {
+    attributes = c == '<' ? 0 : attributes + (c == '=' ? 1 : 0);
+    if (attributes > most_attributes) throw InputError(file + ": a tag has too many attributes");
+  }
   const bool has_mark = xml.starts_with("\xEF\xBB\xBF");
   if (!trimmed(xml.substr(has_mark ? 3 : 0)).starts_with('<'))
     throw InputError(file + ": is not XML: it does not start with '<'");

@@ -11,11 +11,21 @@
 #include <variant>
 #include <vector>
 
+#include <penumbra/base/error.hpp>
+
 namespace penumbra::detail {
 
 struct Value;
 using List = std::vector<Value>;
-using Dictionary = std::vector<std::pair<Value, Value>>;  // of equal keys the last one counts
+using Dictionary = std::vector<std::pair<Value, Value>>;  // the keys are unique
+
+/// A list or dictionary, and how much is in it and in what it contains.
+template <typename Items>
+struct Container {
+  Items items;
+  std::size_t size = 0;
+  int depth = 0;
+};
 
 /// What a name stands for, in an expression.
 class Names {
@@ -30,7 +40,8 @@ struct Function {
 
 /// A value of Python: None, a number, text, a container, a function, or a namespace.
 struct Value : std::variant<std::monostate, bool, std::int64_t, double, std::string,
-                            std::shared_ptr<const List>, std::shared_ptr<const Dictionary>,
+                            std::shared_ptr<const Container<List>>,
+                            std::shared_ptr<const Container<Dictionary>>,
                             std::shared_ptr<const Function>, Names*> {
   using variant::variant;
 
@@ -42,6 +53,8 @@ struct Value : std::variant<std::monostate, bool, std::int64_t, double, std::str
   [[nodiscard]] const Dictionary* dictionary() const;
 };
 
+// Throw InputError for more, or more deeply nested, items than a robot needs. Of equal keys the
+// last value counts, in the first one's place.
 [[nodiscard]] Value make_list(List items);
 [[nodiscard]] Value make_dictionary(Dictionary items);
 [[nodiscard]] Value make_function(std::function<Value(const List&)> call);
@@ -71,16 +84,30 @@ struct Value : std::variant<std::monostate, bool, std::int64_t, double, std::str
 /// Python's functions and its module math, by their names; null for others.
 [[nodiscard]] std::optional<Value> find_builtin(const std::string& name);
 
-/// Bounds what a file can make of itself: its text, elements and steps of evaluation.
+/// Limits how much one file can expand to: its text, elements, and steps of evaluation.
 class Budget {
  public:
   void spend(std::size_t amount);  ///< throws InputError when all is spent
 
+  /// Calls a function. Throws InputError if such calls are nested too deeply.
+  template <typename F>
+  auto nested(F&& call) {
+    constexpr int deepest = 1000;
+    if (depth_ >= deepest) throw InputError("is nested too deeply; is it a loop?");
+    struct Level {
+      int& depth;
+      explicit Level(int& d) : depth(d) { ++depth; }
+      ~Level() { --depth; }
+    } const level(depth_);
+    return call();
+  }
+
  private:
   std::size_t left_ = 50'000'000;
+  int depth_ = 0;
 };
 
-/// Evaluates an expression of Python's that robot descriptions use: literals, arithmetic,
+/// Evaluates the subset of Python's expressions that robot descriptions use: literals, arithmetic,
 /// comparisons, and/or/not, if/else, lists, dictionaries, slices, calls, methods and
 /// comprehensions (https://docs.python.org/3/reference/expressions.html). Throws InputError for
 /// anything else.

@@ -23,7 +23,9 @@ class Code {
   requires(!std::same_as<std::remove_cvref_t<Run>, Code>)
       Code(Run&& run)  // NOLINT: a function as it stands is code
       : run_(std::make_shared<const std::function<Value(Context)>>(std::forward<Run>(run))) {}
-  Value operator()(Context at) const { return (*run_)(at); }
+  Value operator()(Context at) const {
+    return at.budget.nested([&] { return (*run_)(at); });
+  }
 
  private:
   std::shared_ptr<const std::function<Value(Context)>> run_;
@@ -91,6 +93,8 @@ class Lexer {
       }
       if (c == '\\' && i + 1 < rest_.size()) {
         c = rest_[++i];
+        if (std::string_view("nt\\'\"").find(c) == std::string_view::npos)
+          throw InputError("the escape \\" + std::string(1, c) + " is not supported");
         if (c == 'n') c = '\n';
         if (c == 't') c = '\t';
       }
@@ -102,7 +106,7 @@ class Lexer {
   std::string_view rest_;
 };
 
-/// A name of a comprehension, before all others.
+/// A comprehension's variable, which hides all other names.
 class OneName : public Names {
  public:
   OneName(const std::string& name, Value value, Names& others)
@@ -126,6 +130,7 @@ Value look_up(const std::string& name, Context at) {
 /// What it costs to make the value.
 std::size_t size_of(const Value& value) {
   if (const auto* text = value.as<std::string>()) return 1 + text->size();
+  if (const Dictionary* dictionary = value.dictionary()) return 1 + dictionary->size();
   return 1 + (value.list() != nullptr ? value.list()->size() : 0);
 }
 
@@ -143,9 +148,18 @@ bool contains(const Value& container, const Value& item) {
                              [&](const Value& other) { return are_equal(other, item); });
 }
 
+/// Python has one None, True and False; which other values are one object is not defined.
+bool is_same(const Value& a, const Value& b) {
+  if (a.index() == 0 || b.index() == 0) return a.index() == b.index();
+  if (a.as<bool>() == nullptr || b.as<bool>() == nullptr)
+    throw InputError("'is' compares objects; write ==");
+  return *a.as<bool>() == *b.as<bool>();
+}
+
 bool compare(const std::string& op, const Value& a, const Value& b) {
-  if (op == "==" || op == "is") return are_equal(a, b);
-  if (op == "!=" || op == "is not") return !are_equal(a, b);
+  if (op == "==") return are_equal(a, b);
+  if (op == "!=") return !are_equal(a, b);
+  if (op.starts_with("is")) return is_same(a, b) == (op == "is");
   if (op == "in") return contains(b, a);
   if (op == "not in") return !contains(b, a);
   if (op == "<") return is_less(a, b);
@@ -171,7 +185,7 @@ Value slice(const Value& whole, const Value& from, const Value& to) {
   return make_list(List(items.begin() + first, items.begin() + last));
 }
 
-/// Parses an expression to code, the operators that bind least first.
+/// Parses an expression to code, operators of the lowest precedence first.
 class Parser {
  public:
   explicit Parser(std::string_view text) : lexer_(text) { advance(); }
@@ -272,6 +286,7 @@ class Parser {
       Value left = first(at);
       for (const auto& [op, operand] : others) {
         Value right = operand(at);
+        at.budget.spend(size_of(left) + size_of(right));
         if (!compare(op, left, right)) return Value(false);
         left = std::move(right);
       }
@@ -334,7 +349,11 @@ class Parser {
     for (;;) {
       if (skip(".")) {
         const std::string name = identifier();
-        code = [=](Context at) { return attribute_of(code(at), name); };
+        code = [=](Context at) {
+          const Value value = code(at);
+          at.budget.spend(size_of(value));
+          return attribute_of(value, name);
+        };
       } else if (skip("[")) {
         code = subscript(std::move(code));
       } else if (skip("(")) {
@@ -356,7 +375,12 @@ class Parser {
   Code subscript(Code whole) {
     const Code none = [](Context) { return Value(); };
     Code from = is(":") ? none : condition();
-    if (skip("]")) return [=](Context at) { return item_of(whole(at), from(at)); };
+    if (skip("]"))
+      return [=](Context at) {
+        const Value value = whole(at);
+        at.budget.spend(size_of(value));
+        return item_of(value, from(at));
+      };
     need(":");
     Code to = is("]") ? none : condition();
     need("]");
@@ -386,7 +410,9 @@ class Parser {
         arguments.push_back(value(at));
         at.budget.spend(size_of(arguments.back()));
       }
-      return call(function(at), arguments);
+      Value result = call(function(at), arguments);
+      at.budget.spend(size_of(result));
+      return result;
     };
   }
 
@@ -469,7 +495,7 @@ class Parser {
     last_name_ = name;
     return [name = std::move(name)](Context at) {
       Value value = look_up(name, at);
-      at.budget.spend(value.list() != nullptr ? 1 : size_of(value));
+      at.budget.spend(value.as<std::string>() != nullptr ? size_of(value) : 1);
       return value;
     };
   }
@@ -482,6 +508,8 @@ class Parser {
     const std::string digits = token_.text;
     advance();
     if (const auto integer = parse_integer(digits)) return *integer;
+    if (digits.find_first_not_of("0123456789") == std::string::npos)
+      throw InputError(digits + " is too large");
     if (const auto real = parse_float(digits)) return *real;
     throw InputError(in_quotes(digits) + " is no number");
   }

@@ -45,7 +45,7 @@ Value whole(double number) {
 template <auto function>
 Value real(const List& arguments) {
   const double result = function(number_at(arguments, 0));
-  if (!std::isfinite(result)) throw InputError("a function of a number outside its domain");
+  if (!std::isfinite(result)) throw InputError("the number is outside the function's domain");
   return result;
 }
 
@@ -73,19 +73,19 @@ Value to_float(const List& arguments) {
   throw InputError(in_quotes(*text) + " is no number");
 }
 
-/// Rounds halves to even, on the decimal digits.
+/// Rounds the exact decimal value, halves to even.
 Value rounded(const List& arguments) {
   const double number = number_at(arguments, 0);
   if (arguments.size() == 1) return whole(std::nearbyint(number));
   constexpr Integer most_digits = 20;
-  const Integer digits = std::clamp<Integer>(integer_at(arguments, 1), 0, most_digits);
+  const Integer digits = std::min(integer_at(arguments, 1), most_digits);
+  if (digits < 0) throw InputError("round() takes no negative digits here");
+  if (arguments[0].as<Integer>() != nullptr) return arguments[0];
   return to_number(fixed(number, static_cast<int>(digits))).value_or(number);
 }
 
 Value absolute(const List& arguments) {
-  const bool is_negative = number_at(arguments, 0) < 0.0;
-  return is_negative ? apply_operator("*", Integer{-1}, arguments[0])
-                     : apply_operator("*", Integer{1}, arguments[0]);
+  return apply_operator("*", Integer{number_at(arguments, 0) < 0.0 ? -1 : 1}, arguments[0]);
 }
 
 template <bool largest>
@@ -104,7 +104,7 @@ Value range(const List& arguments) {
   const Integer step = arguments.size() == 3 ? integer_at(arguments, 2) : 1;
   if (step == 0 || std::max({first, end, step}) > largest ||
       std::min({first, end, step}) < -largest)
-    throw InputError("range needs other numbers");
+    throw InputError("range takes whole numbers within +-1e12, and a step that is not 0");
   List items;
   for (Integer i = first; step > 0 ? i < end : i > end; i += step) {
     if (items.size() == longest) throw InputError("range has more than 10000 items");
@@ -241,6 +241,7 @@ Value split(const std::string& text, const List& arguments) {
 }
 
 Value replaced(const std::string& text, const List& arguments) {
+  if (text_at(arguments, 0).empty()) throw InputError("replace() needs a text to replace");
   const List pieces = items_of(split(text, {text_at(arguments, 0)}));
   const std::string& to = text_at(arguments, 1);
   constexpr std::size_t longest = 100'000;
@@ -256,6 +257,17 @@ Value stripped(const std::string& text, const List& arguments) {
   const std::size_t first = front ? text.find_first_not_of(letters) : 0;
   const std::size_t end = back ? text.find_last_not_of(letters) + 1 : text.size();
   return first < end ? text.substr(first, end - first) : std::string();
+}
+
+Value join(const std::string& text, const List& arguments) {
+  const List items = items_of(arguments[0]);
+  constexpr std::size_t longest = 100'000;
+  std::string out;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    out += (i == 0 ? "" : text) + text_at(items, i);
+    if (out.size() > longest) throw InputError("a text is too long");
+  }
+  return out;
 }
 
 template <auto letter>
@@ -275,6 +287,7 @@ struct TextMethod {
 constexpr TextMethod text_methods[] = {
     {"split", 0, 1, split},
     {"replace", 2, 2, replaced},
+    {"join", 1, 1, join},
     {"lower", 0, 0,
      [](const std::string& t, const List& a) {
        return cased<[](int c) { return std::tolower(c); }>(t, a);

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/text.hpp>
@@ -115,6 +116,7 @@ Value float_operator(std::string_view op, double a, double b) {
 template <typename Sequence>
 Sequence repeated(const Sequence& sequence, Integer times) {
   Sequence out;
+  if (sequence.empty()) return out;
   if (times > 0 && sequence.size() > longest_sequence / static_cast<std::size_t>(times))
     throw InputError("a text or list is too long");
   for (Integer i = 0; i < times; ++i) out.insert(out.end(), sequence.begin(), sequence.end());
@@ -128,12 +130,35 @@ Sequence joined(Sequence a, const Sequence& b) {
   return a;
 }
 
+/// Adds an item to the size of what contains it.
+template <typename Items>
+void count(const Value& item, Container<Items>& in) {
+  const auto add = [&](std::size_t size, int depth) {
+    constexpr int deepest = 50;
+    in.size += 1 + size;
+    in.depth = std::max(in.depth, 1 + depth);
+    if (in.size > longest_sequence || in.depth > deepest)
+      throw InputError("a list or dictionary is too long or nested too deeply");
+  };
+  const auto* list = item.as<std::shared_ptr<const Container<List>>>();
+  const auto* dictionary = item.as<std::shared_ptr<const Container<Dictionary>>>();
+  if (list != nullptr) return add((*list)->size, (*list)->depth);
+  if (dictionary != nullptr) return add((*dictionary)->size, (*dictionary)->depth);
+  add(0, 0);
+}
+
 std::size_t index_in(Integer index, std::size_t size) {
   const auto length = static_cast<Integer>(size);
   if (index < -length || index >= length)
     throw InputError("index " + std::to_string(index) + " lies beyond the " + std::to_string(size) +
                      " items");
   return static_cast<std::size_t>(index < 0 ? index + length : index);
+}
+
+/// Characters are bytes here.
+void check_ascii(const std::string& text) {
+  if (std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) > 127; }))
+    throw InputError("the characters of " + in_quotes(text) + " cannot be told apart: not ASCII");
 }
 
 std::string_view numeral(std::string_view text) {
@@ -144,19 +169,35 @@ std::string_view numeral(std::string_view text) {
 }  // namespace
 
 const List* Value::list() const {
-  const auto* list = as<std::shared_ptr<const List>>();
-  return list == nullptr ? nullptr : list->get();
+  const auto* list = as<std::shared_ptr<const Container<List>>>();
+  return list == nullptr ? nullptr : &(*list)->items;
 }
 
 const Dictionary* Value::dictionary() const {
-  const auto* dictionary = as<std::shared_ptr<const Dictionary>>();
-  return dictionary == nullptr ? nullptr : dictionary->get();
+  const auto* dictionary = as<std::shared_ptr<const Container<Dictionary>>>();
+  return dictionary == nullptr ? nullptr : &(*dictionary)->items;
 }
 
-Value make_list(List items) { return std::make_shared<const List>(std::move(items)); }
+Value make_list(List items) {
+  Container<List> list;
+  for (const Value& item : items) count(item, list);
+  list.items = std::move(items);
+  return std::make_shared<const Container<List>>(std::move(list));
+}
 
 Value make_dictionary(Dictionary items) {
-  return std::make_shared<const Dictionary>(std::move(items));
+  Container<Dictionary> dictionary;
+  std::map<std::string, std::size_t> places;
+  for (auto& [key, value] : items) {
+    const auto [place, is_new] =
+        places.try_emplace(std::to_string(key.index()) + to_text(key), dictionary.items.size());
+    count(value, dictionary);
+    if (is_new)
+      dictionary.items.emplace_back(std::move(key), std::move(value));
+    else
+      dictionary.items[place->second].second = std::move(value);
+  }
+  return std::make_shared<const Container<Dictionary>>(std::move(dictionary));
 }
 
 Value make_function(std::function<Value(const List&)> call) {
@@ -201,10 +242,7 @@ bool are_equal(const Value& a, const Value& b) {
   if (a.index() != b.index()) return false;
   if (const auto* text = a.as<std::string>()) return *text == *b.as<std::string>();
   if (const List* list = a.list()) return std::ranges::equal(*list, *b.list(), are_equal);
-  if (const Dictionary* dictionary = a.dictionary())
-    return std::ranges::equal(*dictionary, *b.dictionary(), [](const auto& x, const auto& y) {
-      return are_equal(x.first, y.first) && are_equal(x.second, y.second);
-    });
+  if (a.dictionary() != nullptr) throw InputError("dictionaries are not compared");
   return a.index() == 0;
 }
 
@@ -247,7 +285,7 @@ Value apply_operator(std::string_view op, const Value& a, const Value& b) {
   const List* list = a.list();
   if (op == "*" && right && text != nullptr) return repeated(*text, *right);
   if (op == "*" && right && list != nullptr) return make_list(repeated(*list, *right));
-  if (op == "*" && left && integer_in(a)) return apply_operator(op, b, a);
+  if (op == "*" && left && !number_in(b)) return apply_operator(op, b, a);
   if (op == "+" && text != nullptr && b.as<std::string>() != nullptr)
     return joined(*text, *b.as<std::string>());
   if (op == "+" && list != nullptr && b.list() != nullptr)
@@ -257,13 +295,14 @@ Value apply_operator(std::string_view op, const Value& a, const Value& b) {
 
 Value item_of(const Value& a, const Value& b) {
   if (const Dictionary* dictionary = a.dictionary()) {
-    for (auto entry = dictionary->rbegin(); entry != dictionary->rend(); ++entry)
-      if (are_equal(entry->first, b)) return entry->second;
+    for (const auto& [key, item] : *dictionary)
+      if (are_equal(key, b)) return item;
     throw InputError("the dictionary has no key " + in_quotes(to_text(b)));
   }
   const auto index = integer_in(b);
   const auto* text = a.as<std::string>();
   if (index && a.list() != nullptr) return (*a.list())[index_in(*index, a.list()->size())];
+  if (text != nullptr) check_ascii(*text);
   if (index && text != nullptr) return std::string(1, (*text)[index_in(*index, text->size())]);
   throw InputError("a " + type_name(a) + " has no items by " + type_name(b));
 }
@@ -272,6 +311,7 @@ List items_of(const Value& value) {
   List items;
   if (const List* list = value.list()) return *list;
   if (const auto* text = value.as<std::string>()) {
+    check_ascii(*text);
     for (const char c : *text) items.emplace_back(std::string(1, c));
   } else if (const Dictionary* dictionary = value.dictionary()) {
     for (const auto& [key, item] : *dictionary) items.push_back(key);

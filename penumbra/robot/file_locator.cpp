@@ -141,7 +141,7 @@ fs::path FileLocator::locate_in_package(const std::string& uri, std::string_view
   return file;
 }
 
-const fs::path& FileLocator::package_folder(const std::string& name, const fs::path& file) {
+fs::path FileLocator::package_folder(const std::string& name, const fs::path& file) {
   if (const auto known = packages_.find(name); known != packages_.end()) {
     if (is_folder(known->second)) return known->second;
     throw InputError("package " + in_quotes(name) + " is taken from " + known->second.string() +
@@ -153,8 +153,10 @@ const fs::path& FileLocator::package_folder(const std::string& name, const fs::p
                      "ROS_PACKAGE_PATH, or next to or above the URDF" +
                      (file.empty() ? "" : " with " + file.string() + " in it") +
                      "; give its folder: --package " + name + "=DIR");
-  notes_.push_back("package " + name + ": taken from " + folder.string() + " (" + how + ")");
-  return packages_[name] = folder;
+  std::string note = "package " + name + ": taken from " + folder.string() + " (" + how + ")";
+  if (std::ranges::find(notes_, note) == notes_.end()) notes_.push_back(std::move(note));
+  if (!file.empty()) packages_[name] = folder;  // a folder alone may not be the one with the files
+  return folder;
 }
 
 std::pair<fs::path, std::string> FileLocator::search(const std::string& name,

@@ -26,7 +26,7 @@ class FileLocator {
   [[nodiscard]] std::filesystem::path locate(const std::string& uri);
 
   /// Returns a package's folder. Throws InputError likewise.
-  [[nodiscard]] const std::filesystem::path& find_package(const std::string& name) {
+  [[nodiscard]] std::filesystem::path find_package(const std::string& name) {
     return package_folder(name, "");
   }
 
@@ -35,8 +35,7 @@ class FileLocator {
 
  private:
   std::filesystem::path locate_in_package(const std::string& uri, std::string_view rest);
-  const std::filesystem::path& package_folder(const std::string& name,
-                                              const std::filesystem::path& file);
+  std::filesystem::path package_folder(const std::string& name, const std::filesystem::path& file);
   std::pair<std::filesystem::path, std::string> search(const std::string& name,
                                                        const std::filesystem::path& file) const;
 

@@ -13,12 +13,12 @@
 namespace penumbra::detail {
 
 /// Expands a xacro file (https://github.com/ros/xacro/wiki): properties, macros, blocks, includes,
-/// conditions, arguments, namespaces and expressions. A URDF without any comes out as it is. Text,
-/// which changes nothing that is drawn, is kept as written; so elements of simulators and
-/// controllers are left out. Includes and YAML files are searched from the file that is read, the
-/// first one's from `folder`. Throws InputError that names file and line for what is not
-/// understood. An argument that no file uses is an error if it is nearly a declared one, else a
-/// note.
+/// conditions, arguments, namespaces and expressions. A URDF without any comes out as it is. Text
+/// is kept as written. Elements of simulators and controllers become empty: neither changes what is
+/// drawn. Names of included and YAML files are relative to the file being read, the first one's to
+/// `folder`. Throws InputError that names file and line for what is not
+/// understood. An argument that no file uses is an error if its name is close to a declared one,
+/// else a note.
 [[nodiscard]] XmlElement expand_xacro(const XmlElement& root, const std::filesystem::path& folder,
                                       const std::map<std::string, std::string>& arguments,
                                       FileLocator& packages, std::vector<std::string>& notes);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <deque>
 #include <set>
+#include <tuple>
 
 #include <glob.h>
 
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What does not change the drawn robot.
+/// Returns whether an element cannot change the drawn robot, but for properties that it sets.
 bool is_left_out(const std::string& element) {
   return element == "gazebo" || element == "ros2_control" || element == "transmission";
 }
@@ -33,8 +34,8 @@ class Expander {
 
   XmlElement expand(const XmlElement& root, std::vector<std::string>& notes) {
     Scope& top = make_scope(nullptr, false);
-    XmlElement out = shell_of(root, top);
     add_functions(top);
+    XmlElement out = shell_of(root, top, root.name);
     expand_children(root, top, out);
     for (const std::string& name : unused_) {
       const std::string what = *root.file + ": no file uses the argument " + in_quotes(name);
@@ -47,22 +48,13 @@ class Expander {
 
   /// Returns what a text stands for: a value of any type if it is one expression.
   Value evaluate_text(std::string_view text, Scope& scope) {
-    constexpr int deepest = 30;
-    if (depth_ > deepest) throw InputError("properties are nested too deeply");
-    ++depth_;
-    std::optional<Value> whole;
+    std::vector<Value> parts;
+    while (!text.empty()) parts.push_back(next_part(text, scope));
+    if (parts.size() == 1) return parts.front();
     std::string joined;
-    const auto add = [&](Value part) {
-      if (!whole && joined.empty() && text.empty()) {
-        whole = std::move(part);
-        return;
-      }
-      joined += to_text(part);
-      budget_.spend(joined.size());
-    };
-    while (!text.empty()) add(next_part(text, scope));
-    --depth_;
-    return whole ? *whole : Value(joined);
+    for (const Value& part : parts) joined += to_text(part);
+    budget_.spend(joined.size());
+    return joined;
   }
 
  private:
@@ -79,7 +71,7 @@ class Expander {
       text.remove_prefix(count);
       return part;
     };
-    // $${ is ${ as it stands.
+    // $${ stands for a literal ${.
     const std::size_t other = std::min(text.find_first_not_of('$'), text.size());
     const bool opens = other < text.size() && (text[other] == '{' || text[other] == '(');
     if (other == 0 || !opens)
@@ -89,7 +81,7 @@ class Expander {
     const std::size_t end = text.find(is_expression ? '}' : ')');
     if (end == std::string_view::npos) throw InputError(in_quotes(text) + " is not closed");
     const std::string inner = cut(end + 1).substr(2, end - 2);
-    const std::string source = to_text(evaluate_text(inner, scope));
+    const std::string source = budget_.nested([&] { return to_text(evaluate_text(inner, scope)); });
     if (!is_expression) return substitute(source);
     try {
       return evaluate(source, scope, budget_);
@@ -107,7 +99,6 @@ class Expander {
     if (command == "arg") return argument(name);
     if (command == "find") return packages_.find_package(name).string();
     if (command == "dirname") return folders_.front().string();
-    if (command == "cwd") return fs::current_path().string();
     if (command == "env" || command == "optenv") {
       const std::size_t end = std::min(name.find(' '), name.size());
       const char* value = std::getenv(name.substr(0, end).c_str());
@@ -115,7 +106,8 @@ class Expander {
       if (command == "optenv") return std::string(trimmed(std::string_view(name).substr(end)));
       throw InputError("the environment has no variable " + in_quotes(name));
     }
-    throw InputError("$(" + text + ") is not supported; expected find, arg, env or optenv");
+    throw InputError("$(" + text +
+                     ") is not supported; expected find, arg, dirname, env or optenv");
   }
 
   Value argument(const std::string& name) {
@@ -184,11 +176,9 @@ class Expander {
     throw InputError(place + what);
   }
 
-  /// Returns the element without children, its attributes evaluated.
-  XmlElement shell_of(const XmlElement& element, Scope& scope) {
-    constexpr std::size_t cost = 500;
-    budget_.spend(cost + element.text.size());
-    XmlElement out{element.name, element.file, element.line, {}, {}, element.text};
+  /// Returns the element without children under a name, its attributes evaluated.
+  XmlElement shell_of(const XmlElement& element, Scope& scope, const std::string& name) {
+    XmlElement out{name, element.file, element.line, {}, {}, element.text};
     for (const XmlAttribute& a : element.attributes)
       if (!a.name.starts_with("xacro:"))
         out.attributes.push_back({a.name, to_text(attribute_value(element, a, scope))});
@@ -196,46 +186,77 @@ class Expander {
   }
 
   void expand_children(const XmlElement& parent, Scope& scope, XmlElement& out) {
-    for (const XmlElement& child : parent.children) expand_element(child, scope, out);
+    for (const XmlElement& child : parent.children) {
+      if (child.name == "xacro:attribute" && parent.name.starts_with("xacro:"))
+        fail(child, "in <" + parent.name + "> it changes nothing; write it in the element itself");
+      expand_element(child, scope, out, child.name);
+    }
   }
 
-  void expand_element(const XmlElement& element, Scope& scope, XmlElement& out) {
-    if (is_left_out(element.name)) return;
-    if (element.name.starts_with("xacro:")) return run(element, scope, out);
-    XmlElement copy = shell_of(element, scope);
-    expand_children(element, scope, copy);
-    out.children.push_back(std::move(copy));
+  /// `name`: in place of the element's.
+  void expand_element(const XmlElement& element, Scope& scope, XmlElement& out,
+                      const std::string& name) {
+    constexpr std::size_t deepest = 500;
+    spend(element);
+    if (++nesting_ > deepest)
+      fail(element, "macros, blocks or files contain each other without end");
+    if (is_left_out(name)) {
+      out.children.push_back({name, element.file, element.line, {}, {}, {}});
+      set_properties_in(element, scope);
+    } else if (name.starts_with("xacro:")) {
+      run(element, scope, out, name.substr(name.find(':') + 1));
+    } else {
+      XmlElement copy = shell_of(element, scope, name);
+      expand_children(element, scope, copy);
+      out.children.push_back(std::move(copy));
+    }
+    --nesting_;
+  }
+
+  void spend(const XmlElement& element) {
+    constexpr std::size_t cost = 200;
+    budget_.spend(cost + element.text.size());
+    for (const XmlAttribute& a : element.attributes)
+      budget_.spend(cost + a.name.size() + a.value.size());
+  }
+
+  /// Expands what an element of no interest contains, as far as that is possible: it may set
+  /// properties that others use.
+  void set_properties_in(const XmlElement& element, Scope& scope) {
+    XmlElement nothing;
+    const auto before = std::tuple(calls_.size(), folders_.size(), nesting_);
+    try {
+      expand_children(element, scope, nothing);
+    } catch (const InputError&) {  // of a package or argument that only a simulator needs
+      calls_.resize(std::get<0>(before));
+      folders_.resize(std::get<1>(before));
+      nesting_ = std::get<2>(before);
+    }
   }
 
   /// Does what a xacro: element says.
-  void run(const XmlElement& element, Scope& scope, XmlElement& out) {
-    const std::string name = element.name.substr(element.name.find(':') + 1);
+  void run(const XmlElement& element, Scope& scope, XmlElement& out, const std::string& name) {
     if (name == "property") return define_property(element, scope);
     if (name == "macro") return define_macro(element, scope);
     if (name == "arg") return declare_argument(element, scope);
     if (name == "include") return include(element, scope, out);
     if (name == "insert_block") return insert_block(element, scope, out);
-    if (name == "if" || name == "unless") {
-      expect(element, {"value"});
-      required_attribute(element, "value", scope);
-      if (is_set(element, "value", false, scope) == (name == "if"))
-        expand_children(element, scope, out);
-    } else if (name == "attribute") {
-      expect(element, {"name", "value"});
-      out.attributes.push_back(
-          {name_of(element, scope), to_text(required_attribute(element, "value", scope))});
-    } else if (name == "element") {
-      XmlElement copy = element;
-      copy.name = name_of(element, scope, "xacro:name");
-      expand_element(copy, scope, out);
-    } else if (name == "call") {
-      XmlElement copy = element;
-      std::erase_if(copy.attributes, [](const XmlAttribute& a) { return a.name == "macro"; });
-      copy.name = "xacro:" + name_of(element, scope, "macro");
-      call_macro(copy, scope, out);
-    } else {
-      call_macro(element, scope, out);
-    }
+    if (name == "attribute") return set_attribute(element, scope, out);
+    if (name == "element")
+      return expand_element(element, scope, out, name_of(element, scope, "xacro:name"));
+    if (name == "call") return call_macro(element, name_of(element, scope, "macro"), scope, out);
+    if (name != "if" && name != "unless") return call_macro(element, name, scope, out);
+    expect(element, {"value"});
+    required_attribute(element, "value", scope);
+    if (is_set(element, "value", false, scope) == (name == "if"))
+      expand_children(element, scope, out);
+  }
+
+  void set_attribute(const XmlElement& element, Scope& scope, XmlElement& out) {
+    expect(element, {"name", "value"});
+    const std::string name = name_of(element, scope);
+    std::erase_if(out.attributes, [&](const XmlAttribute& a) { return a.name == name; });
+    out.attributes.push_back({name, to_text(required_attribute(element, "value", scope))});
   }
 
   void define_property(const XmlElement& element, Scope& scope) {
@@ -246,17 +267,12 @@ class Expander {
     if (text == nullptr) text = element.attribute("default");
     if (text != nullptr && element.attribute("value") == nullptr && scope.has(name)) return;
     const std::string* where = element.attribute("scope");
-    Scope& target = where == nullptr     ? scope
-                    : *where == "global" ? scope.top()
-                    : *where == "parent" ? scope.caller()
-                    : *where == "local"
-                        ? scope
-                        : (fail(element, "scope=" + in_quotes(*where) +
-                                             " is unknown; expected parent or global"),
-                           scope);
-    if (text == nullptr)
-      return target.set_block("**" + name, std::make_shared<XmlElement>(element));
-    const bool is_lazy = is_set(element, "lazy_eval", true, scope) && &target == &scope;
+    const bool is_local = where == nullptr || *where == "local";
+    if (!is_local && *where != "global" && *where != "parent")
+      fail(element, "scope=" + in_quotes(*where) + " is unknown; expected parent or global");
+    Scope& target = is_local ? scope : *where == "global" ? scope.top() : scope.caller();
+    if (text == nullptr) return target.set_block("**" + name, &element);
+    const bool is_lazy = is_local && is_set(element, "lazy_eval", true, scope);
     try {
       target.set(name, is_lazy ? Value(*text) : evaluate_text(*text, scope), !is_lazy);
     } catch (const InputError& error) {
@@ -268,8 +284,10 @@ class Expander {
     expect(element, {"name", "params"});
     std::string name = name_as_written(element);
     if (name.starts_with("xacro:")) name = name.substr(name.find(':') + 1);
-    Macro macro{std::make_shared<XmlElement>(element), {}};
+    Macro macro{&element, {}};
     const std::string* list = element.attribute("params");
+    constexpr std::size_t longest = 10'000;
+    if (list != nullptr && list->size() > longest) fail(element, "params is too long");
     std::string_view rest = list == nullptr ? "" : trimmed(*list);
     while (!rest.empty()) {
       const std::size_t before = rest.size();
@@ -277,7 +295,6 @@ class Expander {
       if (rest.size() == before)
         fail(element, "params=" + in_quotes(*list) + " is no list of names");
     }
-    budget_.spend(1000);
     scope.set_macro(name, std::move(macro));
   }
 
@@ -286,8 +303,9 @@ class Expander {
     const std::string name = name_as_written(element);
     unused_.erase(name);
     declared_ += name + " ";
-    const auto value = optional_attribute(element, "default", scope);
-    if (value) arguments_.try_emplace(name, to_text(*value));
+    if (arguments_.contains(name)) return;
+    if (const auto value = optional_attribute(element, "default", scope))
+      arguments_[name] = to_text(*value);
   }
 
   [[nodiscard]] fs::path from_here(const std::string& file) const { return folders_.back() / file; }
@@ -300,7 +318,10 @@ class Expander {
       target = &make_scope(&scope, true);
       scope.set(name_of(element, scope, "ns"), static_cast<Names*>(target), true);
     }
-    for (const fs::path& file : files_of(from_here(name))) {
+    const fs::path pattern = from_here(name);
+    if (pattern.parent_path().string().find_first_of("*?[") != std::string::npos)
+      fail(element, "filename=" + in_quotes(name) + ": folders cannot have wildcards");
+    for (const fs::path& file : files_of(pattern)) {
       std::error_code error;
       if (!fs::exists(file, error) && is_set(element, "optional", false, scope)) continue;
       include_file(element, file, *target, out);
@@ -320,9 +341,7 @@ class Expander {
 
   void include_file(const XmlElement& element, const fs::path& file, Scope& scope,
                     XmlElement& out) {
-    constexpr std::size_t deepest = 40;
-    if (folders_.size() > deepest) fail(element, "files include each other without end");
-    const XmlElement root = [&] {
+    const XmlElement& root = kept_.emplace_back([&] {
       try {
         const std::string text = read_whole_file(file, FileLimit::text);
         budget_.spend(text.size());
@@ -330,7 +349,7 @@ class Expander {
       } catch (const InputError& error) {
         fail(element, error.what());
       }
-    }();
+    }());
     folders_.push_back(file.parent_path());
     expand_children(root, scope, out);
     folders_.pop_back();
@@ -342,7 +361,7 @@ class Expander {
     if (const Block content = scope.find_block("**" + name))
       expand_children(*content, scope, out);
     else if (const Block whole = scope.find_block("*" + name))
-      expand_element(*whole, scope, out);
+      expand_element(*whole, scope, out, whole->name);
     else
       fail(element, "there is no block " + in_quotes(name));
   }
@@ -357,11 +376,10 @@ class Expander {
     return find_macro(name.substr(dot + 1), *inner);
   }
 
-  void call_macro(const XmlElement& element, Scope& from, XmlElement& out) {
-    constexpr std::size_t deepest = 60;
-    const auto [macro, scope] = find_macro(element.name.substr(element.name.find(':') + 1), from);
-    if (macro == nullptr) fail(element, "<" + element.name + "> is no known macro");
-    if (calls_.size() > deepest) fail(element, "macros call each other without end");
+  void call_macro(const XmlElement& element, const std::string& name, Scope& from,
+                  XmlElement& out) {
+    const auto [macro, scope] = find_macro(name, from);
+    if (macro == nullptr) fail(element, in_quotes(name) + " is no known macro");
     Scope& inner = make_scope(scope, false);
     set_parameters(element, *macro, *scope, inner);
     calls_.push_back(&element);
@@ -370,21 +388,23 @@ class Expander {
   }
 
   void set_parameters(const XmlElement& element, const Macro& macro, Scope& scope, Scope& inner) {
+    std::set<std::string> names;
+    for (const Parameter& parameter : macro.parameters) names.insert(parameter.name);
     std::set<std::string> given;
     for (const XmlAttribute& a : element.attributes) {
-      if (std::ranges::find(macro.parameters, a.name, &Parameter::name) == macro.parameters.end())
-        fail(element, "the macro has no parameter " + in_quotes(a.name));
+      if (element.name == "xacro:call" && a.name == "macro") continue;
+      if (!names.contains(a.name)) fail(element, "the macro has no parameter " + in_quotes(a.name));
       inner.set(a.name, attribute_value(element, a, scope), true);
       given.insert(a.name);
     }
-    XmlElement blocks{element.name, element.file, element.line, {}, {}, {}};
+    XmlElement& blocks = kept_.emplace_back();
     expand_children(element, scope, blocks);
     auto block = blocks.children.begin();
     for (const Parameter& parameter : macro.parameters) {
       if (parameter.name.starts_with('*')) {
         if (block == blocks.children.end())
           fail(element, "the macro needs an element for " + in_quotes(parameter.name));
-        inner.set_block(parameter.name, std::make_shared<XmlElement>(std::move(*block++)));
+        inner.set_block(parameter.name, &*block++);
       } else if (!given.contains(parameter.name)) {
         inner.set(parameter.name, default_of(element, parameter, scope), true);
       }
@@ -448,9 +468,10 @@ class Expander {
     return evaluate_text(text, scope);
   };
   std::deque<Scope> scopes_;
+  std::deque<XmlElement> kept_;           // what macros and blocks are parts of
   std::vector<const XmlElement*> calls_;  // of macros, the innermost last
   Budget budget_;
-  int depth_ = 0;
+  std::size_t nesting_ = 0;
 };
 
 }  // namespace

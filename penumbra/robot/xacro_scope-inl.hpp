@@ -14,7 +14,7 @@
 
 namespace penumbra::detail {
 
-using Block = std::shared_ptr<const XmlElement>;
+using Block = const XmlElement*;  // of a tree that lives as long as the scopes
 
 /// A parameter of a macro, with a default if it has one.
 struct Parameter {
@@ -49,9 +49,10 @@ class Scope : public Names {
   Scope(const Evaluate& evaluate, Scope* parent, bool is_namespace)
       : evaluate_(evaluate), parent_(parent), is_namespace_(is_namespace) {}
 
+  /// Finds a property here or around, or a function or constant of Python.
   std::optional<Value> find(const std::string& name) override;
   [[nodiscard]] bool has(const std::string& name) const;
-  /// `is_evaluated`: else its text is evaluated when it is used.
+  /// If not `is_evaluated`, text is evaluated at its first use.
   void set(const std::string& name, Value value, bool is_evaluated);
   void remove(const std::string& name);  ///< here and in the scopes around
 
@@ -60,9 +61,9 @@ class Scope : public Names {
 
   void set_macro(const std::string& name, Macro macro);
   [[nodiscard]] std::shared_ptr<const Macro> find_macro(const std::string& name) const;
-  void set_block(const std::string& name, Block block) { blocks_[name] = std::move(block); }
+  void set_block(const std::string& name, Block block) { blocks_[name] = block; }
   [[nodiscard]] Block find_block(const std::string& name) const;
-  Scope* find_namespace(const std::string& name);  ///< of included files
+  Scope* find_namespace(const std::string& name);  ///< of an include with ns=NAME
 
  private:
   const Evaluate& evaluate_;

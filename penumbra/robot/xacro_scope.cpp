@@ -23,22 +23,15 @@ Value literal(Value value) {
   return value;
 }
 
-/// Fails for lists of lists of lists..., which one file after another could make.
-void check_depth(const Value& value, int deepest = 50) {
-  if (deepest == 0) throw InputError("lists are nested too deeply");
-  if (const List* list = value.list())
-    for (const Value& item : *list) check_depth(item, deepest - 1);
-  if (const Dictionary* dictionary = value.dictionary())
-    for (const auto& [key, item] : *dictionary) check_depth(item, deepest - 1);
-}
-
 }  // namespace
 
 bool to_truth(const Value& value) {
-  const Value meant = literal(value);
-  if (meant.as<std::string>() != nullptr)
-    throw InputError(in_quotes(to_text(value)) + " is neither true nor false");
-  return is_true(meant);
+  const auto* text = value.as<std::string>();
+  if (text == nullptr) return is_true(value);
+  if (*text == "true" || *text == "True") return true;
+  if (*text == "false" || *text == "False") return false;
+  if (const auto integer = parse_integer(*text)) return *integer != 0;
+  throw InputError(in_quotes(*text) + " is neither true nor false");
 }
 
 /// Cuts the first parameter off a macro's list: NAME, NAME:=DEFAULT, NAME:=^|DEFAULT.
@@ -73,18 +66,21 @@ Parameter next_parameter(std::string_view& list) {
 }
 
 bool Scope::has(const std::string& name) const {
-  return properties_.contains(name) || (parent_ != nullptr && parent_->has(name));
+  if (properties_.contains(name)) return true;
+  return parent_ == nullptr ? find_builtin(name).has_value() : parent_->has(name);
 }
 
 void Scope::set(const std::string& name, Value value, bool is_evaluated) {
-  check_depth(value);
   value = literal(std::move(value));
   const bool is_text = value.as<std::string>() != nullptr;
   properties_[name] = {std::move(value), is_evaluated || !is_text};
 }
 
 void Scope::remove(const std::string& name) {
-  for (Scope* at = this; at != nullptr; at = at->parent_) at->properties_.erase(name);
+  for (Scope* at = this; at != nullptr; at = at->parent_) {
+    at->properties_.erase(name);
+    at->blocks_.erase("**" + name);
+  }
 }
 
 Scope& Scope::caller() {
@@ -115,17 +111,17 @@ Scope* Scope::find_namespace(const std::string& name) {
 
 std::optional<Value> Scope::find(const std::string& name) {
   const auto found = properties_.find(name);
-  if (found == properties_.end()) return parent_ == nullptr ? std::nullopt : parent_->find(name);
-  Property& property = found->second;
-  if (property.is_evaluated) return property.value;
-  if (property.is_in_use)
+  if (found == properties_.end())
+    return parent_ == nullptr ? find_builtin(name) : parent_->find(name);
+  if (found->second.is_evaluated) return found->second.value;
+  if (found->second.is_in_use)
     throw InputError("the property " + in_quotes(name) + " is made of itself");
-  property.is_in_use = true;
+  found->second.is_in_use = true;
+  const std::string text = to_text(found->second.value);
   try {
-    const std::string text = to_text(property.value);
-    Value value = evaluate_(text, *this);
-    set(name, std::move(value), true);
+    set(name, evaluate_(text, *this), true);
   } catch (const InputError& error) {
+    found->second.is_in_use = false;
     throw InputError("property " + in_quotes(name) + ": " + error.what());
   }
   return properties_[name].value;

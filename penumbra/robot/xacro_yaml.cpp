@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <numbers>
+#include <regex>
 
 #include <yaml-cpp/yaml.h>
 
@@ -30,14 +31,33 @@ class NoNames : public Names {
   std::optional<Value> find(const std::string&) override { return std::nullopt; }
 };
 
+/// Returns whether YAML 1.1 reads a plain scalar as a number that would be text, or another number,
+/// elsewhere: 010, 0x1F, 1_000, 12:30, .inf.
+bool is_odd_number(const std::string& text) {
+  static const std::regex odd(
+      "[-+]?(0[0-7_]*[0-9_]+|0[xb][0-9a-fA-F_]+|[0-9][0-9_]*(:[0-5]?[0-9])+(\\.[0-9_]*)?|"
+      "[0-9]*_[0-9_.]*|\\.(inf|Inf|INF|nan|NaN|NAN))");
+  return std::regex_match(text, odd);
+}
+
 Value plain_scalar(const std::string& text) {
+  static const std::regex integer("[-+]?(0|[1-9][0-9]*)");
+  static const std::regex number("([-+]?[0-9]+\\.[0-9]*|\\.[0-9]+)([eE][-+][0-9]+)?");
+  constexpr std::size_t longest_number = 100;
   if (text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL") return {};
   for (const char* yes : {"true", "True", "TRUE", "yes", "Yes", "YES", "on", "On", "ON"})
     if (text == yes) return true;
   for (const char* no : {"false", "False", "FALSE", "no", "No", "NO", "off", "Off", "OFF"})
     if (text == no) return false;
-  if (const auto integer = parse_integer(text)) return *integer;
-  if (const auto number = to_number(text)) return *number;
+  if (text.size() > longest_number) return text;
+  if (is_odd_number(text))
+    throw InputError(in_quotes(text) +
+                     " is a number in a form that is not supported; write it as a "
+                     "decimal number, or in quotes");
+  if (std::regex_match(text, integer))
+    if (const auto value = parse_integer(text)) return *value;
+  if (std::regex_match(text, number))
+    if (const auto value = parse_float(text)) return *value;
   return text;
 }
 
@@ -51,29 +71,44 @@ class Reader {
     constexpr std::size_t cost = 50;
     budget_.spend(cost);
     if (node.IsScalar()) return scalar(node);
+    if (!node.Tag().empty() && node.Tag() != "?" && !node.Tag().starts_with("tag:yaml.org"))
+      fail(node, "the tag " + in_quotes(node.Tag()) + " is not supported here");
     if (node.IsSequence()) {
       List list;
       for (const YAML::Node& item : node) list.push_back(read(item, depth + 1));
       return make_list(std::move(list));
     }
     if (!node.IsMap()) return {};
-    Dictionary dictionary;
+    Dictionary merged;  // before the others, which count more
+    Dictionary own;
     for (const auto& entry : node) {
-      Value value = read(entry.second, depth + 1);
-      if (entry.first.IsScalar() && entry.first.Scalar() == "<<" && value.dictionary() != nullptr)
-        dictionary.insert(dictionary.begin(), value.dictionary()->begin(),
-                          value.dictionary()->end());
+      const YAML::Node& key = entry.first;
+      if (key.IsScalar() && key.Scalar() == "<<" && key.Tag() != "!")
+        merge(read(entry.second, depth + 1), merged);
       else
-        dictionary.emplace_back(read(entry.first, depth + 1), std::move(value));
+        own.emplace_back(read(key, depth + 1), read(entry.second, depth + 1));
     }
-    return make_dictionary(std::move(dictionary));
+    merged.insert(merged.end(), own.begin(), own.end());
+    return make_dictionary(std::move(merged));
   }
 
  private:
+  /// Adds a dictionary, or a list of them of which the first count most.
+  static void merge(const Value& value, Dictionary& out) {
+    if (const List* list = value.list())
+      for (auto item = list->rbegin(); item != list->rend(); ++item) merge(*item, out);
+    if (const Dictionary* dictionary = value.dictionary())
+      out.insert(out.end(), dictionary->begin(), dictionary->end());
+  }
+
   Value scalar(const YAML::Node& node) {
     const std::string& text = node.Scalar();
     budget_.spend(text.size());
-    if (node.Tag() == "?" || node.Tag().empty()) return plain_scalar(text);
+    try {
+      if (node.Tag() == "?" || node.Tag().empty()) return plain_scalar(text);
+    } catch (const InputError& error) {
+      fail(node, error.what());
+    }
     if (node.Tag() == "!" || node.Tag() == "tag:yaml.org,2002:str") return text;
     const auto unit = unit_of(node.Tag());
     if (!unit) fail(node, "the tag " + in_quotes(node.Tag()) + " is not supported");
@@ -96,7 +131,9 @@ class Reader {
 Value load_yaml(const std::filesystem::path& file, Budget& budget) {
   const std::string text = read_whole_file(file, FileLimit::text);
   try {
-    return Reader(file.string(), budget).read(YAML::Load(text));
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) throw InputError(file.string() + ": has several documents");
+    return documents.empty() ? Value() : Reader(file.string(), budget).read(documents[0]);
   } catch (const YAML::Exception& error) {
     throw InputError(file.string() + ":" + std::to_string(error.mark.line + 1) + ": " + error.msg);
   }

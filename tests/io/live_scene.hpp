@@ -35,7 +35,7 @@ struct LiveLens {
   [[nodiscard]] Camera camera() const {
     return {.intrinsics = Intrinsics(width, height, focal, focal, cx, cy),
             .frame_id = "optical",
-            .T_parent_camera = Isometry3d::Identity()};
+            .T_parent_camera = Eigen::Isometry3d::Identity()};
   }
 };
 
