@@ -110,8 +110,8 @@ void set_shape(const UrdfNode& geom, const MjcfModel& model, UrdfElement& elemen
               "; expected sphere, capsule, cylinder, ellipsoid, box or mesh");
   if (geom.has("mesh"))
     geom.fail("a " + type +
-              " that is fitted to a mesh is not supported; give its size and pos, or " +
-              "write type=\"mesh\"");
+              " that is fitted to a mesh is not supported; draw visual geometry (--geometry "
+              "visual), or write type=\"mesh\"");
   set_primitive(geom, type, model.compiler, element);
 }
 
