@@ -131,6 +131,13 @@ TEST(Xacro, WhatElementsStandFor) {
            property("d", "D") + "<xacro:m a=\"A\"/>" + property("e", "E") +
            "<xacro:m a=\"Z\" b=\"3\"/>",
        "A2yD5 Z3yDE"},
+      {property("b", "1") + property("a", "${b}", "scope=\"global\"") + property("b", "2") +
+           child("a${a}"),
+       "a1"},
+      {property("a", "1") + "<gazebo>" + property("a", "2") + child("$(find none)") + "</gazebo>" +
+           child("a${a}"),
+       "a2"},
+      {"<xacro:property name=\"pi\" default=\"2\"/>" + child("${pi > 3}"), "True"},
       {property("a", "x") + "<xacro:macro name=\"${a}_m\"/>" + child("${a}"), "x"},
       {macro("inner", "", child("${a}")) + macro("outer", "a", "<xacro:inner/>") +
            "<xacro:outer a=\"seen\"/>",
@@ -154,7 +161,7 @@ TEST(Xacro, WhatElementsStandFor) {
       {"<xacro:element xacro:name=\"${'li' + 'nk'}\" name=\"e\"/>" +
            joint_xml("j", "fixed", "root", "e"),
        "e"},
-      {"<link><xacro:attribute name=\"name\" value=\"late\"/></link>" +
+      {"<link name=\"early\"><xacro:attribute name=\"name\" value=\"late\"/></link>" +
            joint_xml("j", "fixed", "root", "late"),
        "late"},
   };
@@ -201,6 +208,12 @@ TEST(Xacro, WhatIsNotUnderstoodIsAnErrorWithItsLine) {
       {macro("m", "*b", "") + "<xacro:m/>", {"needs an element"}},
       {"<xacro:insert_block name=\"none\"/>", {"no block \"none\""}},
       {"<xacro:if value=\"maybe\"/>", {"\"maybe\"", "neither true nor false"}},
+      {"<xacro:if value=\"0.5\"/>", {"\"0.5\""}},
+      {"<xacro:if value=\"1\"><xacro:attribute name=\"a\" value=\"b\"/></xacro:if>",
+       {"changes nothing"}},
+      {"<xacro:include filename=\"/*/*/none\"/>", {"wildcards"}},
+      {child("${1 is 1.0}"), {"=="}},
+      {child("${99999999999999999999}"), {"too large"}},
       {"<xacro:if/>", {"\"value\" is missing"}},
       {"<xacro:property name=\"a\" valve=\"1\"/>", {"\"valve\""}},
       {"<xacro:include filename=\"none.xacro\"/>", {"none.xacro", "cannot be read"}},
@@ -215,6 +228,38 @@ TEST(Xacro, WhatIsNotUnderstoodIsAnErrorWithItsLine) {
     EXPECT_TRUE(holds(message, "robot_description:"));
     for (const std::string& part : parts) EXPECT_TRUE(holds(message, part));
   }
+}
+
+// As PyYAML reads YAML 1.1; numbers in forms that other readers take differently are errors.
+TEST(Xacro, YamlIsReadAsPython) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& yaml) {
+    folder.write("v.yaml", yaml);
+    const auto file = folder.write(
+        "robot.xacro",
+        robot_xml(property("y", "${xacro.load_yaml('v.yaml')}") + link_xml("${y.a} of ${len(y)}")));
+    return Robot::load(file).links()[0];
+  };
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"a: 1.50", "1.5 of 1"},
+      {"a: 1e3", "1e3 of 1"},
+      {"a: 1.5e+3", "1500.0 of 1"},
+      {"a: '1.50'", "1.50 of 1"},
+      {"a: yes", "True of 1"},
+      {"a: ~", "None of 1"},
+      {"a: !degrees 180", "3.141592653589793 of 1"},
+      {"a: !inches 1 + 1", "0.0508 of 1"},
+      {"a: x\na: y", "y of 1"},
+      {"b: &b {a: 1, c: 2}\n<<: *b\nc: 3", "1 of 3"},
+      {"b: &b {a: 1}\nc: &c {a: 2, d: 4}\n<<: [*b, *c]", "1 of 4"},
+  };
+  for (const auto& [yaml, name] : cases) {
+    SCOPED_TRACE(yaml);
+    EXPECT_EQ(read(yaml), name);
+  }
+  for (const std::string odd :
+       {"010", "0x1F", "1_000", "12:30", ".inf", "!degrees [1]", "!foo 1", "[1", "1\n---\na: 2"})
+    EXPECT_TRUE(holds(message_of([&] { (void)read("a: " + odd); }), "v.yaml")) << odd;
 }
 
 TEST(Xacro, ArgumentsThatNoFileUsesAreSaid) {
@@ -257,9 +302,17 @@ TEST(Xacro, FilesThatGrowWithoutBoundAreRefused) {
     macros += macro("m" + std::to_string(level), "", calls);
     lists += property("l" + std::to_string(level), list + "}");
   }
+  const std::string block = "<xacro:insert_block name=\"b\"/>";
+  std::string deep = property("d30", "1");
+  std::string sum;
+  for (int i = 0; i < 900; ++i) sum += "+1";
+  for (int i = 29; i >= 0; --i)
+    deep += property("d" + std::to_string(i), "${d" + std::to_string(i + 1) + sum + "}");
+  EXPECT_EQ(names_of(child("a${'' * 9223372036854775807}")), "a");
   for (const std::string& body :
        {texts + child("${t19}"), macros + "<xacro:m19/>", lists + child("${len(l19)}"),
-        child("${" + std::string(3000, '(') + "}")})
+        child("${" + std::string(3000, '(') + "}"), deep + child("${d0}"),
+        "<xacro:property name=\"b\">" + block + "</xacro:property>" + block})
     EXPECT_THROW((void)names_of(body), InputError);
 }
 
