@@ -35,6 +35,8 @@ def template(tmp_path_factory):
     urdf = urdf.replace("package://arm_description", f"package://{ROBOT}").replace('"forearm"', '"forearm_link"')
     shutil.copytree(SHIPPED / "arm_description", folder / ROBOT)
     (folder / "ur5e.urdf").write_text(urdf)
+    arguments = "".join(f'<xacro:arg name="{name}" default=""/>' for name in ("ur_type", "name"))
+    (folder / "ur.urdf.xacro").write_text(urdf.replace("<link", arguments + "<link", 1))
     shutil.copytree(SHIPPED, folder / "my_recording", ignore=shutil.ignore_patterns("truth"))
     shutil.copytree(SHIPPED, folder / "my_images", ignore=shutil.ignore_patterns("truth", "recording.yaml"))
     for name in ("detections.json", "results.json"):
