@@ -45,8 +45,7 @@ struct RunResult {
 /// An input with its pipeline, judged frame by frame.
 class InputSession {
  public:
-  /// Opens the input; `print` gets the used topics of a bag. `options` must outlive this. Throws
-  /// InputError that names the file.
+  /// Opens the input; `print` gets the used topics of a bag. Throws InputError that names the file.
   InputSession(const SessionOptions& options, const LineSink& print)
       : InputSession(options, open_input(options.input, print)) {}
   /// Of an opened input: a camera, or a sensor of points.
@@ -74,7 +73,7 @@ class InputSession {
  private:
   void judge_frames(const Sinks& sinks, const std::function<bool()>& go_on, RunResult& result);
 
-  const SessionOptions& options_;
+  SessionOptions options_;
   RunInput input_;
   std::optional<TargetsFile> targets_;
   Session session_;
