@@ -56,7 +56,7 @@ struct Value : std::variant<std::monostate, bool, std::int64_t, double, std::str
 // Throw InputError for more, or more deeply nested, items than a robot needs. Of equal keys the
 // last value counts, in the first one's place.
 [[nodiscard]] Value make_list(List items);
-[[nodiscard]] Value make_dictionary(Dictionary items);
+[[nodiscard]] Value make_dictionary(const Dictionary& items);
 [[nodiscard]] Value make_function(std::function<Value(const List&)> call);
 
 // As Python's str(), bool(), == and <. Throw InputError where Python has an error.

@@ -294,7 +294,7 @@ class Parser {
     };
   }
 
-  static Code operation(std::string op, Code left, Code right) {
+  static Code operation(const std::string& op, const Code& left, const Code& right) {
     return [=](Context at) {
       Value value = apply_operator(op, left(at), right(at));
       at.budget.spend(size_of(value));
@@ -311,7 +311,7 @@ class Parser {
       for (const char* op : operators) {
         if (found || !skip(op)) continue;
         found = true;
-        left = operation(op, std::move(left), (this->*operand)());
+        left = operation(op, left, (this->*operand)());
       }
     }
     return left;
@@ -329,9 +329,7 @@ class Parser {
     }
     Code operand = power();
     if (!has_sign) return operand;
-    const Value factor(std::int64_t{is_negative ? -1 : 1});
-    return operation(
-        "*", [=](Context) { return factor; }, std::move(operand));
+    return operation("*", constant(std::int64_t{is_negative ? -1 : 1}), operand);
   }
 
   Code power() {
@@ -341,7 +339,7 @@ class Parser {
     if (++depth_ > deepest) throw InputError("is nested too deeply");
     Code exponent = sign();
     --depth_;
-    return operation("**", std::move(base), std::move(exponent));
+    return operation("**", base, exponent);
   }
 
   Code postfix() {
@@ -355,9 +353,9 @@ class Parser {
           return attribute_of(value, name);
         };
       } else if (skip("[")) {
-        code = subscript(std::move(code));
+        code = subscript(code);
       } else if (skip("(")) {
-        code = call_of(std::move(code));
+        code = call_of(code);
       } else {
         return code;
       }
@@ -372,7 +370,7 @@ class Parser {
     return name;
   }
 
-  Code subscript(Code whole) {
+  Code subscript(const Code& whole) {
     const Code none = [](Context) { return Value(); };
     Code from = is(":") ? none : condition();
     if (skip("]"))
@@ -387,13 +385,13 @@ class Parser {
     return [=](Context at) { return slice(whole(at), from(at), to(at)); };
   }
 
-  Code call_of(Code function) {
+  Code call_of(const Code& function) {
     std::vector<Code> values;
     std::vector<std::pair<Code, Code>> named;  // one dictionary, the last argument
     while (!skip(")")) {
       Code value = condition();
       if (is("for")) {
-        values.push_back(comprehension(std::move(value), ")"));
+        values.push_back(comprehension(value, ")"));
         break;
       }
       if (skip("=")) {
@@ -425,7 +423,7 @@ class Parser {
   }
 
   /// item for NAME in LIST [if TEST], up to the bracket.
-  Code comprehension(Code item, std::string_view bracket) {
+  Code comprehension(const Code& item, std::string_view bracket) {
     need("for");
     const std::string name = identifier();
     need("in");
@@ -448,7 +446,7 @@ class Parser {
     std::vector<Code> items;
     while (!skip("]")) {
       items.push_back(condition());
-      if (items.size() == 1 && is("for")) return comprehension(std::move(items.front()), "]");
+      if (items.size() == 1 && is("for")) return comprehension(items.front(), "]");
       if (!is("]")) need(",");
     }
     return list_of(std::move(items));
@@ -469,14 +467,14 @@ class Parser {
     return [items = std::move(items)](Context at) {
       Dictionary out;
       for (const auto& [key, value] : items) out.emplace_back(key(at), value(at));
-      return make_dictionary(std::move(out));
+      return make_dictionary(out);
     };
   }
 
   Code parentheses() {
     if (skip(")")) return list_of({});
     Code inner = tuple();
-    if (is("for")) return comprehension(std::move(inner), ")");
+    if (is("for")) return comprehension(inner, ")");
     need(")");
     return inner;
   }

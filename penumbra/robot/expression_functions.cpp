@@ -149,7 +149,7 @@ Value to_dictionary(const List& arguments) {
   if (arguments[0].dictionary() != nullptr) return arguments[0];
   for (const Value& pair : items_of(arguments[0]))
     out.emplace_back(item_of(pair, Integer{0}), item_of(pair, Integer{1}));
-  return make_dictionary(std::move(out));
+  return make_dictionary(out);
 }
 
 /// A function, and how many arguments it takes.
@@ -222,7 +222,7 @@ std::map<std::string, Value, std::less<>> all_functions() {
   std::map<std::string, Value, std::less<>> all;
   for (const Dictionary& functions : {of_math, of_python})
     for (const auto& [name, function] : functions) all[to_text(name)] = function;
-  all["math"] = make_dictionary(std::move(of_math));
+  all["math"] = make_dictionary(of_math);
   all["python"] = make_dictionary(of_python);
   return all;
 }

@@ -185,17 +185,17 @@ Value make_list(List items) {
   return std::make_shared<const Container<List>>(std::move(list));
 }
 
-Value make_dictionary(Dictionary items) {
+Value make_dictionary(const Dictionary& items) {
   Container<Dictionary> dictionary;
   std::map<std::string, std::size_t> places;
-  for (auto& [key, value] : items) {
+  for (const auto& [key, value] : items) {
     const auto [place, is_new] =
         places.try_emplace(std::to_string(key.index()) + to_text(key), dictionary.items.size());
     count(value, dictionary);
     if (is_new)
-      dictionary.items.emplace_back(std::move(key), std::move(value));
+      dictionary.items.emplace_back(key, value);
     else
-      dictionary.items[place->second].second = std::move(value);
+      dictionary.items[place->second].second = value;
   }
   return std::make_shared<const Container<Dictionary>>(std::move(dictionary));
 }

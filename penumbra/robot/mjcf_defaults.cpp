@@ -197,7 +197,7 @@ std::vector<double> mjcf_numbers(const UrdfNode& node, std::string_view key) {
 Eigen::Vector3d mjcf_vector(const UrdfNode& node, std::string_view key,
                             const Eigen::Vector3d& absent) {
   if (!node.has(key)) return absent;
-  const Eigen::Vector3d value = node.vector(key);
+  Eigen::Vector3d value = node.vector(key);
   if (value.cwiseAbs().maxCoeff() > farthest_origin)
     node.fail(std::string(key) + "=" + in_quotes(node.text(key)) + " lies beyond 1e6");
   return value;

@@ -67,7 +67,7 @@ class Expander {
   /// Evaluates the text up to the next expression, or that expression, and cuts it off.
   Value next_part(std::string_view& text, Scope& scope) {
     const auto cut = [&](std::size_t count) {
-      const std::string part(text.substr(0, count));
+      std::string part(text.substr(0, count));
       text.remove_prefix(count);
       return part;
     };

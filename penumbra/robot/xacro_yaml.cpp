@@ -89,7 +89,7 @@ class Reader {
         own.emplace_back(read(key, depth + 1), read(entry.second, depth + 1));
     }
     merged.insert(merged.end(), own.begin(), own.end());
-    return make_dictionary(std::move(merged));
+    return make_dictionary(merged);
   }
 
  private:
