@@ -311,7 +311,7 @@ TEST(MjcfOracle, PosesShapesAndLimitsAreMuJoCos) {
   const TemporaryFolder folder;
   write_meshes(folder);
   int joints = 0, couplings = 0;
-  for (int run = 0; run < 40; ++run) {
+  for (int run = 0; run < samples(40); ++run) {
     RandomMjcf source(random);
     const std::string text = source.text();
     const auto file = folder.write("robot.xml", text);
@@ -326,7 +326,7 @@ TEST(MjcfOracle, PosesShapesAndLimitsAreMuJoCos) {
     expect_limits(robot, *mujoco.model);
     if (testing::Test::HasFailure()) break;
   }
-  EXPECT_GT(joints, 100);
+  EXPECT_GT(joints, samples(100));
   EXPECT_GT(couplings, 10);
 }
 
