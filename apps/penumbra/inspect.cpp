@@ -90,7 +90,7 @@ void print_robot(const Robot& robot) {
 
 void add_options(CLI::App& app, InspectArguments& inspect) {
   app.footer(inspect_examples);
-  add_text(app, "URDF", "the robot: URDF or MJCF", "", inspect.robot)->required();
+  add_text(app, "URDF", "the robot: URDF, xacro or MJCF", "", inspect.robot)->required();
   add_robot(app, inspect.options);
   app.add_flag("--json", inspect.json, "print JSON instead of tables");
 }

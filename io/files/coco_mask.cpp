@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "coco_mask.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <vector>
+
+#include <io/files/coco_mask.hpp>
 
 namespace penumbra::io {
 namespace {

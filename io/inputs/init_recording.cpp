@@ -256,8 +256,10 @@ class Draft {
 fs::path robot_file(const InitOptions& options, const std::vector<fs::path>& files) {
   if (options.robot) return fs::relative(*options.robot, options.folder);
   std::vector<fs::path> robots;
-  for (const fs::path& file : files)
-    if (ends_with(file, {".urdf", ".urdf.xacro"})) robots.push_back(file);
+  for (const char* const ending : {".urdf", ".urdf.xacro"})  // a URDF may be made of the other
+    if (robots.empty())
+      std::ranges::copy_if(files, std::back_inserter(robots),
+                           [&](const fs::path& file) { return ends_with(file, {ending}); });
   if (robots.empty())
     throw InputError(options.folder.string() +
                      ": holds no URDF or .urdf.xacro; name the robot's by --robot FILE");

@@ -34,9 +34,7 @@ class Names {
   [[nodiscard]] virtual std::optional<Value> find(const std::string& name) = 0;
 };
 
-struct Function {
-  std::function<Value(const List&)> call;
-};
+using Function = std::function<Value(const List&)>;
 
 /// A value of Python: None, a number, text, a container, a function, or a namespace.
 struct Value : std::variant<std::monostate, bool, std::int64_t, double, std::string,
@@ -57,7 +55,7 @@ struct Value : std::variant<std::monostate, bool, std::int64_t, double, std::str
 // last value counts, in the first one's place.
 [[nodiscard]] Value make_list(List items);
 [[nodiscard]] Value make_dictionary(const Dictionary& items);
-[[nodiscard]] Value make_function(std::function<Value(const List&)> call);
+[[nodiscard]] Value make_function(Function function);
 
 // As Python's str(), bool(), == and <. Throw InputError where Python has an error.
 [[nodiscard]] std::string to_text(const Value& value);

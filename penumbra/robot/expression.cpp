@@ -137,7 +137,7 @@ std::size_t size_of(const Value& value) {
 Value call(const Value& function, const List& arguments) {
   const auto* callable = function.as<std::shared_ptr<const Function>>();
   if (callable == nullptr) throw InputError("only functions can be called");
-  return (*callable)->call(arguments);
+  return (**callable)(arguments);
 }
 
 bool contains(const Value& container, const Value& item) {

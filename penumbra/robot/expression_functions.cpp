@@ -131,7 +131,7 @@ Value mapped(const List& arguments) {
   const auto* function = arguments[0].as<std::shared_ptr<const Function>>();
   if (function == nullptr) throw InputError("map needs a function");
   List out;
-  for (const Value& item : items_of(arguments[1])) out.push_back((*function)->call({item}));
+  for (const Value& item : items_of(arguments[1])) out.push_back((**function)({item}));
   return make_list(std::move(out));
 }
 

@@ -200,8 +200,8 @@ Value make_dictionary(const Dictionary& items) {
   return std::make_shared<const Container<Dictionary>>(std::move(dictionary));
 }
 
-Value make_function(std::function<Value(const List&)> call) {
-  return std::make_shared<const Function>(Function{std::move(call)});
+Value make_function(Function function) {
+  return std::make_shared<const Function>(std::move(function));
 }
 
 std::string to_text(const Value& value) {

@@ -90,7 +90,7 @@ class Expander {
     }
   }
 
-  /// $(find PACKAGE), $(arg NAME), $(env NAME), $(optenv NAME DEFAULT)
+  /// $(find PACKAGE), $(arg NAME), $(dirname), $(env NAME), $(optenv NAME DEFAULT)
   Value substitute(const std::string& text) {
     const std::string_view all = trimmed(text);
     const std::size_t space = std::min(all.find(' '), all.size());
@@ -155,10 +155,14 @@ class Expander {
 
   bool is_set(const XmlElement& element, const std::string& key, bool absent, Scope& scope) {
     const auto value = optional_attribute(element, key, scope);
+    return value ? truth_of(element, *value) : absent;
+  }
+
+  [[nodiscard]] bool truth_of(const XmlElement& element, const Value& value) const {
     try {
-      return value ? to_truth(*value) : absent;
+      return to_truth(value);
     } catch (const InputError& error) {
-      fail(element, key + ": " + error.what());
+      fail(element, error.what());
     }
   }
 
@@ -247,8 +251,7 @@ class Expander {
     if (name == "call") return call_macro(element, name_of(element, scope, "macro"), scope, out);
     if (name != "if" && name != "unless") return call_macro(element, name, scope, out);
     expect(element, {"value"});
-    required_attribute(element, "value", scope);
-    if (is_set(element, "value", false, scope) == (name == "if"))
+    if (truth_of(element, required_attribute(element, "value", scope)) == (name == "if"))
       expand_children(element, scope, out);
   }
 

@@ -93,7 +93,7 @@ class Reader {
   }
 
  private:
-  /// Adds a dictionary, or a list of them of which the first count most.
+  /// Adds a dictionary, or several: the first one in a list overrides the others.
   static void merge(const Value& value, Dictionary& out) {
     if (const List* list = value.list())
       for (auto item = list->rbegin(); item != list->rend(); ++item) merge(*item, out);

@@ -479,9 +479,13 @@ def run(
     robot = os.path.abspath(robot) if robot.endswith((".yaml", ".yml")) else robot
     urdf = os.path.abspath(urdf) if urdf else ""
     dataset = Dataset.load(file, robot, urdf)
+    dataset_file = pathlib.Path(file)
+    common = [dataset_file, *filter(None, [dataset.robot.urdf])]
+    if dataset._recorded.name:  # a file, unless it is a name of robots.yaml
+        common.append(dataset_file.parent / dataset._recorded.name)
     given = [(name, [file, robot, urdf, *save]) for name in _episodes(inputs, dataset)]
     return batch.run_work(
-        _write_masks, given, lambda name: [_file_of(name), pathlib.Path(file)], output, **where
+        _write_masks, given, lambda name: [_file_of(name), *common], output, **where
     )
 
 
@@ -497,7 +501,7 @@ def main() -> int:
     parser.add_argument("inputs", nargs="+", metavar="FILE", help="HDF5, .npz, or 'pattern*.hdf5'")
     parser.add_argument("--dataset", required=True, help="dataset.yaml: robot, camera, joints")
     parser.add_argument("--robot", default="", help="name of the robot, or its mapping file")
-    parser.add_argument("--description", default="", help="the robot's URDF or xacro file")
+    parser.add_argument("--description", default="", help="the robot: URDF, xacro or MJCF")
     parser.add_argument("--save", default="rle", help=",".join(mask_files.WRITERS))
     batch.add_options(parser)
     known = parser.parse_args()

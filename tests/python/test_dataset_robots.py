@@ -136,9 +136,9 @@ def test_all_robots_are_in_the_table_and_name_a_description():
     ("so101", SO101, [1, 2, 3, 4, 5], ["5 columns", "6", "shoulder_pan.pos", "gripper.pos"]),
 ])
 def test_what_does_not_fit_is_said_by_column(robot, joints, row, words, tmp_path):
-    told = fault(tmp_path, row, robot, joints)
+    message = fault(tmp_path, row, robot, joints)
     for word in words:
-        assert word in told, told
+        assert word in message, message
 
 
 WITHOUT_FINGER = {name: limits for name, limits in HAND.items() if "finger" not in name}
@@ -202,7 +202,7 @@ def test_the_command_line_names_robot_and_description(tmp_path):
     run_python(*words, "--robot", "so101", "--description", "robot.urdf", cwd=tmp_path)
     [masks] = tmp_path.glob("out/*/run/masks.npz")
     assert np.allclose(np.load(masks)["joints"][0][0], -np.pi / 2)
-    told = run_python(*words, "--robot", "so102", status=2, cwd=tmp_path).stderr
-    assert "so101" in told and len(told.splitlines()) == 1
-    told = run_python(*words, "--robot", "so101", "--description", "none.urdf", status=2, cwd=tmp_path).stderr
-    assert "none.urdf" in told and len(told.splitlines()) == 1
+    message = run_python(*words, "--robot", "so102", status=2, cwd=tmp_path).stderr
+    assert "so101" in message and len(message.splitlines()) == 1
+    message = run_python(*words, "--robot", "so101", "--description", "none.urdf", status=2, cwd=tmp_path).stderr
+    assert "none.urdf" in message and len(message.splitlines()) == 1

@@ -4,6 +4,7 @@
 import io
 import json
 import pathlib
+import shutil
 
 import numpy as np
 from PIL import Image
@@ -360,6 +361,24 @@ def test_a_batch_goes_on_after_faulty_episodes_and_does_only_what_is_new(joints,
     assert len(list(tmp_path.glob("out/*/run/robot_mask/*.png"))) == 10
     command(folder / "nan.hdf5", *batch[1:], "rle", status=2)
     assert "prompts" in command(*batch, "masks", status=2).stderr
+
+
+def test_masks_are_made_again_after_a_change_of_the_robot(joints, tmp_path):
+    pytest.importorskip("distributed")
+    urdf = tmp_path / "arm.urdf"
+    shutil.copy(SHIPPED / "arm_description" / "arm.urdf", urdf)
+    description = describe(tmp_path, robot={
+        "urdf": str(urdf), "packages": {"arm_description": str(SHIPPED / "arm_description")}})
+    file = write_h5(tmp_path / "a.hdf5", {"qpos": recorded(joints)})
+
+    def made():
+        datasets.run([file], tmp_path / "out", description, workers=1)
+        return [of.stat().st_mtime_ns for of in tmp_path.glob("out/*/batch.json")]
+
+    first = made()
+    assert made() == first
+    urdf.write_text(urdf.read_text() + "<!-- changed -->")
+    assert made() != first
 
 
 def test_groups_of_one_file_are_episodes_of_a_batch(arm, joints, tmp_path):

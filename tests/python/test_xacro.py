@@ -38,7 +38,7 @@ def without_signs(text):
 
 
 class Maker:
-    """Makes random expressions, most of which Python accepts."""
+    """Makes random expressions; Python accepts most of them."""
 
     def __init__(self, seed):
         self.random = random.Random(seed)

@@ -414,7 +414,7 @@ Settings read_settings(rclcpp_lifecycle::LifecycleNode& node) {
   declare_cameras(node, common, settings);
   check_names(node, settings);
   const auto urdf =
-      declare("robot", std::string(), "URDF or xacro file, in place of robot_description");
+      declare("robot", std::string(), "URDF, xacro or MJCF file, in place of robot_description");
   if (!urdf.empty())
     settings.live.robot.given = penumbra::Robot::load(urdf, settings.live.robot.robot);
 
