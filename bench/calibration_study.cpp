@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calibrates simulated cameras whose pose is known, and counts how far off the results and their
 // stated errors are; or calibrates with wrong inputs, and counts what is said of them. Without
-// arguments and with "faults" alone it writes a table of docs/calibration.md.
+// arguments and with "faults" alone it writes a table of bench/results/calibration.txt.
 // usage: calibration_study [PART OF A SETUP'S NAME [RUNS [PART OF A ROBOT'S NAME]]]
 //        calibration_study faults [RUNS [PART OF A FAULT'S NAME [FIRST SEED]]]
 //        calibration_study masks [RUNS [PART OF A SETUP'S NAME [PART OF A ROBOT'S NAME]]]
@@ -411,7 +411,7 @@ int study_faults(std::size_t runs, const std::string& wanted, std::uint64_t firs
     std::cout << '|' << std::endl;
   }
   if (wanted.empty())
-    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md",
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "bench/results/calibration.txt",
                 "calibration_faults", table(rows));
   return 0;
 }
@@ -430,7 +430,7 @@ int write_table(const std::string& name, const std::vector<Setup>& setups, std::
       std::cout << std::endl;
     }
   if (wanted.empty() && only.empty())
-    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md", name,
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "bench/results/calibration.txt", name,
                 table(rows));
   return 0;
 }
@@ -549,7 +549,7 @@ int study_few(std::uint64_t runs, std::size_t only) {
       std::cout << '|' << std::endl;
     }
   if (only == 0)
-    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md",
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "bench/results/calibration.txt",
                 "calibration_few", table(rows));
   return 0;
 }
@@ -598,7 +598,7 @@ int study_all(int argc, char** argv) {
         add(time_rows, run_moving(robot, speed, seeds));
   }
   if (wanted.empty() && only.empty())
-    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md",
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "bench/results/calibration.txt",
                 "calibration_study", table(rows) + "\n" + table(time_rows));
   return 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures, on a real recording, how many points of the robot are left in a cloud without the robot
 // and what the fringe removes of objects pasted beside it. Prints all tables; writes the first into
-// docs/cloud.md.
+// docs/tuning.md, another into bench/results/points.txt.
 #include "../tests/support/cloud_measure.hpp"
 #include "../tests/support/pasted_objects.hpp"
 #include "study_page.hpp"
@@ -187,8 +187,8 @@ void run(const std::filesystem::path& recording, const std::filesystem::path& ro
   std::cout << "with a memory of the other frames " << number(left_with_memory(recorded), 2)
             << " % of the arm's points are left\n";
   const std::string kept = remembered(recorded, placements);
-  update_page(root / "docs/cloud.md", "cloud_study", page);
-  update_page(root / "docs/cloud.md", "memory_study", kept);
+  update_page(root / "docs/tuning.md", "cloud_study", page);
+  update_page(root / "bench/results/points.txt", "memory_study", kept);
 }
 
 }  // namespace

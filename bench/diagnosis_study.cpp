@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spoils right setups by one mistake at a time, and counts what the diagnosis says. Without
-// arguments, or of images or masks, it writes a table of docs/diagnosis.md. VERBOSE=1 prints each
-// diagnosis.
-// usage: diagnosis_study [images | masks]
+// arguments, or of images or masks, it writes a table of bench/results/diagnosis.txt. VERBOSE=1
+// prints each diagnosis. usage: diagnosis_study [images | masks]
 //            [TIMES [PART OF A MISTAKE [PART OF A CELL [SEED [CELLS OF EACH KIND]]]]]
 #include "simulated_cell.hpp"
 #include "study_page.hpp"
@@ -371,7 +370,7 @@ int study_all(int argc, char** argv) {
                     number(seconds / std::max(count, 1), 1)});
   }
   if (wanted.empty() && only.empty())
-    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/diagnosis.md",
+    update_page(std::filesystem::path(PENUMBRA_STUDY_ROOT) / "bench/results/diagnosis.txt",
                 "diagnosis_" + (kind == "images" || kind == "masks" ? kind : "study"), table(rows));
   return 0;
 }

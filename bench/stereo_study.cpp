@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures against the simulator's truth what a stereo camera carries past the robot's outline, how
-// much of it the fringe finds and what it takes of real things. Writes a table into docs/cloud.md.
-// With --sequences, prints the same of a moving arm, from single images and with a memory of the
-// scene: where things stay, where half of them go and others come, where a person walks through and
-// where a door opens. With --boxes, prints what is kept of two boxes next to the arm's outline, of
-// which one stood there before the arm came.
+// much of it the fringe finds and what it takes of real things. Writes a table into
+// bench/results/points.txt. With --sequences, prints the same of a moving arm, from single images
+// and with a memory of the scene: where things stay, where half of them go and others come, where a
+// person walks through and where a door opens. With --boxes, prints what is kept of two boxes next
+// to the arm's outline, of which one stood there before the arm came.
 #include "../tests/support/cloud_measure.hpp"
 #include "stereo_camera.hpp"
 #include "study_page.hpp"
@@ -598,7 +598,8 @@ int main(int argc, char** argv) {
     const std::string text = report(sum);
     std::cout << text;
     if (!has_count)
-      update_page(std::filesystem::path(arguments[0]) / "docs/cloud.md", "stereo_study", text);
+      update_page(std::filesystem::path(arguments[0]) / "bench/results/points.txt", "stereo_study",
+                  text);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 2;

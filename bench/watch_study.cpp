@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Watches simulated cameras that stay, that are bumped, that drift, and whose clocks differ, beside
-// a swinging arm. Writes the tables of docs/calibration.md. usage: watch_study [FRAMES PER ROBOT
-// [MOTIONS PER ROBOT]], or bumps [SEQUENCES PER ROBOT [still]]
+// a swinging arm. Writes the tables of bench/results/watch.txt. usage: watch_study [FRAMES PER
+// ROBOT [MOTIONS PER ROBOT]], or bumps [SEQUENCES PER ROBOT [still]]
 #include "simulated_cell.hpp"
 #include "study_page.hpp"
 
@@ -370,7 +370,7 @@ int study_all(int argc, char** argv) {
   }
   const std::size_t frames = argc > 1 ? std::stoull(argv[1]) : 20000;
   const std::size_t motions = argc > 2 ? std::stoull(argv[2]) : 25;
-  const auto page = std::filesystem::path(PENUMBRA_STUDY_ROOT) / "docs/calibration.md";
+  const auto page = std::filesystem::path(PENUMBRA_STUDY_ROOT) / "bench/results/watch.txt";
   std::vector<std::vector<std::string>> clocks{
       {"robot", "sequences", "camera blamed", "clocks named", "either",
        "frames until then, median, most", "ms off, median, most"}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measure of docs/cloud.md.
+// The measure of docs/tuning.md.
 #pragma once
 
 #include <cmath>
