@@ -2,10 +2,11 @@
 """Which pages there are, in which order."""
 
 PAGES = {
-    "Start": ["getting-started", "install", "method"],
-    "Use": ["cloud", "point_clouds", "targets", "ros2", "live", "viewer", "python", "cpp", "diagnosis", "tuning", "scene", "look_ahead", "calibration", "batch", "robot_masks"],
-    "Details": ["recording", "tracking", "time"],
-    "Reference": ["performance", "architecture"],
+    "Start here": ["getting-started", "robot_and_camera", "hidden", "cloud", "diagnosis"],
+    "Understand": ["method", "viewer", "install"],
+    "Programs and ROS": ["python", "cpp", "ros2", "live"],
+    "More tasks": ["calibration", "point_clouds", "robot_masks", "scene", "look_ahead"],
+    "Reference": ["recording", "targets", "tracking", "tuning", "time", "performance", "architecture"],
 }
 
 

@@ -50,6 +50,8 @@ def template(tmp_path_factory):
         mask = session.process(frame).robot_mask
         penumbra.write_png(folder / "my_recording" / f"mask_{i}.png", mask.astype(np.uint8))
     write_bag(folder / "recording.mcap", messages_of(given, urdf, "base_link"))
+    (folder / "my_bag").mkdir()
+    shutil.copy(folder / "recording.mcap", folder / "my_bag" / "my_bag_0.mcap")
     return folder
 
 
