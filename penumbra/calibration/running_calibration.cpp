@@ -13,8 +13,8 @@ namespace {
 // Once a good pose is found, so many new frames are solved together, or those that are there after
 // so many frames without a new pose: the robot rests, or repeats its motion.
 constexpr std::size_t new_frames = 3, patience = 30;
-/// With fewer the stated region holds the truth too seldom (docs/calibration.md), and more will
-/// come.
+/// With fewer the stated region holds the truth too seldom (bench/results/calibration.txt), and
+/// more will come.
 constexpr std::size_t least_poses = 5;
 
 std::string mm_and_degrees(double metres, double radians) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The default rule on the real recording: without anything in front of the robot, and on objects
-// pasted before and beside it. docs/tuning.md and docs/cloud.md have the full studies.
+// pasted before and beside it. docs/tuning.md and bench/results/points.txt have the full studies.
 #include "../support/cloud_measure.hpp"
 #include "../support/data.hpp"
 #include "../support/pasted_objects.hpp"

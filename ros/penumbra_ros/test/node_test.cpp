@@ -129,7 +129,7 @@ TEST_F(NodeTest, CalibratesWhileItRunsAndAppliesWhenAsked) {
     return !found || found->found;
   })) << found->message;
   ASSERT_TRUE(found);
-  // docs/calibration.md: 95 % of poses by three frames end within 6.5 mm.
+  // bench/results/calibration.txt: 95 % of poses by three frames end within 6.5 mm.
   constexpr double near_truth = 0.01;  // metres
   EXPECT_EQ(found->transform.header.frame_id, player_->recording.camera.camera.parent);
   EXPECT_EQ(found->transform.child_frame_id, Player::frame_id);
