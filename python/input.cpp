@@ -142,7 +142,7 @@ void bind_bag_options(py::module_& m) {
       Field{"plan_topics", &B::plan_topics,
             "JointTrajectory that the robot follows; none: MoveIt's display_planned_path."},
       Field{"poses", &B::poses, "None: joints, or transforms if there are no joint states."},
-      Field{"robot", &B::robot, "URDF in place of /robot_description."},
+      Field{"robot", &B::robot, "URDF, xacro or MJCF in place of /robot_description."},
       Field{"packages", &B::packages, "package://NAME to its folder."},
       Field{"arguments", &B::arguments, "Of a xacro file: name to value."},
       Field{"frame_prefix", &B::frame_prefix, "Before link names in tf, without a leading /."},

@@ -88,9 +88,9 @@ void bind_options(py::module_& m) {
                               "What a link carries that the URDF lacks: a tool, a cable, a cover.");
   bind_fields(extra, Field{"link", &ExtraMesh::link, "Its name; no pattern."},
               Field{"mesh", &ExtraMesh::mesh, "A file, in the link's frame, metres."});
-  py::class_<RobotOptions> options(
-      m, "RobotOptions",
-      "What of a URDF is drawn, and where its files are. Link patterns are globs (*, ?, [a-z]).");
+  py::class_<RobotOptions> options(m, "RobotOptions",
+                                   "What of a URDF or MJCF is drawn, and where its files are. Link "
+                                   "patterns are globs (*, ?, [a-z]).");
   using O = RobotOptions;
   bind_fields(
       options, Field{"packages", &O::packages, "package://NAME to its folder."},
@@ -177,11 +177,13 @@ std::size_t find_variable(const Robot& robot, const std::string& name) {
 
 void bind_robot_class(py::module_& m) {
   using R = Robot;
-  py::class_<R> robot(m, "Robot", "A URDF's links, joints and geometry. Immutable.");
+  py::class_<R> robot(m, "Robot",
+                      "Links, joints and geometry of a URDF, xacro or MJCF. Immutable.");
   robot
       .def_static("load", &Robot::load, py::arg("urdf"), py::arg("options") = RobotOptions(),
                   WithoutGil(),
-                  "Reads a URDF and its meshes. Raises InputError with file, line and element.")
+                  "Reads a URDF, xacro or MJCF and its meshes. Raises InputError with file, line "
+                  "and element.")
       .def_static(
           "parse",
           [](const std::string& xml, const std::filesystem::path& folder,
@@ -216,7 +218,7 @@ void bind_robot_class(py::module_& m) {
                " links, " + std::to_string(r.variables().size()) + " variables>";
       });
   show_properties(
-      robot, Field{"name", &R::name, "The URDF's name."},
+      robot, Field{"name", &R::name, "The name in its description."},
       Field{"urdf",
             [](const R& r) { return r.urdf().empty() ? std::nullopt : std::optional(r.urdf()); },
             "The file that load() read; None: it comes from none (parse(), join(), a bag)."},

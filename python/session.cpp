@@ -158,7 +158,8 @@ void bind_session(py::module_& m) {
   m.def("robot_mask", &mask_of, py::arg("robot"), py::arg("camera"), py::arg("joints"),
         "Returns where a camera sees the robot if nothing stands before it: bool (H, W), in the "
         "camera's own image; False where its lens model does not reach. robot: a Robot, or the "
-        "path of a URDF; joints: as of Session.process. For many images use Session.process and "
+        "path of its description; joints: as of Session.process. For many images use "
+        "Session.process and "
         "FrameReport.robot_mask. Raises InputError if the mask would lack something: the camera's "
         "pose is not known, a mesh could not be read, or a part is within 1 cm of the camera.");
   show_properties(session,

@@ -90,7 +90,8 @@ class Expander {
     }
   }
 
-  /// $(find PACKAGE), $(arg NAME), $(dirname), $(env NAME), $(optenv NAME DEFAULT)
+  /// $(find PACKAGE), $(arg NAME), $(dirname), $(env NAME), $(optenv NAME DEFAULT), $(eval
+  /// EXPRESSION)
   Value substitute(const std::string& text) {
     const std::string_view all = trimmed(text);
     const std::size_t space = std::min(all.find(' '), all.size());
@@ -99,6 +100,7 @@ class Expander {
     if (command == "arg") return argument(name);
     if (command == "find") return packages_.find_package(name).string();
     if (command == "dirname") return folders_.front().string();
+    if (command == "eval") return to_text(evaluate(name, arguments_alone(name), budget_));
     if (command == "env" || command == "optenv") {
       const std::size_t end = std::min(name.find(' '), name.size());
       const char* value = std::getenv(name.substr(0, end).c_str());
@@ -107,7 +109,17 @@ class Expander {
       throw InputError("the environment has no variable " + in_quotes(name));
     }
     throw InputError("$(" + text +
-                     ") is not supported; expected find, arg, dirname, env or optenv");
+                     ") is not supported; expected find, arg, dirname, env, optenv or eval");
+  }
+
+  /// Returns the names that $(eval EXPRESSION) knows: arguments, but no properties.
+  Scope& arguments_alone(std::string_view expression) {
+    std::erase_if(unused_, [&](const std::string& name) {
+      return expression.find(name) != std::string_view::npos;
+    });
+    Scope& names = make_scope(nullptr, false);
+    for (const auto& [name, value] : arguments_) names.set(name, value, true);
+    return names;
   }
 
   Value argument(const std::string& name) {

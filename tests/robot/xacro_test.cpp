@@ -124,6 +124,9 @@ TEST(Xacro, WhatElementsStandFor) {
        "1.50_ 2.50_"},
       {property("a", "1.50") + child("a${a}"), "a1.5"},
       {child("$${a}"), "${a}"},
+      {"<xacro:arg name=\"size\" default=\"2\"/><xacro:arg name=\"kind\" default=\"x\"/>" +
+           child("$(eval size * 2 if kind == 'x' else 0)_") + child("$(eval kind + '1')"),
+       "4_ x1"},
       {"<xacro:if value=\"${1 &lt; 2}\">" + child("yes") + "</xacro:if><xacro:unless value=\"1\">" +
            child("no") + "</xacro:unless>",
        "yes"},
@@ -199,7 +202,8 @@ TEST(Xacro, WhatIsNotUnderstoodIsAnErrorWithItsLine) {
       {child("$(arg none)"), {"none:=VALUE"}},
       {child("$(find no_such_package)"), {"no_such_package", "--package"}},
       {child("$(env NO_SUCH_VARIABLE)"), {"NO_SUCH_VARIABLE"}},
-      {child("$(eval 1 + 1)"), {"not supported"}},
+      {property("a", "1") + child("$(eval a)"), {"\"a\"", "not defined"}},
+      {child("$(anon a)"), {"not supported"}},
       {"<xacro:unknown/>", {"\"unknown\"", "no known macro"}},
       {"<acro:child n=\"a\"/>", {"acro:child", "xacro:"}},
       {"<xacro:child/>", {"\"n\"", "not given"}},

@@ -74,6 +74,7 @@ LookAheadService::LookAheadService(rclcpp_lifecycle::LifecycleNode& node, const 
                            [this, id, request,
                             former = std::make_shared<std::future<void>>(std::move(answering_))] {
                              if (former->valid()) former->wait();
+                             *former = {};  // otherwise each request keeps all before it
                              Seen seen;
                              {
                                const std::lock_guard lock(mutex_);

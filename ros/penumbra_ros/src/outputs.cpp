@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include <rclcpp/version.h>
+
 #include <io/ros/message_encoder.hpp>
 
 namespace penumbra_ros {
@@ -15,6 +17,13 @@ namespace {
 using penumbra::io::Result;
 
 constexpr std::size_t points_depth = 5;  // megabytes each
+
+/// The end of compressed_image_transport's parameter.
+#if RCLCPP_VERSION_GTE(21, 0, 0)  // Iron
+constexpr const char* format_parameter = ".compressed.format";
+#else
+constexpr const char* format_parameter = ".format";
+#endif
 
 template <typename M>
 auto advertise(rclcpp_lifecycle::LifecycleNode& node, const std::string& name,
@@ -55,7 +64,7 @@ Outputs::Outputs(rclcpp_lifecycle::LifecycleNode& node, rclcpp::Node& images,
     // JPEG, compressed_image_transport's default, would change labels and masks.
     std::string parameters = topic.substr(images.get_effective_namespace().size());
     std::replace(parameters.begin(), parameters.end(), '/', '.');
-    images.declare_parameter(parameters + ".compressed.format", "png");
+    images.declare_parameter(parameters + format_parameter, "png");
     images_[result] = image_transport::create_publisher(
         &images, topic, rclcpp::QoS(result_depth).get_rmw_qos_profile(), with_qos_parameters());
   }

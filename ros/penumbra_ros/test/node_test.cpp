@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <map>
 #include <mutex>
 
@@ -207,6 +208,21 @@ TEST_F(NodeTest, HoldsAJointOfNoTopicAndReadsOtherNamesAndUnits) {
   const auto twice_as_far = labels_with({"depth_scale", 0.002});
   ASSERT_EQ(twice_as_far.size(), usual->data.size());
   EXPECT_NE(twice_as_far, usual->data);
+}
+
+TEST_F(NodeTest, ReadsAXacroFileWithArguments) {
+  const std::string file = testing::TempDir() + "penumbra_hand.urdf.xacro";
+  std::ofstream(file) << R"(<robot name="hand" xmlns:xacro="http://www.ros.org/wiki/xacro">
+    <xacro:arg name="side" default="right"/>
+    <link name="$(arg side)_hand">
+      <collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision>
+    </link>
+  </robot>)";
+  rclcpp_lifecycle::LifecycleNode node(
+      "penumbra", options({{"robot", file}, {"arguments", std::vector<std::string>{"side=left"}}}));
+  const Settings settings = read_settings(node);
+  ASSERT_TRUE(settings.live.robot.given);
+  EXPECT_TRUE(settings.live.robot.given->find_link("left_hand"));
 }
 
 /// Moves the arm's first joint to an angle in two seconds.
@@ -457,6 +473,7 @@ TEST(Node, RefusesWhatItDoesNotUnderstandInOneLine) {
   for (const std::string arguments :
        {"--fast", "--ros-args -p geometry:=both", "--ros-args -p robot:=/none.urdf",
         "--ros-args -p margins:=\"['gripper']\"", "--ros-args -p has_depth:=false",
+        "--ros-args -p arguments:=\"['ur_type']\"",
         "--ros-args -p joints:=\"['gripper_left=wide']\"",
         "--ros-args -p joints:=\"['elbow=0', 'elbow=1']\"", "--ros-args -p joint_names:=left/",
         "--ros-args -p robot_namespaces:=\"['left']\" -p joints:=\"['elbow=0']\"",
