@@ -102,7 +102,9 @@ std::vector<PointView> Report::point_views(const std::string& link, const Points
   check_is_last();
   if (!state_->report_camera)
     throw py::value_error("FrameReport: points are judged in images; a scan has none");
-  return penumbra::point_views(with_names(), *state_->report_camera, link, points);
+  auto& judge = state_->point_judge;
+  if (!judge) judge.emplace(state_->session.pipeline().robot());
+  return judge->judge(with_names(), *state_->report_camera, link, points);
 }
 
 namespace {

@@ -31,6 +31,7 @@ struct SessionState {
   std::optional<Intrinsics> depth_size;   ///< of depth images as they come; null: of scans
   std::optional<Camera> report_camera;    ///< likewise
   std::optional<CloudMaker> cloud_maker;  ///< likewise
+  std::optional<PointJudge> point_judge;  ///< once points are judged
   std::uint64_t calls = 0;
   OneThread thread;
 };

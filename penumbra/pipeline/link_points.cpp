@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include <penumbra/base/error.hpp>
+#include <penumbra/mesh/triangle_tree.hpp>
 #include <penumbra/pipeline/link_points.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 #include <penumbra/targets/target_views.hpp>
@@ -60,95 +59,14 @@ std::vector<Triangle> surface_of(const Robot& robot, std::size_t link) {
   return surface;
 }
 
-/// Depths are rounded (DepthRenderer::max_drawn_bodies), and slopes are differences of them.
-constexpr double depth_rounding = 3e-4;
-
-/// The robot's surface in an image. Between pixels it is the plane through the nearest ones: 1/z of
-/// a plane is linear in the image. A link's point is on it if the plane of one of the pixels around
-/// passes through the point, or less than a pixel's width behind it, since curved surfaces do.
-class DrawnSurface {
- public:
-  /// A raw image of a lens with distortion is resampled: its pixels are up to half a pixel off.
-  DrawnSurface(const VirtualDepthView& drawn, const Camera& camera)
-      : drawn_(drawn),
-        pixel_width_(1.0 / std::min(camera.intrinsics.fx(), camera.intrinsics.fy())),
-        reach_(camera.distortion.is_none() ? 0 : 1) {}
-
-  struct Hit {
-    double depth = 0.0;  ///< metres; 0: no robot
-    std::uint16_t link = 0;
-  };
-
-  /// Returns what a pixel's surface, continued to a point of the image, has there.
-  [[nodiscard]] Hit at(int u, int v, const Vector2d& point) const {
-    const double w = inverse(u, v);
-    if (w == 0.0) return {};
-    const double along_u = slope(inverse(u - 1, v), w, inverse(u + 1, v));
-    const double along_v = slope(inverse(u, v - 1), w, inverse(u, v + 1));
-    const double there = w + along_u * (point.x() - u) + along_v * (point.y() - v);
-    return {1.0 / std::max(there, 0.5 * w), drawn_.links(u, v)};
-  }
-
-  /// Returns what hides a link's point: a link image's value, 0 if nothing does; null where the
-  /// robot is not drawn.
-  [[nodiscard]] std::optional<std::uint16_t> hides(const Vector2d& point, double depth,
-                                                   std::uint16_t own) const {
-    const double nearest = depth * (1.0 - depth_rounding);
-    const double farthest = depth * (1.0 + depth_rounding + pixel_width_);
-    const Hit here = at(static_cast<int>(std::lround(point.x())),
-                        static_cast<int>(std::lround(point.y())), point);
-    if (here.link != 0 && here.link != own && here.depth < nearest) return here.link;
-    const int u0 = static_cast<int>(std::floor(point.x())) - reach_;
-    const int v0 = static_cast<int>(std::floor(point.y())) - reach_;
-    const int size = 2 * (1 + reach_);
-    Hit next = here;  // the nearest surface
-    for (int v = v0; v < v0 + size; ++v)
-      for (int u = u0; u < u0 + size; ++u) {
-        const Hit hit = at(u, v, point);
-        if (hit.link == own && nearest <= hit.depth && hit.depth <= farthest) return 0;
-        if (hit.link != 0 && (next.link == 0 || hit.depth < next.depth)) next = hit;
-      }
-    if (next.link == 0) return std::nullopt;
-    return next.depth >= nearest ? 0 : here.link != 0 ? here.link : next.link;
-  }
-
- private:
-  /// Returns 1/z, 0 where no robot is.
-  [[nodiscard]] double inverse(int u, int v) const {
-    if (u < 0 || v < 0 || u >= drawn_.depth.width || v >= drawn_.depth.height) return 0.0;
-    const float z = drawn_.depth(u, v);
-    return z > 0.0F ? 1.0 / static_cast<double>(z) : 0.0;
-  }
-
-  /// Returns the smaller difference to a neighbour: the other may be of another surface.
-  static double slope(double before, double here, double after) {
-    if (before == 0.0 && after == 0.0) return 0.0;
-    if (before == 0.0) return after - here;
-    if (after == 0.0) return here - before;
-    return std::abs(here - before) < std::abs(after - here) ? here - before : after - here;
-  }
-
-  const VirtualDepthView& drawn_;
-  double pixel_width_;  // at a depth of 1
-  int reach_;           // pixels around a point's four
-};
-
-bool is_inside(const Vector2d& pixel, const ImageView<const float>& image) {
-  return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < image.width - 0.5 &&
-         pixel.y() < image.height - 0.5;
-}
-
-/// Returns the verdict on a point that the robot does not hide.
-void judge_unhidden(const FrameReport& report, PointView& view) {
-  if (!report.missing_links.empty()) return;
-  if (is_empty(report.depth)) {
-    if (report.status == FrameStatus::ok) view.verdict = Verdict::visible;
-    return;
-  }
-  const Label label = report.label(static_cast<int>(std::lround(view.pixel.x())),
-                                   static_cast<int>(std::lround(view.pixel.y())));
-  if (label == Label::occluded) view.verdict = Verdict::visible;
-  if (label == Label::front) view.verdict = Verdict::hidden;
+/// Returns the verdict on a point that the robot does not hide; `u` and `v`: its pixel.
+Verdict verdict_unhidden(const FrameReport& report, int u, int v) {
+  if (!report.missing_links.empty()) return Verdict::unknown;
+  if (is_empty(report.depth))
+    return report.status == FrameStatus::ok ? Verdict::visible : Verdict::unknown;
+  const Label label = report.label(u, v);
+  if (label == Label::front) return Verdict::hidden;
+  return label == Label::occluded ? Verdict::visible : Verdict::unknown;
 }
 
 }  // namespace
@@ -183,37 +101,76 @@ std::vector<Vector3d> points_on(const Robot& robot, std::string_view link, std::
   return points;
 }
 
-std::vector<PointView> point_views(const FrameReport& report, const Camera& camera,
-                                   std::string_view link, std::span<const Vector3d> points) {
-  const auto T_link_camera = camera_in_link(report, link);
+struct PointJudge::Trees {
+  std::vector<std::vector<TriangleTree>> of_link;  // one for each mesh
+
+  /// Returns the value in link images of the first link before a point of the optical frame; 0:
+  /// there is none. `T_link_camera`: NaN for links of unknown pose.
+  [[nodiscard]] std::uint16_t first_before(const Vector3d& point,
+                                           std::span<const Eigen::Isometry3d> T_link_camera) const {
+    std::uint16_t first = 0;
+    double nearest = 1.0 - same_surface / point.norm();
+    for (std::size_t link = 0; link < of_link.size(); ++link) {
+      const Eigen::Isometry3d& T = T_link_camera[link];
+      if (of_link[link].empty() || !T.matrix().allFinite()) continue;
+      for (const TriangleTree& mesh : of_link[link]) {
+        const double t = mesh.first_hit(T.translation(), T.linear() * point, nearest);
+        if (t == TriangleTree::nowhere) continue;
+        nearest = t;
+        first = static_cast<std::uint16_t>(link + 1);
+      }
+    }
+    return first;
+  }
+};
+
+PointJudge::PointJudge(const Robot& robot) {
+  auto trees = std::make_shared<Trees>();
+  trees->of_link.resize(robot.links().size());
+  for (std::size_t link = 0; link < trees->of_link.size(); ++link)
+    for (const PreparedMesh& mesh : robot.meshes(link)) trees->of_link[link].emplace_back(mesh);
+  trees_ = std::move(trees);
+}
+
+std::vector<PointView> PointJudge::judge(const FrameReport& report, const Camera& camera,
+                                         std::string_view link,
+                                         std::span<const Vector3d> points) const {
+  const auto T_own_camera = camera_in_link(report, link);
   std::vector<PointView> views(points.size());
-  if (!T_link_camera || !T_link_camera->matrix().allFinite()) return views;
+  if (!T_own_camera || !T_own_camera->matrix().allFinite()) return views;
   const VirtualDepthView& drawn = report.virtual_depth;
   if (drawn.depth.empty()) throw InputError("points are judged in images; a scan has none");
-  const Eigen::Isometry3d T_camera_link = T_link_camera->inverse();
-  const auto value = static_cast<std::uint16_t>(  // in link images
-      std::ranges::find(report.links, link) - report.links.begin() + 1);
+  const Eigen::Isometry3d T_camera_own = T_own_camera->inverse();
+  std::vector<Eigen::Isometry3d> T_link_camera;
+  for (const Eigen::Isometry3d& T_root_link : report.T_root_link)
+    T_link_camera.push_back(T_root_link.inverse() * *report.T_root_camera);
 
-  const DrawnSurface surface(drawn, camera);
   for (std::size_t i = 0; i < points.size(); ++i) {
     PointView& view = views[i];
-    const Vector3d p = T_camera_link * points[i];
+    const Vector3d p = T_camera_own * points[i];
     view.depth = p.z();
+    view.verdict = Verdict::out_of_view;
     const auto pixel = pixel_of(camera, p);
-    view.pixel = pixel.value_or(view.pixel);
-    if (!pixel || !is_inside(*pixel, drawn.depth)) {
-      view.verdict = Verdict::out_of_view;
-      continue;
-    }
-    const auto hidden_by = surface.hides(*pixel, p.z(), value);
-    if (!hidden_by) continue;
-    if (*hidden_by == 0) {
-      judge_unhidden(report, view);
-    } else if (const std::size_t by = *hidden_by - 1U;
-               by >= report.T_root_link.size() || report.T_root_link[by].matrix().allFinite()) {
-      view.verdict = Verdict::hidden;
-      view.hidden_by = *hidden_by;
-    }
+    if (!pixel) continue;
+    view.pixel = *pixel;
+    const double u = std::round(pixel->x()), v = std::round(pixel->y());
+    if (!(u >= 0.0 && v >= 0.0 && u < drawn.depth.width && v < drawn.depth.height)) continue;
+    const auto column = static_cast<int>(u), row = static_cast<int>(v);
+    view.hidden_by = trees_->first_before(p, T_link_camera);
+    view.verdict = Verdict::hidden;
+    if (view.hidden_by != 0) continue;
+    // What is drawn there and is no link with a pose is an attached body, or a link that may be
+    // anywhere.
+    const std::size_t shown = drawn.links(column, row);
+    const bool is_attached = shown > T_link_camera.size();
+    const bool is_unplaced =
+        shown != 0 && !is_attached && !T_link_camera[shown - 1].matrix().allFinite();
+    const bool is_before = static_cast<double>(drawn.depth(column, row)) < p.z() - same_surface;
+    if (is_attached && is_before)
+      view.hidden_by = static_cast<std::uint16_t>(shown);
+    else
+      view.verdict =
+          is_unplaced && is_before ? Verdict::unknown : verdict_unhidden(report, column, row);
   }
   return views;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -36,18 +37,31 @@ struct PointView {
   double depth = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Returns where a report's image shows points of a link, given in the link's frame, metres.
-/// `camera`: Pipeline::report_camera().
-///
-/// The robot hides a point that lies behind the surface of its virtual depth. What it does not
-/// hide is visible if the label of its pixel is occluded, which says that the sensor sees the robot
-/// there, and hidden by something else if it is front; other labels say nothing. Without a depth
-/// camera (PipelineConfig::has_depth) everything is visible that the robot does not hide. Next to
-/// an outline a point may be judged as its neighbour up to 1.5 pixels away, or 3 in raw images of a
-/// lens with distortion; more often visible ones are hidden than the reverse. Throws InputError for
-/// an unknown link and for a scan.
-[[nodiscard]] std::vector<PointView> point_views(const FrameReport& report, const Camera& camera,
-                                                 std::string_view link,
-                                                 std::span<const Eigen::Vector3d> points);
+/// Says where images show points of a robot's links, and what hides them.
+class PointJudge {
+ public:
+  /// Surfaces that are closer to a point along its ray are the point's own, metres.
+  static constexpr double same_surface = 1e-4;
+
+  /// Makes a tree of each mesh, which takes some milliseconds.
+  explicit PointJudge(const Robot& robot);
+
+  /// Judges points of a link, given in the link's frame, metres. `report`: of this robot. `camera`:
+  /// Pipeline::report_camera().
+  ///
+  /// The robot hides a point if the ray from the camera meets a link before the point, or the pixel
+  /// shows an attached body before it. What the robot does not hide is visible if its pixel's label
+  /// is occluded: the sensor sees the robot there. It is hidden by something else if the label is
+  /// front, and unknown for other labels. Without a depth camera (PipelineConfig::has_depth) all is
+  /// visible that the robot does not hide. While a part of the robot is not drawn, nothing is
+  /// visible. Throws InputError for an unknown link and for a scan.
+  [[nodiscard]] std::vector<PointView> judge(const FrameReport& report, const Camera& camera,
+                                             std::string_view link,
+                                             std::span<const Eigen::Vector3d> points) const;
+
+ private:
+  struct Trees;
+  std::shared_ptr<const Trees> trees_;
+};
 
 }  // namespace penumbra

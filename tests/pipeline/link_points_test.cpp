@@ -31,7 +31,7 @@ class LinkPoints : public testing::Test {
                                const PipelineConfig& config = plain_config()) {
     pipeline_ = std::make_unique<Pipeline>(slab_robot(), slab_camera(), config);
     const FrameReport& report = pipeline_->process(frame);
-    return point_views(report, pipeline_->report_camera(), "slab", points);
+    return PointJudge(pipeline_->robot()).judge(report, pipeline_->report_camera(), "slab", points);
   }
 
   std::unique_ptr<Pipeline> pipeline_;
@@ -113,8 +113,9 @@ TEST_F(LinkPoints, OfAThinSheetAreHiddenOnItsFarSide) {
         points.emplace_back(uniform(random, -0.09, 0.09), uniform(random, -0.09, 0.09),
                             0.0005 * side);
       const bool is_seen = is_front == (side < 0.0);
-      expect_all(point_views(report, pipeline.report_camera(), "sheet", points),
-                 is_seen ? Verdict::visible : Verdict::hidden, is_seen ? 0 : 2);
+      expect_all(
+          PointJudge(pipeline.robot()).judge(report, pipeline.report_camera(), "sheet", points),
+          is_seen ? Verdict::visible : Verdict::hidden, is_seen ? 0 : 2);
     }
   }
 }
@@ -163,9 +164,11 @@ TEST_F(LinkPoints, AreNotVisibleWhileAPartOfTheRobotIsNotDrawn) {
   for (const PipelineConfig& config : {plain_config(), no_depth}) {
     Pipeline pipeline(slab_robot_without_mesh(), slab_camera(), config);
     const FrameReport& report = pipeline.process(frame_of(depth_));
-    expect_all(point_views(report, pipeline.report_camera(), "slab", face_points(-1.0)),
+    expect_all(PointJudge(pipeline.robot())
+                   .judge(report, pipeline.report_camera(), "slab", face_points(-1.0)),
                Verdict::unknown);
-    expect_all(point_views(report, pipeline.report_camera(), "slab", face_points(1.0)),
+    expect_all(PointJudge(pipeline.robot())
+                   .judge(report, pipeline.report_camera(), "slab", face_points(1.0)),
                Verdict::hidden, 2);
   }
 }
@@ -173,7 +176,9 @@ TEST_F(LinkPoints, AreNotVisibleWhileAPartOfTheRobotIsNotDrawn) {
 TEST_F(LinkPoints, AreRefusedForAnotherLink) {
   Pipeline pipeline(slab_robot(), slab_camera(), plain_config());
   const FrameReport& report = pipeline.process(frame_of(depth_));
-  EXPECT_THROW((void)point_views(report, pipeline.report_camera(), "slap", {}), InputError);
+  EXPECT_THROW(
+      (void)PointJudge(pipeline.robot()).judge(report, pipeline.report_camera(), "slap", {}),
+      InputError);
 }
 
 }  // namespace
