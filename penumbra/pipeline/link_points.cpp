@@ -59,14 +59,27 @@ std::vector<Triangle> surface_of(const Robot& robot, std::size_t link) {
   return surface;
 }
 
-/// Returns the verdict on a point that the robot does not hide; `u` and `v`: its pixel.
-Verdict verdict_unhidden(const FrameReport& report, int u, int v) {
-  if (!report.missing_links.empty()) return Verdict::unknown;
-  if (is_empty(report.depth))
-    return report.status == FrameStatus::ok ? Verdict::visible : Verdict::unknown;
+/// Judges a point that no placed link hides, by its pixel.
+void judge_by_pixel(const FrameReport& report, int u, int v, PointView& view) {
+  const VirtualDepthView& drawn = report.virtual_depth;
+  const std::size_t shown = drawn.links(u, v);
+  if (static_cast<double>(drawn.depth(u, v)) < view.depth - PointJudge::same_surface) {
+    if (shown > report.T_root_link.size()) {  // an attached body
+      view.verdict = Verdict::hidden;
+      view.hidden_by = static_cast<std::uint16_t>(shown);
+      return;
+    }
+    const bool may_be_anywhere = shown != 0 && !report.T_root_link[shown - 1].matrix().allFinite();
+    if (may_be_anywhere) return;
+  }
+  if (!report.missing_links.empty()) return;
+  if (is_empty(report.depth)) {
+    if (report.status == FrameStatus::ok) view.verdict = Verdict::visible;
+    return;
+  }
   const Label label = report.label(u, v);
-  if (label == Label::front) return Verdict::hidden;
-  return label == Label::occluded ? Verdict::visible : Verdict::unknown;
+  if (label == Label::occluded) view.verdict = Verdict::visible;
+  if (label == Label::front) view.verdict = Verdict::hidden;
 }
 
 }  // namespace
@@ -155,22 +168,9 @@ std::vector<PointView> PointJudge::judge(const FrameReport& report, const Camera
     view.pixel = *pixel;
     const double u = std::round(pixel->x()), v = std::round(pixel->y());
     if (!(u >= 0.0 && v >= 0.0 && u < drawn.depth.width && v < drawn.depth.height)) continue;
-    const auto column = static_cast<int>(u), row = static_cast<int>(v);
     view.hidden_by = trees_->first_before(p, T_link_camera);
-    view.verdict = Verdict::hidden;
-    if (view.hidden_by != 0) continue;
-    // What is drawn there and is no link with a pose is an attached body, or a link that may be
-    // anywhere.
-    const std::size_t shown = drawn.links(column, row);
-    const bool is_attached = shown > T_link_camera.size();
-    const bool is_unplaced =
-        shown != 0 && !is_attached && !T_link_camera[shown - 1].matrix().allFinite();
-    const bool is_before = static_cast<double>(drawn.depth(column, row)) < p.z() - same_surface;
-    if (is_attached && is_before)
-      view.hidden_by = static_cast<std::uint16_t>(shown);
-    else
-      view.verdict =
-          is_unplaced && is_before ? Verdict::unknown : verdict_unhidden(report, column, row);
+    view.verdict = view.hidden_by != 0 ? Verdict::hidden : Verdict::unknown;
+    if (view.hidden_by == 0) judge_by_pixel(report, static_cast<int>(u), static_cast<int>(v), view);
   }
   return views;
 }

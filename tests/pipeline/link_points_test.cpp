@@ -58,7 +58,8 @@ TEST_F(LinkPoints, AreSpreadByArea) {
   // Squares of 2 cm of the near face: each has its share, which random points miss by 4 and more.
   std::map<std::pair<int, int>, int> squares;
   for (const Vector3d& p : points)
-    if (p.z() < -0.0499) ++squares[{int(std::floor(p.x() / 0.02)), int(std::floor(p.y() / 0.02))}];
+    if (p.z() < -0.05 + 1e-6)
+      ++squares[{int(std::floor(p.x() / 0.02)), int(std::floor(p.y() / 0.02))}];
   ASSERT_EQ(squares.size(), 200U);
   double squared = 0.0;
   const double share = count * 0.0004 / area;
