@@ -27,7 +27,7 @@ set(public_headers
   render/depth_renderer.hpp labels/labels.hpp poses/robot_pose.hpp
   tracking/trackers.hpp targets/target.hpp targets/target_judge.hpp
   cloud/scan.hpp
-  pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
+  pipeline/frame.hpp pipeline/frame_queue.hpp pipeline/link_points.hpp pipeline/pipeline.hpp pipeline/without_robot.hpp
   calibration/calibration.hpp calibration/kept_frames.hpp diagnosis/diagnosis.hpp
   planning/look_ahead.hpp planning/view_planning.hpp fusion/target_fusion.hpp
   session/session.hpp)

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 #include <python/report.hpp>
@@ -96,6 +98,15 @@ PointCloud Report::points(const std::optional<std::string>& frame) const {
   return cloud;
 }
 
+std::vector<PointView> Report::point_views(const std::string& link, const Points& points) const {
+  check_is_last();
+  if (!state_->report_camera)
+    throw py::value_error("FrameReport: points are judged in images; a scan has none");
+  auto& judge = state_->point_judge;
+  if (!judge) judge.emplace(state_->session.pipeline().robot());
+  return judge->judge(with_names(), *state_->report_camera, link, points);
+}
+
 namespace {
 
 void bind_report_parts(py::module_& m) {
@@ -184,6 +195,56 @@ void bind_without_robot(py::module_& m, py::class_<Report>& report) {
            "InputError for a name that is no link.");
 }
 
+/// Views of points as arrays.
+struct PointViews {
+  py::array pixels, depths, visible, verdicts, hidden_by;
+};
+
+PointViews point_views_of(const Report& report, const std::string& link, const Points& points) {
+  const std::vector<PointView> views = report.point_views(link, points);
+  const auto column = [&](auto get) {
+    using T = decltype(get(views[0]));
+    py::array_t<T> values(static_cast<py::ssize_t>(views.size()));
+    std::ranges::transform(views, values.mutable_data(), get);
+    return read_only(std::move(values));
+  };
+  py::array_t<double> pixels({static_cast<py::ssize_t>(views.size()), py::ssize_t{2}});
+  for (std::size_t i = 0; i < views.size(); ++i)
+    std::copy_n(views[i].pixel.data(), 2, pixels.mutable_data() + 2 * i);
+  return {
+      .pixels = read_only(std::move(pixels)),
+      .depths = column([](const PointView& v) { return v.depth; }),
+      .visible = column([](const PointView& v) { return v.verdict == Verdict::visible; }),
+      .verdicts = column([](const PointView& v) { return static_cast<std::uint8_t>(v.verdict); }),
+      .hidden_by = column([](const PointView& v) { return v.hidden_by; })};
+}
+
+void bind_point_views(py::module_& m, py::class_<Report>& report) {
+  using V = PointViews;
+  py::class_<V> views(m, "PointViews", "Where an image shows points of a link.");
+  show_properties(
+      views,
+      Field{"pixels", &V::pixels,
+            "float64 (N, 2): u and v; NaN where the camera cannot see, or the pose is not known."},
+      Field{"depths", &V::depths, "float64 (N,), metres; NaN: the pose is not known."},
+      Field{"visible", &V::visible, "bool (N,): neither the robot nor anything else hides it."},
+      Field{"verdicts", &V::verdicts,
+            "uint8 (N,): places in list(Verdict), of visible, hidden, unknown and out_of_view."},
+      Field{"hidden_by", &V::hidden_by,
+            "uint16 (N,): of hidden points the number in link images of what hides it, which may "
+            "be its own link; 0: nothing of the robot."});
+  views.def("__len__", [](const V& v) { return v.depths.size(); });
+  views.def("__repr__", [](const V& v) {
+    return "<penumbra.PointViews: " + std::to_string(v.depths.size()) + " points>";
+  });
+  report.def("point_views", &point_views_of, py::arg("link"), py::arg("points"),
+             "Where the image shows points of a link, as Robot.points_on() returns them, and what "
+             "hides them. points: (N, 3), in the link's frame, metres. A point that the robot does "
+             "not hide is visible where its pixel is labelled occluded: the sensor sees the robot. "
+             "Without a depth camera the robot alone decides. Raises InputError for a name that is "
+             "no link, ValueError for a scan and after the session's next call.");
+}
+
 void bind_report_properties(py::class_<Report>& report) {
   using F = FrameReport;
   using R = Report;
@@ -244,6 +305,7 @@ void bind_report(py::module_& m) {
                             "session's next call; everything else stays.");
   bind_report_properties(report);
   bind_without_robot(m, report);
+  bind_point_views(m, report);
 }
 
 }  // namespace penumbra::python

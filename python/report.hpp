@@ -9,6 +9,7 @@
 
 #include <python/arrays.hpp>
 
+#include <penumbra/pipeline/link_points.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 #include <penumbra/session/session.hpp>
 
@@ -22,12 +23,15 @@ struct SessionState {
   SessionState(const Robot& robot, const Camera& camera, const PipelineConfig& config)
       : session(robot, camera, config),
         depth_size(camera.intrinsics),
-        cloud_maker(session.pipeline().report_camera()) {}
+        report_camera(session.pipeline().report_camera()),
+        cloud_maker(*report_camera) {}
   SessionState(const Robot& robot, const CloudConfig& config) : session(robot, config) {}
 
   Session session;
   std::optional<Intrinsics> depth_size;   ///< of depth images as they come; null: of scans
+  std::optional<Camera> report_camera;    ///< likewise
   std::optional<CloudMaker> cloud_maker;  ///< likewise
+  std::optional<PointJudge> point_judge;  ///< once points are judged
   std::uint64_t calls = 0;
   OneThread thread;
 };
@@ -55,6 +59,8 @@ class Report {
   [[nodiscard]] Label label(int u, int v) const;
   [[nodiscard]] DepthImage depth_without_robot() const;
   [[nodiscard]] PointCloud points(const std::optional<std::string>& frame) const;
+  [[nodiscard]] std::vector<PointView> point_views(const std::string& link,
+                                                   const Points& points) const;
 
  private:
   void check_is_last() const;

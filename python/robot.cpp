@@ -8,6 +8,7 @@
 #include <python/fields.hpp>
 #include <python/robot.hpp>
 
+#include <penumbra/pipeline/link_points.hpp>
 #include <penumbra/robot/robot.hpp>
 
 namespace penumbra::python {
@@ -210,6 +211,10 @@ void bind_robot_class(py::module_& m) {
       .def(
           "meshes", [](const Robot& r, std::size_t i) { return Frozen<Mesh>{meshes_of(r, i)}; },
           py::arg("link"), "Of link i, in its frame; empty if it is not drawn.")
+      .def("points_on", &points_on, py::arg("link"), py::arg("count"), WithoutGil(),
+           "Points of a link's drawn surface, spread evenly by area, in the link's frame, metres: "
+           "float64 (count, 3), the same at each call. Raises InputError for an unknown link and "
+           "one that is not drawn.")
       .def("forward_kinematics", &link_poses, py::arg("positions"),
            "T_root_link of every link, metres. positions: in the order of variables, rad and m. "
            "Raises ValueError for another number of them, and for what is not finite.")

@@ -91,6 +91,15 @@ Poses poses_of(py::handle source) {
   return poses;
 }
 
+Points point_rows_of(py::handle source) {
+  constexpr py::ssize_t shape[] = {-1, 3};
+  const auto array = numbers_of(source, shape, "points");
+  Points points(static_cast<std::size_t>(array.shape(0)));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = Eigen::Map<const Eigen::Vector3d>(array.data() + 3 * i);
+  return points;
+}
+
 Numbers vector_of(py::handle source) {
   constexpr py::ssize_t shape[] = {-1};
   const auto array = numbers_of(source, shape, "numbers");
@@ -98,6 +107,12 @@ Numbers vector_of(py::handle source) {
 }
 
 py::array array_of(const Eigen::Isometry3d& pose) { return array_of_matrix(pose.matrix()); }
+
+py::array array_of(const Points& points) {
+  static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
+  return copied({points.empty() ? nullptr : points[0].data(), 3 * points.size()},
+                {static_cast<py::ssize_t>(points.size()), 3});
+}
 
 py::array array_of(const Numbers& numbers) {
   return copied(numbers, {static_cast<py::ssize_t>(numbers.size())});

@@ -34,6 +34,9 @@ class Shown : public py::object {
 /// Poses as an array of shape (N, 4, 4).
 using Poses = std::vector<Eigen::Isometry3d>;
 
+/// Points as an array of shape (N, 3).
+using Points = std::vector<Eigen::Vector3d>;
+
 /// Numbers as an array of shape (N,).
 using Numbers = std::vector<double>;
 
@@ -58,9 +61,11 @@ inline constexpr const char* mask_fault = ": its mask would be lost: take .fille
 
 [[nodiscard]] Eigen::Isometry3d pose_of(py::handle source);
 [[nodiscard]] Poses poses_of(py::handle source);
+[[nodiscard]] Points point_rows_of(py::handle source);
 [[nodiscard]] Numbers vector_of(py::handle source);
 [[nodiscard]] py::array array_of(const Eigen::Isometry3d& pose);
 [[nodiscard]] py::array array_of(const Poses& poses);
+[[nodiscard]] py::array array_of(const Points& points);
 [[nodiscard]] py::array array_of(const Numbers& numbers);
 
 /// A vector or matrix whose size is known.
@@ -159,6 +164,12 @@ struct type_caster<penumbra::python::Poses>
     : penumbra::python::ArrayCaster<penumbra::python::Poses, &penumbra::python::poses_of,
                                     &penumbra::python::array_of> {
   static constexpr auto name = const_name("Annotated[NDArray[float64], '(N, 4, 4)']");
+};
+template <>
+struct type_caster<penumbra::python::Points>
+    : penumbra::python::ArrayCaster<penumbra::python::Points, &penumbra::python::point_rows_of,
+                                    &penumbra::python::array_of> {
+  static constexpr auto name = const_name("Annotated[NDArray[float64], '(N, 3)']");
 };
 template <>
 struct type_caster<penumbra::python::Numbers>

@@ -13,7 +13,8 @@ ROOT = pathlib.Path(__file__).parents[2]
 
 # Folders of penumbra/ and what of them a program uses.
 HEADERS = {
-    "The whole method": ["pipeline/pipeline.hpp", "pipeline/frame.hpp", "targets/target.hpp"],
+    "The whole method": ["pipeline/pipeline.hpp", "pipeline/frame.hpp", "targets/target.hpp",
+                         "pipeline/link_points.hpp"],
     "Poses over time": ["pipeline/frame_queue.hpp", "time/pose_history.hpp",
                         "poses/robot_pose.hpp", "time/joint_buffer.hpp",
                         "time/transform_buffer.hpp"],

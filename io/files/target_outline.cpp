@@ -5,12 +5,13 @@
 #include <numbers>
 #include <variant>
 
+#include <penumbra/targets/target_views.hpp>
+
 #include <io/files/target_overlay.hpp>
 
 namespace penumbra::io {
 namespace {
 
-constexpr double nearest = 0.01;  // metres: nothing nearer is drawn
 constexpr int ellipse_corners = 48;
 constexpr int edge_steps = 8;  // lenses bend edges
 
@@ -124,7 +125,7 @@ struct Outliner {
     const auto T = T_camera(target.frame);
     if (!T) return {};
     const Eigen::Vector3d p = *T * target.position;
-    const auto pixel = seen_at(p, camera);
+    const auto pixel = pixel_of(camera, p);
     if (!pixel) return {};
     const double radius = camera.intrinsics.fx() * target.radius / p.z();
     return {path_of({*pixel, {radius, radius}, 0.0})};
@@ -159,7 +160,7 @@ std::vector<PixelPath> Outliner::operator()(const BoxTarget& target) const {
           p[axis] = static_cast<double>(i) / edge_steps - 0.5;
           p[(axis + 1) % 3] = a;
           p[(axis + 2) % 3] = b;
-          if (const auto pixel = seen_at(T_camera_box * p.cwiseProduct(target.size), camera))
+          if (const auto pixel = pixel_of(camera, T_camera_box * p.cwiseProduct(target.size)))
             edge.push_back(*pixel);
         }
       }
@@ -172,20 +173,12 @@ std::vector<PixelPath> Outliner::operator()(const MeshTarget& target) const {
   const Eigen::Isometry3d T_camera_mesh = *T * target.pose;
   std::vector<Eigen::Vector2d> points;
   for (const Eigen::Vector3f& vertex : target.mesh->vertices)
-    if (const auto pixel = seen_at(T_camera_mesh * vertex.cast<double>(), camera))
+    if (const auto pixel = pixel_of(camera, T_camera_mesh * vertex.cast<double>()))
       points.push_back(*pixel);
   return {hull_of(std::move(points))};
 }
 
 }  // namespace
-
-std::optional<Eigen::Vector2d> seen_at(const Eigen::Vector3d& p, const Camera& camera) {
-  if (!(p.z() >= nearest) || !p.allFinite()) return std::nullopt;
-  const Eigen::Vector2d ray = p.head<2>() / p.z();
-  if (ray.norm() >= camera.distortion.max_radius()) return std::nullopt;
-  const Eigen::Vector2d bent = camera.distortion.distort(ray);
-  return camera.intrinsics.project({bent.x(), bent.y(), 1.0});
-}
 
 std::vector<PixelPath> outline_of(const TargetShape& shape, const TargetPoses& poses,
                                   const Robot& robot, const Camera& camera) {

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <penumbra/pipeline/pipeline.hpp>
+#include <penumbra/targets/target_views.hpp>
 
 #include <io/files/bitmap_font.hpp>
 #include <io/files/target_overlay.hpp>
@@ -179,7 +180,7 @@ std::vector<TargetMark> TargetOverlay::marks(std::span<const Target> targets,
     const TargetReport& target = report.targets[i];
     marks[i].outline = outline_of(targets[i].shape, poses_of(target, report), robot, camera);
     if (!target.handled || !target.handled->position || !report.T_root_camera) continue;
-    marks[i].place = seen_at(report.T_root_camera->inverse() * *target.handled->position, camera);
+    marks[i].place = pixel_of(camera, report.T_root_camera->inverse() * *target.handled->position);
   }
   remember(report);
   return marks;

@@ -27,10 +27,6 @@ inline constexpr std::size_t max_target_names = 40;
 
 using PixelPath = std::vector<Eigen::Vector2d>;
 
-/// Returns the pixel of a point in the optical frame, or nothing if the camera cannot see it.
-[[nodiscard]] std::optional<Eigen::Vector2d> seen_at(const Eigen::Vector3d& p,
-                                                     const Camera& camera);
-
 /// Poses of the drawn frame and of the target's frame, which is another one if the target is late.
 struct TargetPoses {
   std::optional<Eigen::Isometry3d> T_root_camera;       ///< of the frame that is drawn

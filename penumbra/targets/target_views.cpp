@@ -73,6 +73,14 @@ Eigen::Isometry3d pose_of(const ReferenceFrame& frame, const PoseResult& poses,
   return poses.T_root_link[*link];
 }
 
+std::optional<Eigen::Vector2d> pixel_of(const Camera& camera, const Eigen::Vector3d& p) {
+  if (!(p.z() >= DepthRenderer::near_plane) || !p.allFinite()) return std::nullopt;
+  const Eigen::Vector2d ray = p.head<2>() / p.z();
+  if (ray.norm() >= camera.distortion.max_radius()) return std::nullopt;
+  const Eigen::Vector2d bent = camera.distortion.distort(ray);
+  return camera.intrinsics.project({bent.x(), bent.y(), 1.0});
+}
+
 TargetViews::TargetViews(const Robot& robot, const Camera& camera, ObjectRenderers& renderers,
                          const LabelRule& rule, const Rectification* rectification)
     : robot_(robot), camera_(camera), renderers_(renderers), rule_(rule) {
@@ -203,14 +211,6 @@ void TargetViews::check_is_drawn(const Eigen::Vector3d& middle, double radius) c
   const double depth_in_cone = middle.z() * std::sin(*drawn_half_angle_) -
                                middle.head<2>().norm() * std::cos(*drawn_half_angle_);
   if (!(depth_in_cone >= radius)) throw InputError(outside_lens);
-}
-
-std::optional<Eigen::Vector2d> TargetViews::project(const Eigen::Vector3d& p) const {
-  if (!(p.z() >= DepthRenderer::near_plane) || !p.allFinite()) return std::nullopt;
-  const Eigen::Vector2d ray = p.head<2>() / p.z();
-  if (ray.norm() >= camera_.distortion.max_radius()) return std::nullopt;
-  const Eigen::Vector2d bent = camera_.distortion.distort(ray);
-  return camera_.intrinsics.project({bent.x(), bent.y(), 1.0});
 }
 
 /// Returns the derivative of a point's pixel by its position parallel to the image plane.

@@ -28,6 +28,11 @@ namespace penumbra {
 [[nodiscard]] Eigen::Isometry3d pose_of(const ReferenceFrame& frame, const PoseResult& poses,
                                         const Robot& robot);
 
+/// Returns the pixel of a point in the optical frame; null if the camera cannot see it: it is
+/// outside the lens model, or less than DepthRenderer::near_plane before the camera.
+[[nodiscard]] std::optional<Eigen::Vector2d> pixel_of(const Camera& camera,
+                                                      const Eigen::Vector3d& p);
+
 /// Projects targets' shapes into the image.
 class TargetViews {
  public:
@@ -41,8 +46,10 @@ class TargetViews {
   [[nodiscard]] std::optional<TargetView> view(const Target& target, const LabelledImages& images,
                                                const PoseResult& poses);
 
-  /// Returns the pixel of a point in the optical frame; null if the camera cannot see it.
-  [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p) const;
+  /// Returns pixel_of() the camera.
+  [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p) const {
+    return pixel_of(camera_, p);
+  }
 
  private:
   struct Builder;

@@ -121,7 +121,7 @@ def read(file: pathlib.Path, robot: str = "", urdf: str = "") -> dict[str, Any]:
     """
 
     def arguments(root: Any) -> dict[str, Any]:
-        keys = _only(root, "", ("robot", "camera", "layout", "joints", "clouds"))
+        keys = _only(root, "", ("robot", "camera", "layout", "joints", "clouds", "tracks"))
         given = {key: of for key, of in (("name", robot), ("urdf", urdf)) if of}
         if given:
             keys["robot"] = {**(keys.get("robot") or {}), **given}
@@ -179,6 +179,7 @@ def _arguments(root: dict[str, Any], folder: pathlib.Path) -> dict[str, Any]:
         "camera_name": str(camera.get("name", "")),
         "depth_scale": camera.get("depth_scale"),
         "clouds": CloudOptions(**_only(root.get("clouds") or {}, "clouds", CloudOptions._fields)),
+        **{key: root[key] for key in ("tracks",) if key in root},
     }
 
 

@@ -84,17 +84,22 @@ class Dataset:
         camera_name: str = "",
         depth_scale: Optional[float] = None,
         clouds: CloudOptions = CloudOptions(),
+        tracks: int = 768,
         recorded: Optional[Recorded] = None,
     ) -> None:
         """camera: its pose may be missing if each episode has one.
         config: with the rule that clouds are made by.
         joints: one of each of robot.variables; None: the columns are these.
+        tracks: points of the robot's surface that are tracked.
         recorded: the names of all columns of an episode; None: there may be others.
         depth_scale: metres per unit; None: 0.001 for integers, 1 for floats."""
         if joints is None:
             joints = [JointColumn(name, i) for i, name in enumerate(robot.variables)]
         self.robot, self.camera, self.config = robot, camera, config
-        self.clouds, self._depth_scale = clouds, depth_scale
+        if not isinstance(tracks, int) or tracks < 1:
+            raise InputError(f"tracks: expected a number of points; got {tracks}")
+        self.clouds, self.tracks, self._depth_scale = clouds, tracks, depth_scale
+        self._sessions: dict[bool, Session] = {}
         self._recorded = recorded or Recorded("", (), ())
         self._columns = _in_order(joints, robot, self._recorded)
         paths = layout._asdict()
@@ -236,24 +241,26 @@ class Dataset:
     def reports(self, episode: Episode, *, depth: bool = False) -> Iterator[FrameReport]:
         """Renders the robot in each frame. Read a report before you take the next one.
 
-        depth: with the episode's depth images, for clouds. Raises InputError.
+        depth: with the episode's depth images, for clouds and tracks. Raises InputError.
         """
         if depth and episode.depth is None:
             raise InputError("clouds: the episode has no depth images")
         for t, joints in enumerate(episode.joints):
             image = episode.depth(t) if depth and episode.depth else None
             pose = episode.pose if episode.pose.ndim == 2 else episode.pose[t]
-            report = self._session.process(
+            report = self._session(depth).process(
                 Frame(image, RobotPose(positions=joints, T_parent_camera=pose))
             )
             if report.status not in pose_is_known:
                 raise InputError(f"frame {t}: {report.status.value}: {report.message}")
             yield report
 
-    @functools.cached_property
-    def _session(self) -> Session:
-        # Each frame has its own pose.
-        return Session(self.robot, self.camera.replace(T_parent_camera=np.eye(4)), self.config)
+    def _session(self, has_depth: bool) -> Session:
+        if has_depth not in self._sessions:
+            camera = self.camera.replace(T_parent_camera=np.eye(4))  # each frame has its own pose
+            config = self.config.replace(has_depth=has_depth)
+            self._sessions[has_depth] = Session(self.robot, camera, config)
+        return self._sessions[has_depth]
 
     def _joints(self, columns: NDArray[Any]) -> NDArray[np.float64]:
         if columns.ndim != 2:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from penumbra import FrameReport, InputError, Robot, __version__, write_png
+from penumbra import FrameReport, InputError, Robot, TriangleMesh, __version__, write_png
 from penumbra.dataset_yaml import CloudOptions, needed
 
 if TYPE_CHECKING:
@@ -206,10 +206,35 @@ class _Clouds:
         np.savez_compressed(self._file, **arrays)
 
 
+class _Tracks:
+    """tracks.npz: points of the robot's surface, and where each frame shows them."""
+
+    def __init__(self, folder: pathlib.Path, dataset: Dataset, episode: Episode) -> None:
+        self._file, self._names = folder / "tracks.npz", dataset.robot.links
+        self._points = _surface_points(dataset.robot, dataset.tracks)
+        columns = ("pixels", "depths", "visible", "verdicts", "hidden_by")
+        self._arrays: dict[str, list[Any]] = {name: [] for name in columns}
+
+    def add(self, t: int, report: FrameReport) -> None:
+        views = [report.point_views(*of) for of in zip(self._names, self._points)]
+        for name, frames in self._arrays.items():
+            frames.append(np.concatenate([getattr(of_link, name) for of_link in views]))
+
+    def close(self) -> None:
+        arrays = {name: np.array(of) for name, of in self._arrays.items()}
+        for name in ("pixels", "depths"):
+            arrays[name] = arrays[name].astype(np.float32)
+        arrays["points"] = np.concatenate(self._points)
+        numbers = np.arange(1, len(self._names) + 1, dtype=np.uint16)
+        arrays["links"] = np.repeat(numbers, [len(of) for of in self._points])
+        arrays["names"] = np.array(self._names)
+        np.savez_compressed(self._file, **arrays)
+
+
 def cloud(
     report: FrameReport,
     options: CloudOptions,
-    model: Sequence[NDArray[np.float32]] = (),
+    model: Sequence[NDArray[np.float64]] = (),
     color: Any = None,
 ) -> dict[str, Any]:
     """Returns a frame's points without the robot, with colours if there are any.
@@ -256,25 +281,20 @@ def farthest_points(points: NDArray[np.float32], number: int) -> NDArray[np.int6
     return chosen
 
 
-def _surface_points(robot: Robot, number: int) -> list[NDArray[np.float32]]:
-    """Returns random points of the robot's surface, for each link in its frame."""
-    if not number:
-        return []
-    random = np.random.default_rng(0)
-    corners: list[NDArray[Any]] = []
-    links: list[NDArray[Any]] = []
-    for link in range(len(robot.links)):
-        for mesh in robot.meshes(link):
-            corners.append(mesh.vertices[mesh.triangles])
-            links.append(np.full(len(mesh.triangles), link))
-    triangles, link_of = np.concatenate(corners), np.concatenate(links)
-    a, b, c = np.moveaxis(triangles, 1, 0)
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-    of = random.choice(len(area), number, p=area / area.sum())
-    u, v = random.random((2, number, 1))
-    u, v = np.where(u + v > 1, 1 - u, u), np.where(u + v > 1, 1 - v, v)
-    points = (a[of] + u * (b[of] - a[of]) + v * (c[of] - a[of])).astype(np.float32)
-    return [points[link_of[of] == link] for link in range(len(robot.links))]
+def _surface_points(robot: Robot, number: int) -> list[NDArray[np.float64]]:
+    """Returns points of the robot's surface, spread by area, for each link in its frame."""
+    areas = [sum(map(_area, robot.meshes(link))) for link in range(len(robot.links))]
+    ends = np.rint(np.cumsum(areas) * (number / sum(areas))).astype(int)
+    counts = np.diff(ends, prepend=0)
+    return [
+        robot.points_on(link, int(count)) if count else np.empty((0, 3))
+        for link, count in zip(robot.links, counts)
+    ]
+
+
+def _area(mesh: TriangleMesh) -> float:
+    a, b, c = np.moveaxis(mesh.vertices[mesh.triangles], 1, 0)
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)
 
 
 def _mask(report: FrameReport) -> NDArray[np.bool_]:
@@ -297,12 +317,13 @@ WRITERS: dict[str, Any] = {
     "h264": _H264,
     "prompts": _Prompts,
     "clouds": _Clouds,
+    "tracks": _Tracks,
 }
 
 
 FILES = (
     "masks.json", "masks.npz", "robot_mask", "links.json", "links.mkv", "links.mp4",
-    "prompts.json", "clouds.npz",
+    "prompts.json", "clouds.npz", "tracks.npz",
 )  # fmt: skip
 
 
@@ -346,7 +367,7 @@ def write(
 ) -> dict[str, Any]:
     """Writes an episode's files into a folder, report.json last; returns its contents.
 
-    save: of rle, npz, png, video, h264, prompts, clouds. Files of an earlier call are replaced.
+    save: of rle, npz, png, video, h264, prompts, clouds, tracks. Files of an earlier call are replaced.
     Raises InputError, also if the folder has other files of these names.
     """
     check(save)
@@ -364,7 +385,8 @@ def write(
         writers = [WRITERS[name](out, dataset, episode) for name in save]
         for writer in writers:
             at_end.callback(writer.close)
-        for t, report in enumerate(dataset.reports(episode, depth="clouds" in save)):
+        depth = "clouds" in save or ("tracks" in save and episode.depth is not None)
+        for t, report in enumerate(dataset.reports(episode, depth=depth)):
             for writer in writers:
                 writer.add(t, report)
             pixels.append(report.pixels.robot)

@@ -307,6 +307,7 @@ WRONG = [
     ({"camera": {"parent": None}}, "parent is needed"),
     ({"camera": {"pose": [[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}}, "rigid"),
     ({"clouds": {"voxels": 0.1}}, "voxels.*voxel"),
+    ({"tracks": 0}, "tracks.*got 0"),
 ]
 
 
@@ -478,6 +479,33 @@ def test_clouds_are_the_pipelines_without_the_robot(kind, arm, joints, tmp_path)
         near = np.max([mask[v[seen] + i, u[seen] + j] for i in (-1, 0, 1) for j in (-1, 0, 1)
                        if (v[seen] + i).max() < HEIGHT + 2 and (u[seen] + j).max() < WIDTH + 2], axis=0)
         assert seen.sum() > 60 and near.all()
+
+
+@pytest.mark.parametrize("has_depth", [False, True])
+def test_tracks_are_the_views_of_points_by_area(has_depth, arm, joints, tmp_path):
+    frames = [frame for frame, _ in zip(arm.frames, joints)]
+    arrays = {"qpos": recorded(joints)}
+    if has_depth:
+        arrays["depth"] = np.array([frame.depth for frame in frames])
+    file = write_h5(tmp_path / "episode.hdf5", arrays)
+    layout = {"columns": "qpos", **({"depth": "depth"} if has_depth else {})}
+    dataset = datasets.Dataset.load(describe(tmp_path, layout=layout, tracks=300))
+    datasets.write(dataset, dataset.read(file), tmp_path / "out", ["tracks"])
+    tracks = np.load(tmp_path / "out" / "tracks.npz")
+    assert tracks["pixels"].shape == (5, 300, 2) and tracks["visible"].shape == (5, 300)
+    assert tracks["points"].shape == (300, 3) and list(tracks["names"]) == list(arm.robot.links)
+    session = penumbra.Session(arm.robot, arm.camera, arm.config.replace(has_depth=has_depth))
+    number = arm.robot.links.index("upper_arm") + 1
+    mine = tracks["links"] == number
+    points = arm.robot.points_on("upper_arm", int(mine.sum()))
+    assert np.array_equal(tracks["points"][mine], points) and len(points) > 30
+    for t, frame in enumerate(frames):
+        report = session.process(frame if has_depth else penumbra.Frame(None, frame.pose.positions))
+        views = report.point_views("upper_arm", points)
+        assert np.array_equal(tracks["visible"][t, mine], views.visible)
+        assert np.array_equal(tracks["hidden_by"][t, mine], views.hidden_by)
+        assert np.allclose(tracks["pixels"][t, mine], views.pixels, atol=1e-4)
+    assert 50 < tracks["visible"].sum() < 0.6 * 5 * 300  # half of it faces away
 
 
 def test_points_are_spread_and_few_are_repeated_and_none_are_zeros(arm, joints, tmp_path):

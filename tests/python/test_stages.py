@@ -197,6 +197,30 @@ def test_points_without_the_robot(shipped):
     refuses("another frame", lambda: report.without_robot(), ValueError)
 
 
+def test_points_of_a_link_are_where_the_camera_sees_them(opened):
+    robot, k = opened.robot, opened.camera.intrinsics
+    points = robot.points_on("forearm", 500)
+    assert points.shape == (500, 3) and np.array_equal(points, robot.points_on("forearm", 500))
+    reports = []
+    for frame, _ in zip(opened.frames, range(3)):
+        reports.append(report := opened.session.process(frame))
+        views = report.point_views("forearm", points)
+        T = np.linalg.inv(report.T_root_camera) @ report.T_root_link[robot.links.index("forearm")]
+        x, y, z = T[:3, :3] @ points.T + T[:3, 3:]
+        assert np.allclose(views.depths, z) and views.pixels.shape == (500, 2)
+        assert np.allclose(views.pixels, np.stack([x / z * k.fx + k.cx, y / z * k.fy + k.cy], axis=1))
+        verdicts = np.array([of.value for of in penumbra.Verdict])[views.verdicts]
+        assert np.array_equal(views.visible, verdicts == "visible")
+        assert 100 < views.visible.sum() < 300  # half of it faces away
+        u, v = np.rint(views.pixels[views.visible]).astype(int).T
+        assert np.all(report.labels[v, u] == penumbra.Label.occluded)
+        assert np.all((views.hidden_by > 0) <= (verdicts == "hidden"))
+    refuses("no link 'fourarm'", lambda: report.point_views("fourarm", points))
+    refuses("3", lambda: report.point_views("forearm", points[:, :2]), ValueError)
+    refuses("another frame", lambda: reports[0].point_views("forearm", points), ValueError)
+    refuses("fourarm", lambda: robot.points_on("fourarm", 3))
+
+
 def test_a_camera_comes_from_opencvs_matrix():
     K = [[600, 0, 320], [0, 610, 240], [0, 0, 1]]
     camera = penumbra.Camera.from_matrix(K, (640, 480), [0.1, -0.2, 0, 0, 0.05])
