@@ -14,19 +14,16 @@ import shutil
 import subprocess
 import sys
 
+import pybind11
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
-
-try:
-    import pybind11  # of PyPI; else Debian's, which CMake finds
-    PYBIND11 = [f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"]
-except ImportError:
-    PYBIND11 = []
 
 ROOT = pathlib.Path(__file__).parent.absolute()
 PARTS = ["-DPENUMBRA_BUILD_TESTS=OFF", "-DPENUMBRA_BUILD_BENCHMARKS=OFF", "-DPENUMBRA_BUILD_EXAMPLES=OFF",
          "-DPENUMBRA_WITH_SIMULATION=OFF", "-DPENUMBRA_WITH_PYTHON=ON", "-DPENUMBRA_WITH_TIFF=OFF",
          "-DPENUMBRA_WITH_EXR=OFF"]
+# What older pybind11, such as Debian 12's, makes works with NumPy 1 only.
+NUMPY = "numpy>=1.24,<3" if pybind11.version_info >= (2, 12) else "numpy>=1.24,<2"
 # Every machine has these: the policy of manylinux (PEP 600).
 SYSTEM = re.compile(r"(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|gcc_s|stdc\+\+|z))\.so\b.*")
 
@@ -59,7 +56,8 @@ class CMakeBuild(build_ext):
         module = pathlib.Path(self.get_ext_fullpath(ext.name)).absolute()
         build = pathlib.Path(self.build_temp).absolute()
         subprocess.run(["cmake", "-S", ROOT, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        f"-DPython_EXECUTABLE={sys.executable}", *PYBIND11, *PARTS,
+                        f"-DPython_EXECUTABLE={sys.executable}", *PARTS,
+                        f"-Dpybind11_DIR={pybind11.get_cmake_dir()}",
                         *shlex.split(os.environ.get("CMAKE_ARGS", ""))], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "penumbra_python", "penumbra_app"],
                        check=True)
@@ -68,7 +66,8 @@ class CMakeBuild(build_ext):
         bundle(module, module.parent / "bin" / "penumbra")
 
 
-setup(version=version(), ext_modules=[Extension("penumbra._core", sources=[])],
+setup(version=version(), install_requires=[NUMPY],
+      ext_modules=[Extension("penumbra._core", sources=[])],
       cmdclass={"build_ext": CMakeBuild},
       options={"bdist_wheel": {"plat_name": "manylinux_{}_{}".format(
           platform.libc_ver()[1].replace(".", "_"), platform.machine())}})

@@ -3,8 +3,26 @@
 
 #include <penumbra/base/version.hpp>
 
+namespace penumbra::python {
+namespace {
+
+/// pybind11 before 2.12 reads the structures of NumPy 1, whichever NumPy is there.
+void check_numpy() {
+  if constexpr (PYBIND11_VERSION_HEX < 0x020C0000) {
+    const auto found = py::cast<std::string>(py::module_::import("numpy").attr("__version__"));
+    if (!found.starts_with("1."))
+      throw py::import_error("this build of Penumbra works with NumPy 1 only, and NumPy " + found +
+                             " is installed: take \"numpy<2\", or build Penumbra with pybind11 "
+                             "2.12 or newer, as pip install . does");
+  }
+}
+
+}  // namespace
+}  // namespace penumbra::python
+
 PYBIND11_MODULE(_core, m) {
   using namespace penumbra::python;
+  check_numpy();
   m.doc() = "Tells a robot which parts of its view its own body hides.";
   m.attr("__module__") = "penumbra";  // where users find what is defined here
   m.attr("version") = PENUMBRA_VERSION;

@@ -15,7 +15,7 @@ build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libmeshopt
        libyaml-cpp-dev libpng-dev libcli11-dev nlohmann-json3-dev libepoxy-dev pkgconf
        libdeflate-dev libjpeg-dev libtiff-dev libopenexr-dev liblz4-dev libzstd-dev libsqlite3-dev libboost-dev zlib1g-dev)
 ros=(cyclonedds-dev nettle-dev)
-python=(pybind11-dev python3-dev python3-numpy python3-setuptools python3-wheel python3-venv python3-pip
+python=(pybind11-dev python3-pybind11 python3-dev python3-numpy python3-setuptools python3-wheel python3-venv python3-pip
         python3-matplotlib patchelf)
 sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri)
 research=(libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev)

@@ -77,7 +77,8 @@ def split(text: str, separator: str) -> List[str]:
 def typed(text: str, is_argument: bool) -> str:
     text = text.strip().replace("penumbra.", "")
     if is_argument:
-        text = text.replace("NDArray[float64]", "ArrayLike").replace("List[", "Sequence[")
+        text = text.replace("NDArray[float64]", "ArrayLike")
+        text = re.sub(r"\b[Ll]ist\[", "Sequence[", text)  # pybind11 before 2.12 writes List
         return re.sub(r"\bos\.PathLike", "Union[str, os.PathLike[str]]", text)
     return re.sub(r"\bos\.PathLike", "pathlib.Path", text)
 

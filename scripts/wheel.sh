@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Makes Python wheels in build/wheel.
 #   scripts/wheel.sh [PYTHON...]   e.g. python3.10 python3.12; without one: the system's python3
-# A Python that lacks NumPy or setuptools gets them from PyPI for the time of the build.
+# A Python that lacks NumPy, pybind11 or setuptools gets them from PyPI for the time of the build.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -12,7 +12,7 @@ done
 scripts/packages.sh --install build ros python
 for python in "${@:-/usr/bin/python3}"; do
   how=()
-  if "$python" -c 'import numpy, setuptools, wheel' 2>/dev/null; then how=(--no-build-isolation); fi
+  if "$python" -c 'import numpy, pybind11, setuptools, wheel' 2>/dev/null; then how=(--no-build-isolation); fi
   "$python" -m pip wheel "${how[@]}" --no-deps -w build/wheel .
 done
 echo "wheels: $(echo build/wheel/*.whl)"

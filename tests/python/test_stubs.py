@@ -12,7 +12,7 @@ import sys
 import pytest
 
 import penumbra
-from conftest import execute, only_in_full, ROOT, SHIPPED
+from conftest import execute, only_in_full, ROOT, run_python, SHIPPED
 
 PACKAGE = pathlib.Path(penumbra.__file__).parent
 
@@ -53,6 +53,16 @@ def test_everything_is_documented():
         for key, member in vars(value).items():
             if isinstance(member, property):
                 assert member.__doc__, f"{name}.{key}"
+
+
+def test_a_module_for_numpy_1_refuses_numpy_2(tmp_path):
+    (tmp_path / "numpy").mkdir()
+    (tmp_path / "numpy" / "__init__.py").write_text("__version__ = '2.0.0'")
+    path = os.pathsep.join([str(tmp_path), str(PACKAGE.parent)])
+    told = run_python("-c", "import penumbra", env={**os.environ, "PYTHONPATH": path}, status=1).stderr
+    if "No module named 'numpy.lib'" in told:
+        pytest.skip("made with pybind11 2.12 or newer, which asks more of NumPy 2")
+    assert "ImportError: " in told and "NumPy 2.0.0" in told and 'take "numpy<2"' in told, told
 
 
 CHECK = """
