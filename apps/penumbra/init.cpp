@@ -12,10 +12,9 @@ namespace {
 
 void add_options(CLI::App& app, io::InitOptions& init) {
   app.footer(init_examples);
-  add_text(app, "FOLDER", "images, joint file, URDF, camera_info", "", init.folder)->required();
-  add_text(app, "--robot",
-           "the robot: URDF, xacro or MJCF; default: the URDF, or xacro file, in the folder",
-           "URDF", init.robot);
+  add_text(app, "FOLDER", "images, joint file, robot, camera_info", "", init.folder)->required();
+  add_text(app, "--robot", "the robot: URDF, xacro or MJCF; default: the one in the folder", "URDF",
+           init.robot);
   add_packages(app, init.packages, init.arguments);
   app.add_flag("--force", init.force, "replace a recording.yaml");
 }

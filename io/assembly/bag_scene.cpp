@@ -90,6 +90,8 @@ MessageHandler BagSceneReader::handler_of(const BagTopic& topic) {
       case TopicRole::depth:
         if (is_read_as<ImageMessage>(topic.type))
           return make_handler<ImageMessage>(topic, take_image);
+        if (is_read_as<CompressedVideoMessage>(topic.type))
+          return make_handler<CompressedVideoMessage>(topic, take_image);
         return make_handler<CompressedImageMessage>(topic, take_image);
       case TopicRole::cloud:
         if (topic.type == message_type<LaserScanMessage>())

@@ -131,8 +131,9 @@ void BagSource::read_message() {
   if (!input) return;
   const TopicRole role = assembler_.topics()[*input].role;
   const bool is_sensor = role == TopicRole::depth || role == TopicRole::cloud;
-  if (is_sensor && !is_in_range(images_++)) return;
-  assembler_.receive(*input, {.data = message.data}, now_);
+  const bool is_skipped = is_sensor && !is_in_range(images_++);
+  if (is_skipped && !is_read_as<CompressedVideoMessage>(assembler_.topics()[*input].type)) return;
+  assembler_.receive(*input, {.data = message.data, .is_skipped = is_skipped}, now_);
 }
 
 const std::optional<std::size_t>& BagSource::input_of(std::size_t topic) {

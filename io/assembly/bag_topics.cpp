@@ -21,7 +21,9 @@ namespace {
 
 constexpr std::string_view image_type = "sensor_msgs/msg/Image";
 constexpr std::string_view compressed_type = "sensor_msgs/msg/CompressedImage";
-constexpr std::array image_types = {image_type, compressed_type};
+constexpr std::string_view video_type = "foxglove_msgs/msg/CompressedVideo";
+constexpr std::array depth_types = {image_type, compressed_type};
+constexpr std::array color_types = {image_type, compressed_type, video_type};
 constexpr std::string_view info_type = "sensor_msgs/msg/CameraInfo";
 constexpr std::string_view joints_type = "sensor_msgs/msg/JointState";
 constexpr std::string_view transforms_type = "tf2_msgs/msg/TFMessage";
@@ -52,7 +54,8 @@ std::string_view last_part(std::string_view name) { return name.substr(name.rfin
 int loss(const std::string& topic) {
   const std::string base = image_base(topic);
   if (topic == base) return 0;
-  return topic == base + "/compressedDepth" ? 1 : 2;
+  if (topic == base + "/compressedDepth") return 1;
+  return topic == base + "/compressed" ? 2 : 3;
 }
 
 std::string one_of(TopicTypes types) {
@@ -73,27 +76,16 @@ std::string names_of(const std::vector<const BagTopic*>& topics) {
   return names;
 }
 
-constexpr const char* video_fault =
-    " has foxglove.CompressedVideo, which is not read: decode its frames, and write each as "
-    "foxglove.CompressedImage of the same timestamp";
-
 class Chooser {
  public:
   Chooser(const std::string& bag, std::span<const BagTopic> topics) : bag_(bag) {
     for (const BagTopic& topic : topics)
-      if (!(topic.messages && *topic.messages == 0)) {
-        if (is_readable(topic.type, topic.encoding)) topics_.push_back(&topic);
-        if (topic.type == "foxglove.CompressedVideo") videos_.push_back(&topic);
-      }
+      if (!(topic.messages && *topic.messages == 0) && is_readable(topic.type, topic.encoding))
+        topics_.push_back(&topic);
     if (topics_.empty()) refuse(nothing_in(topics));
   }
 
   [[noreturn]] void refuse(const std::string& what) const { throw InputError(bag_ + ": " + what); }
-
-  /// Refuses a bag without the images. Videos that it has may be what the user means.
-  [[noreturn]] void refuse_images(const std::string& what) const {
-    refuse(what + (videos_.empty() ? "" : "; " + names_of(videos_) + video_fault));
-  }
 
   /// Returns all topics of these types. Results of Penumbra are no input unless they are named.
   [[nodiscard]] std::vector<const BagTopic*> of(TopicTypes types, bool with_results = false) const {
@@ -126,8 +118,6 @@ class Chooser {
     if (other != topics_.end())
       refuse(option + ": " + name + " is of type " + printable((*other)->type) + "; expected " +
              one_of(types));
-    if (std::ranges::find(videos_, name, &BagTopic::name) != videos_.end())
-      refuse(option + ": " + name + video_fault);
     refuse(option + ": there is no topic '" + name + "' with messages" + near_names(name, known));
   }
 
@@ -165,7 +155,6 @@ class Chooser {
 
   const std::string& bag_;
   std::vector<const BagTopic*> topics_;
-  std::vector<const BagTopic*> videos_;
 };
 
 bool is_depth(const std::string& name) {
@@ -177,18 +166,17 @@ bool is_color(const std::string& name) {
 }
 
 TopicUse choose_depth(const Chooser& chooser, const BagOptions& options) {
-  const TopicTypes types = image_types;
+  const TopicTypes types = depth_types;
   if (options.depth_topic)
     return chooser.named("depth", "--depth-topic", *options.depth_topic, types);
   const auto candidates = chooser.of(types, is_depth);
   if (!candidates.empty())
     return chooser.only_image("depth", "--depth-topic", candidates, "the only images called depth");
-  const auto images = chooser.of(types);
+  const auto images = chooser.of(color_types);
   if (images.empty())
-    chooser.refuse_images(
-        std::string("has no images; depth images are needed") +
-        (chooser.of(cloud_types).empty() ? "" : "; `penumbra cloud` takes its clouds"));
-  chooser.refuse_images(
+    chooser.refuse(std::string("has no images; depth images are needed") +
+                   (chooser.of(cloud_types).empty() ? "" : "; `penumbra cloud` takes its clouds"));
+  chooser.refuse(
       "no images are called depth; there are " + names_of(images) +
       "; choose one with --depth-topic; all commands but tune take colour images alone with "
       "--no-depth");
@@ -240,7 +228,7 @@ TopicUse choose_info(const Chooser& chooser, const BagOptions& options, const st
 
 void choose_color(const Chooser& chooser, const BagOptions& options, bool with_color,
                   BagTopics& topics) {
-  const TopicTypes types = image_types;
+  const TopicTypes types = color_types;
   if (options.color_topic) {
     topics.color = chooser.named("color", "--color-topic", *options.color_topic, types);
     const BagTopic* info = find_info(chooser, topics.color->name);
@@ -260,10 +248,10 @@ void choose_color(const Chooser& chooser, const BagOptions& options, bool with_c
 /// The colour images of a camera that measures no depth.
 TopicUse choose_only_color(const Chooser& chooser, const BagOptions& options) {
   if (options.color_topic)
-    return chooser.named("color", "--color-topic", *options.color_topic, image_types);
-  const auto candidates = chooser.of(image_types, is_color);
+    return chooser.named("color", "--color-topic", *options.color_topic, color_types);
+  const auto candidates = chooser.of(color_types, is_color);
   if (candidates.empty())
-    chooser.refuse_images("no images are called color; choose those to judge with --color-topic");
+    chooser.refuse("no images are called color; choose those to judge with --color-topic");
   return chooser.only_image("color", "--color-topic", candidates, "the only images called color");
 }
 

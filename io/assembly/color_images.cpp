@@ -33,6 +33,17 @@ KeptImage keep_image(const M& message, std::shared_ptr<const void> owner) {
 template KeptImage keep_image(const ImageMessage&, std::shared_ptr<const void>);
 template KeptImage keep_image(const CompressedImageMessage&, std::shared_ptr<const void>);
 
+KeptImage keep_frame(const CompressedVideoMessage& message, VideoStream& video) {
+  auto pixels = std::make_shared<Image<Rgb8>>();
+  KeptImage kept;
+  kept.fault = video.decode(message.format, message.data, *pixels);
+  kept.image = kept.fault.empty()
+                   ? image_message(message.header, "rgb8", std::as_const(*pixels).view())
+                   : ImageMessage{.header = message.header};
+  kept.owner = std::move(pixels);
+  return kept;
+}
+
 void ColorImages::add(KeptImage image) {
   newest_ = std::max(newest_, image.header().stamp);
   images_.push_back(std::move(image));
@@ -61,6 +72,7 @@ std::string decode_color(const KeptImage& color, const Camera& camera, Image<Rgb
   if (frame_name(frame) != frame_name(camera.frame_id))
     return "the color image is of the frame '" + printable(frame) + "', the depth image of '" +
            camera.frame_id + "'; --color-topic would bring depth into the color image";
+  if (!color.fault.empty()) return color.fault;
   const auto fault =
       color.image ? decode_color(*color.image, image) : decode_color(*color.compressed, image);
   if (fault) return *fault;

@@ -12,7 +12,8 @@
 #include <penumbra/camera/camera.hpp>
 
 #include <io/files/png.hpp>
-#include <io/ros/messages.hpp>
+#include <io/files/video_file.hpp>
+#include <io/ros/foxglove_messages.hpp>
 
 namespace penumbra::io {
 
@@ -21,6 +22,7 @@ struct KeptImage {
   std::optional<ImageMessage> image;  ///< one of the two is set; it views the data of `owner`
   std::optional<CompressedImageMessage> compressed;
   std::shared_ptr<const void> owner;
+  std::string fault = {};  ///< why a video's frame has no pixels
 
   [[nodiscard]] bool is_empty() const { return !image && !compressed; }
   [[nodiscard]] const MessageHeader& header() const {
@@ -32,6 +34,9 @@ struct KeptImage {
 /// copied.
 template <typename M>
 [[nodiscard]] KeptImage keep_image(const M& message, std::shared_ptr<const void> owner = nullptr);
+
+/// Decodes the next frame of a video.
+[[nodiscard]] KeptImage keep_frame(const CompressedVideoMessage& message, VideoStream& video);
 
 /// Decodes an image if it has the frame and size of `camera`. Returns why it does not, or an empty
 /// text.

@@ -66,7 +66,7 @@ void FrameAssembler::receive(std::size_t topic, const SerializedMessage& message
   const auto fault = handlers_[topic](message, now);
   if (!fault || topics_[topic].role == TopicRole::unused_joints) return;
   add_fault(topics_[topic].name, now, *fault);
-  if (topics_[topic].role == TopicRole::depth)
+  if (topics_[topic].role == TopicRole::depth && !message.is_skipped)
     cameras_[topics_[topic].camera]->take_unreadable(*fault, now);
 }
 
@@ -161,6 +161,7 @@ MessageHandler FrameAssembler::handler_of(std::size_t topic) {
           });
     case TopicRole::depth:
     case TopicRole::color:
+      if (is_read_as<CompressedVideoMessage>(from.type)) return handler_of_video(topic);
       return is_read_as<ImageMessage>(from.type) ? handler_of_images<ImageMessage>(topic)
                                                  : handler_of_images<CompressedImageMessage>(topic);
     case TopicRole::camera_info:
@@ -232,6 +233,15 @@ MessageHandler FrameAssembler::handler_of_images(std::size_t topic) {
   return handler<M>(topic, [this, topic](const M& image, const auto& message, std::int64_t now) {
     take_image(topic, keep_image(image, message.owner), now);
   });
+}
+
+MessageHandler FrameAssembler::handler_of_video(std::size_t topic) {
+  auto video = std::make_shared<VideoStream>();
+  return handler<CompressedVideoMessage>(
+      topic, [this, topic, video](const auto& packet, const auto& message, std::int64_t now) {
+        KeptImage image = keep_frame(packet, *video);
+        if (!message.is_skipped) take_image(topic, std::move(image), now);
+      });
 }
 
 void FrameAssembler::take_image(std::size_t topic, KeptImage image, std::int64_t now) {

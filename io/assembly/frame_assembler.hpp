@@ -117,6 +117,7 @@ class FrameAssembler {
   [[nodiscard]] MessageHandler handler_of_unused(std::size_t topic);
   template <typename M>
   [[nodiscard]] MessageHandler handler_of_images(std::size_t topic);
+  [[nodiscard]] MessageHandler handler_of_video(std::size_t topic);
   template <typename M>
   [[nodiscard]] MessageHandler handler_of_targets_as(std::size_t topic);
   template <typename M>

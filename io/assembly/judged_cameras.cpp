@@ -58,7 +58,7 @@ bool is_called_rectified(const std::string& topic) {
 }
 
 std::string image_base(const std::string& topic) {
-  for (const std::string_view ending : {"/compressedDepth", "/compressed"})
+  for (const std::string_view ending : {"/compressedDepth", "/compressed", "/foxglove"})
     if (topic.size() > ending.size() && topic.ends_with(ending))
       return topic.substr(0, topic.size() - ending.size());
   return topic;

@@ -24,6 +24,7 @@ struct SerializedMessage {
   std::shared_ptr<const void> owner = {};
   std::uint64_t publisher = 0;   ///< a unique number on the topic; 0: not known
   std::int64_t source_time = 0;  ///< nanoseconds since 1970: the time of writing; 0: not known
+  bool is_skipped = false;       ///< of a video: decoded for later frames only
 };
 
 /// Decodes a message and hands it on. Returns why it cannot be decoded, or nothing. `now`:

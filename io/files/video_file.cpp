@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -10,12 +11,16 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/poll.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <penumbra/base/error.hpp>
 
+#include <io/files/h264.hpp>
 #include <io/files/numbers.hpp>
+#include <io/files/printable.hpp>
 #include <io/files/video_file.hpp>
 
 namespace penumbra::io {
@@ -23,14 +28,23 @@ namespace penumbra::io {
 /// A running program whose output is read.
 class ChildProgram {
  public:
-  /// Throws InputError if the program is not installed.
-  explicit ChildProgram(std::vector<std::string> words) {
-    std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::bad_alloc();
+  /// `patience`: how long read() and write() wait, milliseconds; nothing: without end, and the
+  /// program has no input. Throws InputError if the program is not installed.
+  explicit ChildProgram(std::vector<std::string> words, std::optional<int> patience = {})
+      : patience_(patience.value_or(-1)) {
+    std::array<int, 2> ends{}, input{-1, -1};
+    // A socket, because writing to a pipe without a reader is a signal.
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0 ||
+        (patience && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input.data()) != 0))
+      throw std::bad_alloc();
     output_ = ends[0];
+    input_ = input[0];
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    if (patience)
+      posix_spawn_file_actions_adddup2(&actions, input[1], STDIN_FILENO);
+    else
+      posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
     std::vector<char*> pointers;
@@ -40,13 +54,14 @@ class ChildProgram {
         ::posix_spawnp(&process_, pointers[0], &actions, nullptr, pointers.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
+    if (patience) ::close(input[1]);
     if (fault == 0) return;
-    ::close(output_);
+    close_ends();
     throw InputError("videos need the program " + words.front() +
                      ", which cannot be run; install FFmpeg (Debian: apt install ffmpeg)");
   }
   ~ChildProgram() {
-    ::close(output_);
+    close_ends();
     ::kill(process_, SIGKILL);
     while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
@@ -54,10 +69,10 @@ class ChildProgram {
   ChildProgram(const ChildProgram&) = delete;
   ChildProgram& operator=(const ChildProgram&) = delete;
 
-  /// Returns the number of bytes; fewer than wanted at the end.
-  std::size_t read(char* to, std::size_t count) const {
+  /// Returns the number of bytes; fewer than wanted at the end, or after the patience.
+  std::size_t read(char* to, std::size_t count) {
     std::size_t done = 0;
-    while (done < count) {
+    while (done < count && wait(output_, POLLIN)) {
       const ssize_t got = ::read(output_, to + done, count - done);
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) break;
@@ -66,9 +81,38 @@ class ChildProgram {
     return done;
   }
 
+  /// Returns false if the program ended, or after the patience.
+  bool write(std::string_view bytes) {
+    while (!bytes.empty() && wait(input_, POLLOUT)) {
+      const ssize_t taken = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      if (taken < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+      if (taken < 0) break;
+      bytes.remove_prefix(static_cast<std::size_t>(taken));
+    }
+    return bytes.empty();
+  }
+
+  /// Returns whether the last read() or write() ended by the patience.
+  [[nodiscard]] bool is_silent() const { return is_silent_; }
+
  private:
-  int output_;
+  bool wait(int end, short event) {
+    pollfd waited{end, event, 0};
+    int ready = -1;
+    do ready = ::poll(&waited, 1, patience_);
+    while (ready < 0 && errno == EINTR);
+    is_silent_ = ready == 0;
+    return ready > 0;
+  }
+  void close_ends() const {
+    ::close(output_);
+    if (input_ >= 0) ::close(input_);
+  }
+
+  int patience_;
+  int output_ = -1, input_ = -1;
   pid_t process_ = 0;
+  bool is_silent_ = false;
 };
 
 namespace {
@@ -76,7 +120,7 @@ namespace {
 /// Returns what a program prints, at most 256 MB.
 std::string output_of(std::vector<std::string> words) {
   constexpr std::size_t most = 256U << 20U;
-  const ChildProgram program(std::move(words));
+  ChildProgram program(std::move(words));
   std::string text;
   for (std::size_t got = 1; got > 0 && text.size() < most;) {
     const std::size_t before = text.size();
@@ -217,5 +261,89 @@ FileResult VideoFile<T>::read(std::size_t index, std::shared_ptr<const Image<T>>
 
 template class VideoFile<Rgb8>;
 template class VideoFile<std::uint16_t>;
+
+namespace {
+
+constexpr const char* needs_later_frames =
+    "the video has frames that need later ones; encode it without B-frames";
+
+std::string little_endian(std::uint64_t value, int size) {
+  std::string bytes;
+  for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> 8 * i & 0xff);
+  return bytes;
+}
+
+}  // namespace
+
+VideoStream::VideoStream(int patience) : patience_(patience) {}
+
+VideoStream::~VideoStream() = default;
+
+std::string VideoStream::decode(std::string_view format, std::span<const std::byte> message,
+                                Image<Rgb8>& image) {
+  const std::string_view bytes(reinterpret_cast<const char*>(message.data()), message.size());
+  if (format != "h264") return "the video has format '" + printable(format) + "'; expected h264";
+  if (!refusal_.empty()) return refusal_;
+  const H264Frame frame = read_h264(bytes, number_bits_);
+  if (std::string fault = check(frame); !fault.empty()) return fault;
+  if (frame.is_reference) last_ = frame.number;
+  if (decoder_->write(little_endian(bytes.size(), 4) + little_endian(frames_++, 8)) &&
+      decoder_->write(bytes) && read(image))
+    return {};
+  if (decoder_->is_silent() && frame.is_key) refusal_ = needs_later_frames;
+  decoder_.reset();
+  return refusal_.empty() ? "the video's frame is damaged" : refusal_;
+}
+
+/// Returns why a frame cannot be decoded. Starts ffmpeg at the first keyframe, after faults, and
+/// where the stream changes: ffmpeg would keep the size.
+std::string VideoStream::check(const H264Frame& frame) {
+  if (frame.pictures != 1)
+    return "the video's message has " + std::to_string(frame.pictures) +
+           " frames; expected one, in Annex B of H.264";
+  const bool follows =
+      frame.is_key || number_bits_ == 0 || frame.number == (last_ + 1) % (1U << number_bits_);
+  if (frame.is_between || !follows) decoder_.reset();
+  if (frame.is_between) return needs_later_frames;
+  const bool can_start = frame.is_key && !frame.parameters.empty();
+  if (can_start && (!decoder_ || frame.parameters != parameters_)) start(frame);
+  if (decoder_ || !refusal_.empty()) return refusal_;
+  return "the video's last keyframe, or a frame after it, is missing or damaged";
+}
+
+/// IVF delimits the messages, so that ffmpeg does not wait for the next one; PPM tells the size.
+/// With -xerror ffmpeg ends at a damaged frame; else it would repair or skip it.
+void VideoStream::start(const H264Frame& frame) {
+  parameters_ = frame.parameters;
+  std::istringstream words(
+      "ffmpeg -nostdin -v quiet -xerror -threads 1 -flags low_delay"
+      " -probesize 32 -analyzeduration 0 -fpsprobesize 0 -protocol_whitelist pipe -f ivf -i pipe:0"
+      " -vsync passthrough -f image2pipe -c:v ppm -flush_packets 1 pipe:1");
+  try {
+    decoder_ = std::make_unique<ChildProgram>(
+        std::vector<std::string>(std::istream_iterator<std::string>(words), {}), patience_);
+    decoder_->write("DKIF" + little_endian(32U << 16U, 4) + "H264" + little_endian(0, 4) +
+                    little_endian(1, 4) + little_endian(1, 4) + little_endian(0, 8));
+  } catch (const InputError& error) {
+    refusal_ = error.what();
+  }
+}
+
+bool VideoStream::read(Image<Rgb8>& image) {
+  constexpr std::size_t longest_header = 40;
+  std::string header;
+  for (int lines = 0; lines < 3; lines += header.back() == '\n' ? 1 : 0) {
+    header += ' ';
+    if (header.size() > longest_header || decoder_->read(&header.back(), 1) != 1) return false;
+  }
+  std::istringstream words(header);
+  std::string kind;
+  std::uint64_t width = 0, height = 0;
+  words >> kind >> width >> height;
+  if (check_image_size(width, height)) return false;
+  image.fit(static_cast<int>(width), static_cast<int>(height));
+  const std::size_t size = image.size() * sizeof(Rgb8);
+  return decoder_->read(reinterpret_cast<char*>(image.data()), size) == size;
+}
 
 }  // namespace penumbra::io

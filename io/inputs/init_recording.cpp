@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <memory>
 #include <sstream>
 #include <string_view>
@@ -253,18 +254,36 @@ class Draft {
   std::ostringstream text_;
 };
 
+/// Returns whether the first element of a file is <mujoco>.
+bool is_mjcf(const fs::path& file) {
+  constexpr std::size_t longest_head = 1U << 16U;  // with comments, as of a licence
+  std::string text(longest_head, '\0');
+  InputFile input;
+  text.resize(input.open(file).ok() ? input.read(text.data(), text.size()) : 0);
+  std::size_t at = text.find('<');
+  while (at != std::string::npos && at + 1 < text.size() && std::strchr("?!", text[at + 1])) {
+    if (text.compare(at, 4, "<!--") == 0) at = text.find("-->", at);
+    at = text.find('<', at + 1);
+  }
+  constexpr std::string_view root = "<mujoco";
+  return at != std::string::npos && text.compare(at, root.size(), root) == 0 &&
+         text.find_first_of(" \t\r\n/>", at) == at + root.size();
+}
+
 fs::path robot_file(const InitOptions& options, const std::vector<fs::path>& files) {
   if (options.robot) return fs::relative(*options.robot, options.folder);
   std::vector<fs::path> robots;
-  for (const char* const ending : {".urdf", ".urdf.xacro"})  // a URDF may be made of the other
-    if (robots.empty())
-      std::ranges::copy_if(files, std::back_inserter(robots),
-                           [&](const fs::path& file) { return ends_with(file, {ending}); });
+  for (const std::string_view ending : {".urdf", ".urdf.xacro", ".xml"})
+    if (robots.empty())  // a URDF may be made of the others
+      std::ranges::copy_if(files, std::back_inserter(robots), [&](const fs::path& file) {
+        return lower(file.filename().string()).ends_with(ending) &&
+               (ending != ".xml" || is_mjcf(options.folder / file));
+      });
   if (robots.empty())
     throw InputError(options.folder.string() +
-                     ": holds no URDF or .urdf.xacro; name the robot's by --robot FILE");
+                     ": holds no URDF, .urdf.xacro or MJCF; name the robot's by --robot FILE");
   if (robots.size() > 1)
-    throw InputError(options.folder.string() + ": holds several URDFs, " + robots[0].string() +
+    throw InputError(options.folder.string() + ": holds several robots, " + robots[0].string() +
                      " and " + robots[1].string() + "; choose one by --robot");
   return robots.front();
 }

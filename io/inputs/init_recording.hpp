@@ -11,7 +11,7 @@ namespace penumbra::io {
 
 struct InitOptions {
   std::filesystem::path folder;
-  std::optional<std::filesystem::path> robot = {};  ///< the URDF; null: the one in the folder
+  std::optional<std::filesystem::path> robot = {};  ///< null: the one in the folder
   std::map<std::string, std::filesystem::path> packages = {};
   std::map<std::string, std::string> arguments = {};  ///< of a xacro file
   bool force = false;                                 ///< replace a recording.yaml

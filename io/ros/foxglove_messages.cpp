@@ -82,6 +82,20 @@ struct CompressedImage {
   CompressedImageMessage out = {};
 };
 
+struct CompressedVideo {
+  static constexpr std::string_view full_name = "foxglove.CompressedVideo";
+  void fields(auto& io) {
+    io(1, "timestamp", time);
+    io(2, "frame_id", out.header.frame_id);
+    io(3, "data", out.data);
+    io(4, "format", out.format);
+  }
+  std::string finish() { return read_stamp(time, out.header.stamp); }
+
+  std::optional<Time> time = {};
+  CompressedVideoMessage out = {};
+};
+
 template <std::size_t N>
 std::string copy_matrix(const char* field, const std::vector<double>& from,
                         std::array<double, N>& to) {
@@ -208,8 +222,8 @@ struct JointStates {
   JointStateMessage out = {};
 };
 
-using Schemas = std::tuple<RawImage, CompressedImage, CameraCalibration, FrameTransform,
-                           FrameTransforms, JointStates>;
+using Schemas = std::tuple<RawImage, CompressedImage, CompressedVideo, CameraCalibration,
+                           FrameTransform, FrameTransforms, JointStates>;
 
 // Calls `call` with the struct of a schema, if it is one of Schemas.
 template <typename F>
@@ -265,6 +279,7 @@ using FoxgloveFault = std::optional<std::string>;
 using FoxgloveBytes = std::span<const std::byte>;
 template FoxgloveFault decode_foxglove(std::string_view, FoxgloveBytes, ImageMessage&);
 template FoxgloveFault decode_foxglove(std::string_view, FoxgloveBytes, CompressedImageMessage&);
+template FoxgloveFault decode_foxglove(std::string_view, FoxgloveBytes, CompressedVideoMessage&);
 template FoxgloveFault decode_foxglove(std::string_view, FoxgloveBytes, CameraInfoMessage&);
 template FoxgloveFault decode_foxglove(std::string_view, FoxgloveBytes, JointStateMessage&);
 template FoxgloveFault decode_foxglove(std::string_view, FoxgloveBytes, TfMessage&);

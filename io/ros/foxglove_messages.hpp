@@ -14,6 +14,18 @@
 
 namespace penumbra::io {
 
+/// One frame of a video, which most often needs the frames before it. ROS 2 has it, too.
+struct CompressedVideoMessage {
+  static constexpr std::string_view ros_type = "foxglove_msgs/CompressedVideo";
+  static auto layout(auto& m) {
+    return fields_of(as<TimeWire>(m.header.stamp), m.header.frame_id, m.data, m.format);
+  }
+
+  MessageHeader header = {};
+  std::span<const std::byte> data = {};
+  std::string format = {};  ///< "h264"
+};
+
 /// Returns the type of ROS 2 that messages of a type are read as: "sensor_msgs/msg/Image" for
 /// "foxglove.RawImage", and other names unchanged.
 [[nodiscard]] std::string ros_type_of(std::string_view type);
@@ -30,8 +42,9 @@ template <typename M, typename... Types>
 constexpr bool is_one_of_types = (std::is_same_v<M, Types> || ...);
 /// Whether a schema is read as M.
 template <typename M>
-constexpr bool is_in_foxglove = is_one_of_types<M, ImageMessage, CompressedImageMessage,
-                                                CameraInfoMessage, JointStateMessage, TfMessage>;
+constexpr bool is_in_foxglove =
+    is_one_of_types<M, ImageMessage, CompressedImageMessage, CompressedVideoMessage,
+                    CameraInfoMessage, JointStateMessage, TfMessage>;
 
 /// Reads a message of a schema whose ros_type_of() is M's. Returns what is wrong, one line that
 /// names the schema and the field, or nothing; after a fault the message is unspecified. Spans of

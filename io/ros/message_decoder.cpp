@@ -120,6 +120,7 @@ std::optional<std::string> Decoder<M>::decode(std::span<const std::byte> payload
 
 template class Decoder<ImageMessage>;
 template class Decoder<CompressedImageMessage>;
+template class Decoder<CompressedVideoMessage>;
 template class Decoder<CameraInfoMessage>;
 template class Decoder<JointStateMessage>;
 template class Decoder<TfMessage>;

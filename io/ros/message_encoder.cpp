@@ -2,6 +2,7 @@
 #include <type_traits>
 
 #include <io/ros/cdr_writer.hpp>
+#include <io/ros/foxglove_messages.hpp>
 #include <io/ros/lidar_messages.hpp>
 #include <io/ros/message_encoder.hpp>
 #include <io/ros/moveit_messages.hpp>
@@ -62,6 +63,7 @@ void encode(const M& message, std::vector<std::byte>& payload) {
 
 template void encode(const ImageMessage&, std::vector<std::byte>&);
 template void encode(const CompressedImageMessage&, std::vector<std::byte>&);
+template void encode(const CompressedVideoMessage&, std::vector<std::byte>&);
 template void encode(const CameraInfoMessage&, std::vector<std::byte>&);
 template void encode(const JointStateMessage&, std::vector<std::byte>&);
 template void encode(const TfMessage&, std::vector<std::byte>&);

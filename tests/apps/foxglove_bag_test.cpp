@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // `penumbra run` of bags with Foxglove's messages in protobuf.
+#include "../io/h264_messages.hpp"
 #include "fixtures.hpp"
 
 #include <io/files/pose_file.hpp>
+#include <io/ros/image_codec.hpp>
 
 namespace penumbra::test {
 namespace {
@@ -88,14 +90,116 @@ TEST_F(FoxgloveBagTest, SchemasWithOtherFieldsAreRefused) {
 
 TEST_F(FoxgloveBagTest, WhatIsNotReadIsRefusedByName) {
   expect_refused(BagTest::run(), {"--robot"});
-  for (TinyBag::Message& message : bag_.messages)
-    if (message.topic == color_topic) message.type = "foxglove.CompressedVideo";
-  for (const Words& options : {Words{"--no-depth"}, Words{"--color-topic", color_topic}})
-    expect_refused(run(options), {color_topic, "CompressedVideo", "foxglove.CompressedImage"});
-  EXPECT_EQ(expect_recorded().err, "") << "depth needs no video";
-
   for (TinyBag::Message& message : bag_.messages) message.type = "foxglove.Log";
   expect_refused(run(), {"foxglove.Log", "protobuf"});
+}
+
+// The color images of the tiny recording as a video, with another frame after each.
+class VideoBagTest : public FoxgloveBagTest {
+ protected:
+  void SetUp() override {
+    PENUMBRA_REQUIRE_FFMPEG();
+    saves_ = "overlay";
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::string ending = std::to_string(i) + ".png";
+      const auto color = read_image<Rgb8>(path("color_" + ending));
+      Image<Rgb8> turned = color;
+      std::reverse(turned.data(), turned.data() + turned.size());
+      frames_.insert(frames_.end(), {color, turned});
+    }
+    videos_ = h264_messages(frames_);
+    const ColorFrames decoded = h264_frames(videos_, frames_[0]);
+    set_color([&](std::size_t i) {
+      const auto image = io::image_message(header(i), "rgb8", decoded[i].view());
+      return std::pair("foxglove.RawImage", foxglove::encode(image));
+    });
+    images_ = bag_;
+    set_video();
+  }
+
+  static io::MessageHeader header(std::size_t i) {
+    return {tiny_stamp(0) + 200'000'000 * static_cast<std::int64_t>(i), "optical"};
+  }
+  template <typename F>
+  void set_color(const F& message_of) {
+    bag_.remove(topic_);
+    bag_.remove(color_topic);
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      const auto [type, bytes] = message_of(i);
+      const auto span = std::as_bytes(std::span(bytes));
+      bag_.messages.push_back(
+          {topic_, type, header(i).stamp + 30'000'000, {span.begin(), span.end()}});
+    }
+    bag_.sort();
+  }
+  void set_video(const std::string& format = "h264") {
+    set_color([&](std::size_t i) {
+      const auto data = std::as_bytes(std::span(videos_[i]));
+      return std::pair("foxglove.CompressedVideo",
+                       foxglove::encode(io::CompressedVideoMessage{header(i), data, format}));
+    });
+  }
+  /// Expects the overlays of the frames that ffmpeg decodes of the stream.
+  void expect_overlays(const Words& options = {}, std::size_t first = 0) {
+    expect_lacks(succeed(run(options)).err, {"no colour"});
+    const TinyBag video = std::exchange(bag_, images_);
+    std::vector<std::string> found;
+    for (std::size_t i = first; i < 3; ++i)
+      found.push_back(read_file(out("overlay") / numbered(i)));
+    succeed(run(options));
+    for (std::size_t i = first; i < 3; ++i)
+      EXPECT_TRUE(found[i - first] == read_file(out("overlay") / numbered(i))) << i;
+    bag_ = video;
+  }
+
+  const std::string topic_ = "/camera/color/image_raw/foxglove";
+  ColorFrames frames_;
+  std::vector<std::string> videos_;
+  TinyBag images_;  // the bag with the frames as images
+};
+
+TEST_F(VideoBagTest, ShowsVideosInOverlays) { expect_overlays(); }
+
+TEST_F(VideoBagTest, FramesBeforeTheRangeAreDecoded) {
+  const Words range = {"--frames", "2:3"};
+  expect_overlays(range, 2);
+  expect_overlays(range + Words{"--no-depth"}, 2);
+}
+
+TEST_F(VideoBagTest, IsReadInMessagesOfRos2) {
+  set_color([this](std::size_t i) {
+    const std::int64_t stamp = header(i).stamp;
+    std::string bytes = raw(std::uint32_t{0x100}, static_cast<std::int32_t>(stamp / 1'000'000'000),
+                            static_cast<std::uint32_t>(stamp % 1'000'000'000), std::uint32_t{8}) +
+                        std::string("optical\0", 8) +
+                        raw(static_cast<std::uint32_t>(videos_[i].size())) + videos_[i];
+    bytes.resize((bytes.size() + 3) / 4 * 4);
+    return std::pair("foxglove_msgs/msg/CompressedVideo",
+                     bytes + raw(std::uint32_t{5}) + std::string("h264\0", 5));
+  });
+  expect_overlays();
+}
+
+TEST_F(VideoBagTest, WhatCannotBeDecodedIsToldAndDepthIsJudged) {
+  const std::string keyframe = std::exchange(videos_[0], "");
+  set_video();
+  saves_ = "labels,overlay";
+  expect_has(expect_recorded().err, {"no colour", "2 of 3 frames", "has 0 frames"});
+  expect_has(succeed(run({"--frames", "1:2"})).err, {"1 of 1 frames", "keyframe"});
+  videos_[0] = keyframe;
+  set_video("vp9");
+  expect_has(expect_recorded().err, {"3 of 3 frames", "'vp9'", "h264"});
+  expect_refused(run({"--depth-topic", topic_}), {topic_, "foxglove.CompressedVideo", "Image"});
+}
+
+TEST_F(VideoBagTest, WithoutFfmpegItsPackageIsNamed) {
+  fs::create_directories(path("bin"));
+  fs::create_symlink("/usr/bin/timeout", path("bin/timeout"));  // which starts programs
+  const Outcome outcome = succeed(penumbra(
+      {"run", tiny_mcap(), "-o", out(), "--save", "labels,overlay", "--robot", path("tiny.urdf")},
+      {"PATH=" + path("bin").string()}));
+  expect_has(outcome.err, {"no colour", "3 of 3 frames", "apt install ffmpeg"});
+  expect_recorded_labels();
 }
 
 }  // namespace

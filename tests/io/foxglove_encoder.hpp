@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <io/ros/messages.hpp>
+#include <io/ros/foxglove_messages.hpp>
 
 namespace penumbra::test::foxglove {
 
@@ -56,6 +56,11 @@ inline std::string encode(const io::ImageMessage& image) {
 inline std::string encode(const io::CompressedImageMessage& image) {
   return counted(1, time(image.header.stamp)) + counted(4, image.header.frame_id) +
          counted(2, bytes_in(image.data)) + counted(3, image.format);
+}
+
+inline std::string encode(const io::CompressedVideoMessage& video) {
+  return counted(1, time(video.header.stamp)) + counted(2, video.header.frame_id) +
+         counted(3, bytes_in(video.data)) + counted(4, video.format);
 }
 
 inline std::string encode(const io::CameraInfoMessage& info) {
@@ -116,6 +121,11 @@ foxglove CompressedImage
 2 data 1 12
 3 format 1 9
 100 message_id 1 9
+foxglove CompressedVideo
+1 timestamp 1 11
+2 frame_id 1 9
+3 data 1 12
+4 format 1 9
 foxglove CameraCalibration
 1 timestamp 1 11
 9 frame_id 1 9

@@ -58,6 +58,7 @@ void for_each_foxglove(const F& call) {
   const MessageHeader header = test::sample_header();
   one(image_schema, ImageMessage{header, 1, 5, "mono16", {}, 5, test::sample_bytes});
   one("foxglove.CompressedImage", CompressedImageMessage{header, "png", test::sample_bytes});
+  one("foxglove.CompressedVideo", CompressedVideoMessage{header, test::sample_bytes, "h264"});
   one(camera_schema, camera);
   one(joints_schema, JointStateMessage{{header.stamp, ""}, {"elbow", "wrist"}, {0.5, -1.25}});
   const TfMessage tf{{{header, "tool", test::sample_pose()}, {{7, "a"}, "b", test::sample_pose()}}};

@@ -209,6 +209,27 @@ def test_init_says_what_is_missing(folder):
     assert "# pose: " in (folder / "recording.yaml").read_text()
 
 
+@pytest.mark.parametrize("name", ["arm.urdf.xacro", "arm.XML"])
+def test_init_finds_other_robots(folder, name):
+    (folder / "arm_description/arm.urdf").unlink()
+    (folder / "other.xml").write_text("<!-- <mujoco> --><mujocoinclude/>")
+    (folder / "text.xml").write_text("mujoco")
+    assert "MJCF" in run("init", folder, status=2).stderr
+    limits = '<limit lower="-3" upper="3" effort="1" velocity="1"/>'
+    urdf = '<robot name="r"><link name="world"/><link name="arm"/><joint name="j" type="revolute">' \
+           f'<parent link="world"/><child link="arm"/>{limits}</joint></robot>'
+    mjcf = '<?xml version="1.0"?>\n<!DOCTYPE mujoco>\n<!-- a > <robot> -->\n<mujoco>' \
+           '<worldbody><body name="arm"><joint name="j"/><geom size="1"/></body></worldbody></mujoco>'
+    (folder / name).write_text(urdf if "xacro" in name else mjcf)
+    run("init", folder)
+    assert f'urdf: "{name}"' in (folder / "recording.yaml").read_text()
+    shutil.copy(folder / name, folder / f"second_{name}")
+    assert "--robot" in run("init", folder, "--force", status=2).stderr
+    shutil.copy(SHIPPED / "arm_description/arm.urdf", folder / "arm.urdf")
+    run("init", folder, "--force")
+    assert 'urdf: "arm.urdf"' in (folder / "recording.yaml").read_text()
+
+
 def test_init_needs_one_robot(folder):
     urdf = folder / "arm_description/arm.urdf"
     shutil.copy(urdf, folder / "other.urdf")
