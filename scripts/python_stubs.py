@@ -22,6 +22,7 @@ from typing import (
     Annotated,
     Callable,
     Dict,
+    Iterable,
     Iterator,
     List,
     Mapping,
@@ -75,7 +76,10 @@ def split(text: str, separator: str) -> List[str]:
 
 
 def typed(text: str, is_argument: bool) -> str:
-    text = text.strip().replace("penumbra.", "")
+    text = text.strip().replace("penumbra.", "").replace("collections.abc.", "")
+    # pybind11 3 says what it converts from.
+    text = re.sub(r"typing\.Supports(Int|Float) \| typing\.SupportsIndex",
+                  lambda of: of[1].lower(), text).replace("os.PathLike | str | bytes", "os.PathLike")
     if is_argument:
         text = text.replace("NDArray[float64]", "ArrayLike")
         text = re.sub(r"\b[Ll]ist\[", "Sequence[", text)  # pybind11 before 2.12 writes List
