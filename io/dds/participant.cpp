@@ -96,7 +96,7 @@ class DdsSubscription final : public Subscription {
   std::atomic<std::uint64_t> taken_ = 0;
 };
 
-// Cyclone DDS asks subscribers for acknowledgements every 100 ms.
+// Much longer than graph_session.cpp lets subscribers acknowledge.
 constexpr std::chrono::milliseconds longest_acknowledgement{300};
 
 class DdsPublication final : public Publication {

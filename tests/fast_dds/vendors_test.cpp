@@ -98,6 +98,20 @@ TEST_F(Vendors, ToFastDdsEveryByteArrives) {
   }
 }
 
+TEST_F(Vendors, MessagesOfManyDatagramsAt30HzAreAcknowledged) {
+  const auto said = graph->advertise("/a", ros_image, {.reliable = true, .depth = 10});
+  auto other = peer("count", qos_of(true));
+  begin(other, *said);
+  constexpr std::uint32_t count = 60;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    ASSERT_TRUE(said->write(pattern_message(i, 300'000)));
+    ASSERT_TRUE(other.says(std::to_string(i) + " 300000"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(33));
+  }
+  // All but the first would count if nobody asked for acknowledgements; some may be late.
+  EXPECT_LT(said->unacknowledged(), count / 2);
+}
+
 TEST_F(Vendors, WhoComesLateGetsLatchedMessages) {
   const auto said =
       graph->advertise("/a", ros_image, {.reliable = true, .latched = true, .depth = 1});
