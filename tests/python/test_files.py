@@ -218,7 +218,7 @@ def test_init_finds_other_robots(folder, name):
     limits = '<limit lower="-3" upper="3" effort="1" velocity="1"/>'
     urdf = '<robot name="r"><link name="world"/><link name="arm"/><joint name="j" type="revolute">' \
            f'<parent link="world"/><child link="arm"/>{limits}</joint></robot>'
-    mjcf = '<?xml version="1.0"?>\n<!DOCTYPE mujoco>\n<!-- a > <robot> -->\n<mujoco>' \
+    mjcf = '<?xml version="1.0"?>\n<!-- a > <robot> -->\n<mujoco>' \
            '<worldbody><body name="arm"><joint name="j"/><geom size="1"/></body></worldbody></mujoco>'
     (folder / name).write_text(urdf if "xacro" in name else mjcf)
     run("init", folder)
