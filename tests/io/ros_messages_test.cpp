@@ -159,12 +159,5 @@ TEST(RosDefinition, OurPackageListsItsMessages) {
   EXPECT_EQ(messages, 11U);
 }
 
-// Bytes are never read by a definition that differs in a field.
-TEST(RosDefinition, DamagedTextsThrowInputErrorsOnly) {
-  test::read_damaged(
-      std::string(definition_of("penumbra_msgs/Targets")), test::is_full_run() ? 200'000 : 3'000,
-      [](const std::string& text) { Decoder<TargetsMessage>("penumbra_msgs/Targets", text); });
-}
-
 }  // namespace
 }  // namespace penumbra::io
