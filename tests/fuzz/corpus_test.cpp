@@ -14,10 +14,6 @@ namespace {
 
 using Random = std::mt19937_64;
 
-// More than any seed takes, and less than any lie in a header asks for. Few bytes of RVL may be of
-// any image of up to 2^24 depths.
-constexpr std::size_t large_memory = std::size_t{64} << 20U;
-
 const std::filesystem::path here = PENUMBRA_SOURCE_DIR "/tests/fuzz";
 
 std::vector<std::string> seeds_of(const std::string& name) {
@@ -112,14 +108,14 @@ class Corpus : public testing::TestWithParam<Reader> {
   /// each byte read past it.
   bool reads(const std::string& bytes) {
     const std::vector<char> exact(bytes.begin(), bytes.end());
-    const test::MemoryShortage shortage(large_memory, 0);
+    const test::MemoryShortage shortage(GetParam().large_memory, 0);
     fault_.clear();
     try {
       fault_ = test::refusal([&] { GetParam().read({exact.data(), exact.size()}); });
     } catch (const std::exception& error) {
       ADD_FAILURE() << error.what();
     }
-    EXPECT_EQ(shortage.asked(), 0U) << "of " << large_memory << " bytes or more";
+    EXPECT_EQ(shortage.asked(), 0U) << "of " << GetParam().large_memory << " bytes or more";
     if (HasFailure()) {
       const auto kept = std::filesystem::temp_directory_path() / ("bad_" + GetParam().name);
       std::ofstream(kept, std::ios::binary) << bytes;
@@ -137,7 +133,7 @@ TEST_P(Corpus, IsReadOrRefused) {
   const bool any = std::count_if(seeds.begin(), seeds.end(), [&](auto& s) { return reads(s); }) > 0;
   EXPECT_TRUE(any) << fault_;
   Random random = test::seeded_random(17);
-  const int trials = GetParam().trials * (test::is_full_run() ? 20 : 1);
+  const int trials = GetParam().trials / (test::sanitized ? 2 : 1);
   for (int trial = 0; trial < trials && !HasFailure(); ++trial) {
     SCOPED_TRACE(testing::Message() << "trial " << trial);
     std::string bytes = seeds[test::below(random, seeds.size())];

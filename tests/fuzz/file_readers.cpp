@@ -109,8 +109,11 @@ void read_pose(std::string_view bytes) {
 void read_recording(std::string_view text) {
   static const bool has_files = [] {
     file("arm.urdf", test::arm_urdf);
-    file("info.yaml", "{width: 8, height: 6, k: [9, 0, 3.5, 0, 9, 2.5, 0, 0, 1]}\n");
+    file("info.yaml",
+         "{width: 8, height: 6, k: [9, 0, 3.5, 0, 9, 2.5, 0, 0, 1], p: [9, 0, 3.5, 0, 0, 9, 2.5, 0,"
+         " 0, 0, 1, 0], distortion_model: plumb_bob, d: [0, 0, 0, 0, 0]}\n");
     file("pose.csv", "1,0,0,0.5\n0,1,0,0\n0,0,1,-1\n0,0,0,1\n");
+    file("joints.csv", "frame,shoulder,elbow\n0,0,0\n");
     return true;
   }();
   require(has_files, "files");
@@ -185,7 +188,8 @@ void read_poses_of_cameras(std::string_view text) {
 const Added files({{"png", read_pngs},
                    {"png_pixels", read_png_pixels},
                    {"tiff", read_depth_image},
-                   {"exr", read_depth_image},
+                   // OpenEXR takes the size that an attribute states, and refuses it afterwards.
+                   {"exr", read_depth_image, 2000, std::size_t{1} << 31U},
                    {"npy", read_depth_image},
                    {"jpeg", read_jpeg},
                    {"video", read_video, 100},

@@ -19,6 +19,9 @@ struct Reader {
   /// Throws InputError for bytes that it refuses. Anything else that it throws is a bug.
   std::function<void(std::string_view)> read;
   int trials = 2000;  ///< of the test; fewer of a slow one
+  /// It asks for less at once: more than any seed takes, and less than any lie in a header wants.
+  /// Few bytes of RVL may be of any image of up to 2^24 depths.
+  std::size_t large_memory = std::size_t{64} << 20U;
 };
 
 inline std::vector<Reader>& readers() {
@@ -42,7 +45,7 @@ inline std::filesystem::path file(const std::string& name, std::string_view byte
   return folder().write(name, bytes);
 }
 
-/// Ends the program unless a reader's promise is kept.
+/// Throws, which is a bug found, unless a reader keeps its promise.
 inline void require(bool is_kept, const char* promise) {
   if (!is_kept) throw std::logic_error(promise);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Damaged point clouds are refused in one line that names the file, without large memory.
 #include "../support/allocations.hpp"
-#include "../support/run_length.hpp"
 #include "cloud_samples.hpp"
 
 #include <io/cloud/cloud_file.hpp>

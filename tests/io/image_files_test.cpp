@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Images in PNG and NPY.
-#include "../support/run_length.hpp"
 #include "cloud_samples.hpp"
 #include "memory_file.hpp"
 #include "mini_png.hpp"

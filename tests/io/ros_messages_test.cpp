@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages there and back, definitions that are refused, and damaged payloads.
-#include "../support/run_length.hpp"
 #include "files.hpp"
 #include "ros_samples.hpp"
 
