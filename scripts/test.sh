@@ -85,15 +85,6 @@ test_ros() {
   echo "== ROS 2 packages: $(tail -n 1 "$log")"
 }
 
-# fuzz NAME [SEEDS]: a minute of libFuzzer without crash, hang or great allocation.
-fuzz() {
-  local folder=build/fuzz/found/$1
-  mkdir -p "$folder"
-  build/fuzz/tests/io/"$1_fuzzer" -max_total_time=60 -timeout=10 -rss_limit_mb=2048 \
-    -malloc_limit_mb=512 "-artifact_prefix=$folder-" "$folder" "${@:2}" >"$folder.log" 2>&1 ||
-    { tail -n 30 "$folder.log"; false; }
-}
-
 page() { web/check_page.sh build/release/apps/penumbra/penumbra; }
 
 # page_ended PROCESS: waits for a page() that runs beside other work.
@@ -208,11 +199,9 @@ if $full; then many=$made_again one_thread=$made_again; fi
 ! $asan_is_built || run_tests asan -E "$many"
 ! $tsan_is_built || run_tests tsan -L threaded -E "$one_thread"
 [[ -z $page ]] || check "page in a browser, beside these tests" page_ended "$page"
-if $full && check "build (fuzz)" build fuzz fuzzers "${everything[@]}" "$avx512"; then
-  seeds=build/fuzz/seeds
+if $full; then
+  seeds=build/fuzz/found/mcap
   mkdir -p "$seeds"
-  check "files of the reference library" node build/release/reference/generate.mjs "$seeds" &&
-    check "fuzz mcap" fuzz mcap "$seeds"
-  check "fuzz bag" fuzz bag
-  check "fuzz ros" fuzz ros
+  check "files of the reference library" node build/release/reference/generate.mjs "$seeds"
+  check "fuzzers" scripts/fuzz.sh 30
 fi

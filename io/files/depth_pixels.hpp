@@ -6,12 +6,28 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 
 #include <penumbra/base/image.hpp>
 
+#include <io/files/image_size.hpp>
+
 namespace penumbra::io {
+
+/// Returns what is wrong with an image of a valid size in a file of so many bytes: that they cannot
+/// hold it in any compression, so that no memory is taken for it. Nothing else is as dense as
+/// Zstandard, of which four bytes can be 128 KiB.
+[[nodiscard]] inline std::optional<std::string> check_expansion(ImageSize size,
+                                                                std::uint64_t file_bytes) {
+  constexpr std::uint64_t most_pixels_of_byte = 1U << 14U;
+  const auto pixels =
+      static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+  if (pixels / most_pixels_of_byte <= file_bytes) return std::nullopt;
+  return "has " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+         " pixels, more than a file of " + std::to_string(file_bytes) + " bytes can hold";
+}
 
 /// Returns the depth image of a file's pixels. `scale`: metres per unit; default: millimetres for
 /// integers, metres for floating-point numbers.

@@ -47,6 +47,8 @@ FileResult read_exr_depth(const std::filesystem::path& file, std::optional<Image
                                     static_cast<std::uint64_t>(size.height)))
     return FileResult::bad(file, *fault);
   if (wanted && size != *wanted) return FileResult::bad(file, wrong_size(size, *wanted));
+  if (auto fault = check_expansion(size, std::filesystem::file_size(file)))
+    return FileResult::bad(file, *fault);
   std::string all;
   const std::string channel = depth_channel(input.header().channels(), all);
   if (channel.empty())

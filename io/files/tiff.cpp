@@ -49,6 +49,8 @@ FileResult read_tiff_depth(const std::filesystem::path& file, std::optional<Imag
   if (auto fault = check_image_size(tags.width, tags.height)) return FileResult::bad(file, *fault);
   const ImageSize size{static_cast<int>(tags.width), static_cast<int>(tags.height)};
   if (wanted && size != *wanted) return FileResult::bad(file, wrong_size(size, *wanted));
+  if (auto fault = check_expansion(size, std::filesystem::file_size(file)))
+    return FileResult::bad(file, *fault);
   if (TIFFIsTiled(tiff.get()) != 0) return FileResult::bad(file, "is in tiles; expected strips");
   if (tags.channels == 1) {
     const auto read_as = [&]<typename T>(T) {

@@ -153,11 +153,6 @@ TEST_F(Bags, SaysWhatIsWrongWithACompressedFile) {
   EXPECT_HAS(refusal(other), other.string() + ": ");
   const auto none = folder_.write("r_2.mcap.zstd", "no zstd");
   EXPECT_HAS(refusal(none), none.string() + ": ");
-  const std::string whole = read_whole_file(zip(path("r_0.mcap")), FileLimit::data);
-  test::read_damaged(whole, 500, [&](const std::string& damaged) {
-    for (const std::string& fault : test::read_bag(folder_.write("d.mcap.zstd", damaged)).faults)
-      EXPECT_EQ(fault.find("penumbra-bag-"), std::string::npos) << fault;
-  });
 }
 
 TEST_F(Bags, RefusesWhatItCannotRead) {

@@ -289,16 +289,5 @@ TEST(CameraInfo, OneLineSaysWhatOtherFilesLack) {
   expect_refused(kalibr, {{"radtan", "radtan", "add their projection"}}, true);
 }
 
-TEST(CameraInfo, DamagedFilesAreCamerasOrErrors) {
-  for (const std::string& text : {info_text, calibration, opencv, kalibr, realsense, dumped})
-    for (const bool is_rectified : {false, true})
-      test::read_damaged(text, 500, [&](const std::string& damaged) {
-        const Camera camera = parse(damaged, is_rectified);
-        EXPECT_NO_THROW(camera.check());
-        EXPECT_TRUE(camera.intrinsics.ray(1, 1).allFinite());
-        EXPECT_GE(camera.distortion.max_radius(), 0);
-      });
-}
-
 }  // namespace
 }  // namespace penumbra::io

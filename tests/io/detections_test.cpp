@@ -111,32 +111,6 @@ TEST_F(DetectionsTest, FaultsNameFileAndLine) {
   expect_refused([&] { return read("none/%d.txt"); }, {"none/%d.txt"});
 }
 
-TEST_F(DetectionsTest, DamagedFilesAreReadOrRefused) {
-  const std::vector<std::array<std::string, 2>> files{
-      {"a.json", R"({"images": [{"id": 9, "file_name": "4.png", "width": 70, "height": 50}],
-          "categories": [{"id": 1, "name": "cup"}], "annotations": [{"image_id": 9, "score": 0.5,
-          "category_id": 1, "track_id": 7, "bbox": [10, 20, 14, 15]}, {"image_id": 9,
-          "category_id": 1, "segmentation": {"size": [50, 70], "counts": [10, 20, 3470]}}]})"},
-      {"a.csv",
-       "frame,class,track,score,x0,y0,x1,y1\n4,39,7,0.75,10,20,24,35\n5,39,7,-1,1,2,3,4\n"},
-      {"a.txt", "5,7,10,20,14,15,0.75,39,1\n6,-1,10,20,14,15,-1,-1,-1,-1\n"},
-      {"labels/4.txt", "39 0.24 0.55 0.2 0.3 0.75 7\n39 0.5 0.5 0.2 0.3 12\n"},
-      {"t.yaml",
-       "detections: a.csv\nfirst_frame: 1\nnames: {39: cup}\nclasses:\n"
-       "  cup: {height: 0.25, min_score: 0.5, handling: {point: {motion: hold}}}\n"}};
-  for (const auto& [name, whole] : files) {
-    folder_.write("a.csv", files[1][1]);  // which t.yaml names
-    test::read_damaged(whole, 250, [&, &name = name](const std::string& text) {
-      folder_.write(name, text);
-      if (name == "labels/4.txt") return static_cast<void>(read("labels/%d.txt"));
-      TargetsFile file = open(name);
-      const std::int64_t frames[] = {4, 5};
-      file.check_frames(frames);
-      for (const std::int64_t frame : frames) static_cast<void>(file.of_frame(frame));
-    });
-  }
-}
-
 TEST_F(DetectionsTest, ClassesSayHowTheyAreJudged) {
   folder_.write("d.csv",
                 "frame,class,track,score,x0,y0,x1,y1\n"

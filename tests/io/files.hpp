@@ -51,28 +51,4 @@ void expect_refused(const BadInputs& inputs, const Read& read) {
   }
 }
 
-/// Calls `read` with each beginning of `whole` and with random edits of it. Only an InputError may
-/// come of it.
-template <class Read>
-void read_damaged(const std::string& whole, int rounds, const Read& read) {
-  using namespace std::string_literals;
-  const std::string special = "0123456789.-+eE:[]{},#&*!|>'\"%@`\n\r\t ~?=\\<\xff\x01\x1b\0"s;
-  for (std::size_t length = 0; length < whole.size(); ++length)
-    refusal([&] { read(whole.substr(0, length)); });
-  std::mt19937_64 random = seeded_random(31);
-  for (int i = 0; i < rounds; ++i) {
-    std::string text = whole;
-    for (std::size_t edits = 1 + random() % 5; edits > 0 && !text.empty(); --edits) {
-      const std::size_t at = random() % text.size();
-      const char letter =
-          random() % 2 == 0 ? special[random() % special.size()] : static_cast<char>(random());
-      const std::uint64_t kind = random() % 6;
-      if (kind == 0) text.erase(at, 1 + random() % 8);
-      if (kind == 1) text.insert(at, 1, letter);
-      if (kind > 1) text[at] = letter;
-    }
-    refusal([&] { read(text); });
-  }
-}
-
 }  // namespace penumbra::test

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -15,13 +14,10 @@ namespace penumbra::test {
 /// A file without a disk, for readers that want a path.
 class MemoryFile {
  public:
-  explicit MemoryFile(const std::string& bytes)
-      : MemoryFile(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()) {}
-  MemoryFile(const std::uint8_t* bytes, std::size_t count)
-      : descriptor_(::memfd_create("fuzz", 0)) {
+  explicit MemoryFile(const std::string& bytes) : descriptor_(::memfd_create("test", 0)) {
     if (descriptor_ < 0) std::abort();
-    for (std::size_t done = 0; done < count;) {
-      const ssize_t put = ::write(descriptor_, bytes + done, count - done);
+    for (std::size_t done = 0; done < bytes.size();) {
+      const ssize_t put = ::write(descriptor_, bytes.data() + done, bytes.size() - done);
       if (put <= 0) std::abort();
       done += static_cast<std::size_t>(put);
     }

@@ -180,10 +180,6 @@ TEST_F(RecordingFolder, ReadsSeveralRobots) {
       [&](const std::string& text) { return open(text); });
 }
 
-TEST_F(RecordingFolder, SurvivesDamage) {
-  test::read_damaged(minimal, 1000, [&](const std::string& text) { return open(text); });
-}
-
 class JointFile : public testing::Test {
  protected:
   std::vector<JointRow> read(const std::string& text) {
@@ -242,17 +238,6 @@ TEST_F(JointFile, ABadCellLeavesTheOtherJointsOfItsRowKnown) {
   }
   EXPECT_EQ(rows[0].positions[variable("shoulder")], 0.5);
   EXPECT_TRUE(rows[2].unknown.empty() && rows[2].positions.empty()) << "too many cells";
-}
-
-TEST_F(JointFile, SurvivesDamage) {
-  test::read_damaged("frame,stamp,shoulder,elbow\n0,10,0.5,-1e-3\n1,20,1,2\n", 5000,
-                     [&](const std::string& text) {
-                       for (const JointRow& row : read(text)) {
-                         const bool is_usable = row.fault.empty() || !row.unknown.empty();
-                         EXPECT_EQ(row.positions.size(), is_usable ? 2U : 0U);
-                         for (const double p : row.positions) EXPECT_TRUE(std::isfinite(p));
-                       }
-                     });
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Messages there and back, definitions that are refused, and damaged payloads.
-#include "../support/run_length.hpp"
 #include "files.hpp"
 #include "ros_samples.hpp"
 
@@ -157,13 +156,6 @@ TEST(RosDefinition, OurPackageListsItsMessages) {
     ++messages;
   }
   EXPECT_EQ(messages, 11U);
-}
-
-// Bytes are never read by a definition that differs in a field.
-TEST(RosDefinition, DamagedTextsThrowInputErrorsOnly) {
-  test::read_damaged(
-      std::string(definition_of("penumbra_msgs/Targets")), test::is_full_run() ? 200'000 : 3'000,
-      [](const std::string& text) { Decoder<TargetsMessage>("penumbra_msgs/Targets", text); });
 }
 
 }  // namespace

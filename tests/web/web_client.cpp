@@ -57,6 +57,8 @@ bool WebClient::send(std::string_view bytes) {
   return true;
 }
 
+void WebClient::finish() { ::shutdown(socket_, SHUT_WR); }
+
 bool WebClient::fill() {
   std::array<char, 65536> buffer{};
   const ssize_t got = ::recv(socket_, buffer.data(), buffer.size(), 0);

@@ -29,6 +29,8 @@ class WebClient {
 
   /// False: the other side has closed.
   bool send(std::string_view bytes);
+  /// Says that nothing more is sent.
+  void finish();
 
   /// GET with this Host ("127.0.0.1:PORT" by default) and these header lines.
   HttpReply get(const std::string& target, const std::string& headers = "",
