@@ -198,10 +198,10 @@ class Classifier {
 ///    and front points become fringe if a ray at most `beam` from theirs (or up to 0.14 degrees
 ///    more) meets the robot at s, and s - e(s) <= r <= s + mixing.
 struct CloudRule {
-  Tolerance tolerance{.a = 0.03, .b = 0.0, .c = 0.0};  ///< e(s)
-  double beyond_factor = 2.0;                          ///< k
-  double beam = 0.003;                                 ///< radians
-  double mixing = 0.5;                                 ///< metres
+  Tolerance tolerance{0.03, 0.0, 0.0};  ///< e(s)
+  double beyond_factor = 2.0;           ///< k
+  double beam = 0.003;                  ///< radians
+  double mixing = 0.5;                  ///< metres
 
   static constexpr double max_beam = 0.01, max_mixing = 100.0;
 
