@@ -5,7 +5,7 @@ PAGES = {
     "Start": ["getting-started", "install", "method"],
     "Use": ["cloud", "point_clouds", "targets", "ros2", "live", "viewer", "python", "cpp", "diagnosis", "tuning", "scene", "look_ahead", "calibration", "batch", "robot_masks"],
     "Details": ["recording", "tracking", "time"],
-    "Reference": ["performance", "architecture"],
+    "Reference": ["performance", "latency", "architecture"],
 }
 
 
