@@ -6,7 +6,7 @@ PAGES = {
     "Understand": ["method", "viewer", "install"],
     "Programs and ROS": ["python", "cpp", "ros2", "live"],
     "More tasks": ["calibration", "point_clouds", "robot_masks", "scene", "look_ahead"],
-    "Reference": ["recording", "targets", "tracking", "tuning", "time", "performance", "architecture"],
+    "Reference": ["recording", "targets", "tracking", "tuning", "time", "performance", "latency", "architecture"],
 }
 
 
