@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -98,7 +99,6 @@ std::vector<Vector3d> points_on(const Robot& robot, std::string_view link, std::
 
   // One point of each of `count` equal parts of the area; across it by the golden ratio, so that
   // the points of a large triangle are a lattice.
-  constexpr double golden_ratio = 0.6180339887498949;
   std::vector<Vector3d> points;
   points.reserve(count);
   double before = 0.0;  // area
@@ -108,7 +108,7 @@ std::vector<Vector3d> points_on(const Robot& robot, std::string_view link, std::
     while (area > before + triangle->area && triangle + 1 != surface.end())
       before += (triangle++)->area;
     double whole = 0.0;
-    const double across = std::modf(static_cast<double>(i) * golden_ratio, &whole);
+    const double across = std::modf(static_cast<double>(i) * std::numbers::phi, &whole);
     points.push_back(triangle->at(std::min((area - before) / triangle->area, 1.0), across));
   }
   return points;
