@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Builds with warnings as errors and runs the tests, with and without sanitizers, the format and
 # clang-tidy.
-#   scripts/test.sh         some 27 minutes on two cores from a clean clone
+#   scripts/test.sh         half an hour or more on two cores from a clean clone
 #   scripts/test.sh --full  also: all tests under the sanitizers, clang-tidy on every folder, the
 #                           paper's experiments, long fuzzing and soaks, benchmarks
 # No test may skip for a missing package, or for missing data if the data folder exists.

@@ -352,8 +352,6 @@ void write_summary(io::PendingFile& file, const std::string& summary) {
   file.finish();
 }
 
-}  // namespace
-
 /// Lets all threads share their free memory. By default each thread keeps its own peak for good: an
 /// image is allocated by one thread, grown by the next and freed by a third.
 void share_free_memory() {
@@ -361,6 +359,8 @@ void share_free_memory() {
   mallopt(M_ARENA_MAX, 1);
 #endif
 }
+
+}  // namespace
 
 int execute(const LiveArguments& arguments) {
   share_free_memory();

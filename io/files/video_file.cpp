@@ -290,7 +290,8 @@ std::string VideoStream::decode(std::string_view format, std::span<const std::by
   if (decoder_->write(little_endian(bytes.size(), 4) + little_endian(frames_++, 8)) &&
       decoder_->write(bytes) && read(image))
     return {};
-  if (decoder_->is_silent() && frame.is_key) refusal_ = needs_later_frames;
+  if (decoder_->is_silent() && frame.is_key)
+    refusal_ = "ffmpeg gives no frame for a keyframe alone; encode the video without B-frames";
   decoder_.reset();
   return refusal_.empty() ? "the video's frame is damaged" : refusal_;
 }

@@ -180,7 +180,7 @@ TEST_F(VideoBagTest, IsReadInMessagesOfRos2) {
   expect_overlays();
 }
 
-TEST_F(VideoBagTest, WhatCannotBeDecodedIsToldAndDepthIsJudged) {
+TEST_F(VideoBagTest, WhatCannotBeDecodedIsReportedAndDepthIsJudged) {
   const std::string keyframe = std::exchange(videos_[0], "");
   set_video();
   saves_ = "labels,overlay";
