@@ -374,8 +374,8 @@ std::vector<ExtraMesh> extra_of(const std::vector<ExtraMesh>& extra, const std::
 void check_robots_of(const std::map<std::string, double>& joints,
                      std::span<const std::string> robots) {
   for (const auto& [joint, position] : joints)
-    if (std::ranges::none_of(robots, [&](const std::string& robot) {
-          return robot.empty() || joint.starts_with(robot + "/");
+    if (std::ranges::none_of(robots, [&name = joint](const std::string& robot) {
+          return robot.empty() || name.starts_with(robot + "/");
         }))
       throw InputError("joint '" + joint + "' names no robot; expected " + robots.front() + "/" +
                        joint);

@@ -52,7 +52,7 @@ double seconds_of(const YamlNode& time) {
 }
 
 /// Appends a JointTrajectory `after` seconds.
-void append(const YamlNode& message, double after, FileTrajectory& to) {
+void append_points(const YamlNode& message, double after, FileTrajectory& to) {
   const std::vector<std::string> names = message.at("joint_names").texts();
   if (to.points.empty()) to.variables = names;
   if (names != to.variables) message.at("joint_names").fail("differ from those of the part before");
@@ -77,7 +77,8 @@ void append_robot(const YamlNode& message, FileTrajectory& to) {
     if (points != nullptr && !points->is_null() && !points->items().empty())
       points->fail("motions of floating and planar joints are not read; expected none");
   }
-  append(message.at("joint_trajectory"), to.points.empty() ? 0.0 : to.points.back().time, to);
+  append_points(message.at("joint_trajectory"), to.points.empty() ? 0.0 : to.points.back().time,
+                to);
 }
 
 FileTrajectory read_message(const YamlNode& message, std::string name) {
@@ -86,13 +87,13 @@ FileTrajectory read_message(const YamlNode& message, std::string name) {
   FileTrajectory trajectory{.name = std::move(name)};
   const YamlNode* const parts = message.find("trajectory");
   if (parts != nullptr && parts->is_map())  // a goal of FollowJointTrajectory
-    append(*parts, 0.0, trajectory);
+    append_points(*parts, 0.0, trajectory);
   else if (parts != nullptr)
     for (const YamlNode& part : parts->items()) append_robot(part, trajectory);
   else if (message.find("joint_trajectory") != nullptr)
     append_robot(message, trajectory);
   else if (message.find("joint_names") != nullptr)
-    append(message, 0.0, trajectory);
+    append_points(message, 0.0, trajectory);
   else
     message.fail(
         "expected a message of JointTrajectory, RobotTrajectory or DisplayTrajectory, a goal of "
