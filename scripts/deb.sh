@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # scripts/deb.sh [OPTION OF dpkg-buildpackage...]: Debian packages of the last commit in build/deb,
-# checked by lintian. To cross-build: scripts/deb.sh -aarm64 -Pcross
+# checked by lintian, and what they consist of (.spdx.json). To cross-build: scripts/deb.sh -aarm64 -Pcross
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,6 +14,10 @@ if ! dpkg-checkbuilddeps "$@" 2>/dev/null; then
   ((EUID == 0)) || as_root=(sudo)
   "${as_root[@]}" apt-get build-dep -qq -y --no-install-recommends "$@" ./ >/dev/null
 fi
+rm -f ../penumbra_*.changes
+SOURCE_DATE_EPOCH=$(dpkg-parsechangelog -S Timestamp)
+export SOURCE_DATE_EPOCH
 DEB_BUILD_OPTIONS=noautodbgsym dpkg-buildpackage -us -uc -b "$@"
-lintian --fail-on error ../penumbra_*.changes
+lintian --fail-on error,warning ../penumbra_*.changes
+python3 scripts/sbom.py build/deb-* ../penumbra_*.changes
 ls -l ../*.deb

@@ -16,7 +16,7 @@ build=(g++ cmake ninja-build libeigen3-dev libhwy-dev libtinyxml2-dev libmeshopt
        libdeflate-dev libjpeg-dev libtiff-dev libopenexr-dev liblz4-dev libzstd-dev libsqlite3-dev libboost-dev zlib1g-dev)
 ros=(cyclonedds-dev nettle-dev)
 python=(pybind11-dev python3-pybind11 python3-dev python3-numpy python3-setuptools python3-wheel python3-venv python3-pip
-        python3-matplotlib patchelf)
+        python3-matplotlib patchelf dpkg-dev)
 sim=(libmujoco-dev libepoxy-dev libegl1 libopengl0 libegl-mesa0 libgl1-mesa-dri)
 research=(libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev)
 test=(libgtest-dev libassimp-dev libembree-dev liburdfdom-dev libopencv-calib3d-dev
@@ -30,7 +30,7 @@ docs=(doxygen python3-breathe python3-sphinx python3-myst-parser furo)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)
 lint=(clang-format clang-tidy)
 cross=(crossbuild-essential-arm64 qemu-user-static)
-deb=(dpkg-dev lintian)
+deb=(dpkg-dev lintian abigail-tools)
 
 install=false
 if [[ ${1:-} == --install ]]; then
