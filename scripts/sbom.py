@@ -32,14 +32,16 @@ def output(*command: object) -> str:
 
 
 def add(name: str, version="NOASSERTION", supplier="NOASSERTION", licence="NOASSERTION", purl="", **more) -> str:
-    """Adds a package unless it is there, and returns its identifier."""
+    """Adds a package unless more is known of it, and returns its identifier."""
     this = "SPDXRef-" + re.sub("[^A-Za-z0-9.-]", "-", name)
     if purl:
         more["externalRefs"] = [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
                                  "referenceLocator": f"pkg:{purl}"}]
-    packages.setdefault(this, {
-        "SPDXID": this, "name": name, "versionInfo": version, "supplier": re.sub("<(.*)>", r"(\1)", supplier),
-        "downloadLocation": "NOASSERTION", "filesAnalyzed": False, "licenseDeclared": licence, **more})
+    if packages.get(this, {"supplier": "NOASSERTION"})["supplier"] == "NOASSERTION":
+        packages[this] = {
+            "SPDXID": this, "name": name, "versionInfo": version or "NOASSERTION",
+            "supplier": re.sub("<(.*)>", r"(\1)", supplier), "downloadLocation": "NOASSERTION",
+            "filesAnalyzed": False, "licenseDeclared": licence, **more}
     return this
 
 

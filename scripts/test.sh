@@ -109,6 +109,34 @@ check_tidy() {
   return "$status"
 }
 
+# built_again: the packages have the same bits when they are built in another folder, at another time.
+built_again() {
+  local elsewhere status
+  elsewhere=$(mktemp -d) || return
+  git clone -q . "$elsewhere/penumbra" &&
+    TZ=Pacific/Auckland CCACHE_DISABLE=1 "$elsewhere/penumbra/scripts/deb.sh" >/dev/null 2>&1 &&
+    TZ=Pacific/Auckland CCACHE_DISABLE=1 "$elsewhere/penumbra/scripts/wheel.sh" >/dev/null 2>&1 &&
+    (cd "$elsewhere/penumbra" && sha256sum build/deb/*.{deb,spdx.json} build/wheel/*) | sha256sum --quiet -c
+  status=$?
+  rm -rf "$elsewhere"
+  return "$status"
+}
+
+# check_abi TAG: the libraries of TAG can be replaced by those of scripts/deb.sh, as abidiff sees them.
+# Instances of templates of the standard library and of Eigen are not their interface.
+check_abi() {
+  local new old
+  rm -rf build/abi
+  git clone -q -b "$1" . build/abi && (cd build/abi && debian/rules build >/dev/null 2>&1) || return
+  printf '[suppress_function]\nsymbol_name_regexp = %s\n' \
+    '^_ZN?K?[RO]?(St|9__gnu_cxx|5Eigen|8penumbra6detail)' >build/abi/suppressions
+  for new in build/deb/penumbra/build/deb-*/*/libpenumbra*.so.*.*.*; do
+    old=$(echo build/abi/build/deb-*/*/"$(basename "${new%%.so.*}")".so.*.*.*)
+    abidiff --no-added-syms --no-unreferenced-symbols --suppressions build/abi/suppressions \
+      --headers-dir1 build/abi/penumbra --headers-dir2 penumbra "$old" "$new" || return
+  done
+}
+
 groups=(build ros python sim research test web lint)
 ! $full || groups+=(bench docs deb)
 check packages scripts/packages.sh --install "${groups[@]}" || exit
@@ -168,6 +196,14 @@ if $full; then
   check "page in a browser" page
   check "docs" scripts/docs.sh build/docs/html build/release
   check "Debian packages" scripts/deb.sh
+  check "wheel" scripts/wheel.sh
+  check "packages have the same bits elsewhere" built_again
+  if tag=$(git describe --tags --abbrev=0 2>/dev/null); then
+    check "binary interface of $tag" check_abi "$tag"
+  else
+    skipped=$((skipped + 1))
+    echo "== binary interface: skipped: no tag"
+  fi
   check "headers alone" build release test_headers "${everything[@]}" "$benchmarks"
   check "a great bag is streamed" build/release/bench/mcap_benchmark 5
   if [[ -d ${PENUMBRA_DATA:-../shared/data} ]]; then
