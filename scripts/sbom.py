@@ -37,7 +37,7 @@ def add(name: str, version="NOASSERTION", supplier="NOASSERTION", licence="NOASS
     if purl:
         more["externalRefs"] = [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl",
                                  "referenceLocator": f"pkg:{purl}"}]
-    if packages.get(this, {"supplier": "NOASSERTION"})["supplier"] == "NOASSERTION":
+    if this not in packages or supplier != "NOASSERTION":
         packages[this] = {
             "SPDXID": this, "name": name, "versionInfo": version or "NOASSERTION",
             "supplier": re.sub("<(.*)>", r"(\1)", supplier), "downloadLocation": "NOASSERTION",
@@ -117,7 +117,7 @@ def describe(build: pathlib.Path, this: str, fields, folder: pathlib.Path, sibli
         elif "/include/" in path and not path.startswith(f"{ROOT}/"):  # a Python or a pybind11 that is not Debian's
             related.add(("STATIC_LINK", add(re.sub(".*/include/([^/]+)/.*", r"\1", path))))
     wanted = fields.get_all("Requires-Dist") or (fields["Depends"] or "").split(", ")
-    for name, versions in re.findall(r"^([\w.+-]+) *\(?([^;)\n]*)\)?$", "\n".join(wanted), re.M):
+    for name, versions in re.findall(r"^([\w.+-]+)(?::any)? *\(?([^;)\n]*)\)?$", "\n".join(wanted), re.M):
         other = add(name, versions)
         related |= {("DEPENDS_ON", other)} if ("DYNAMIC_LINK", other) not in related else set()
     relationships.update({(this, *relation) for relation in related} | {("SPDXRef-DOCUMENT", "DESCRIBES", this)})
