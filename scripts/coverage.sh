@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Line coverage of the C++ code: prints a table by folder and writes build/coverage/html/index.html.
-#   scripts/coverage.sh                     by all tests: some hours on two cores
+#   scripts/coverage.sh                     by all tests, which takes long
 #   scripts/coverage.sh CTEST OPTIONS...    by some tests, as -L plain or -R '^Classifier'
 # Configure before, to build less:
 #   cmake --preset coverage -DPENUMBRA_BUILD_APPS=OFF
