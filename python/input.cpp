@@ -7,6 +7,7 @@
 #include <python/frame.hpp>
 
 #include <io/inputs/clouds.hpp>
+#include <io/inputs/input_session.hpp>
 #include <io/inputs/run_input.hpp>
 
 namespace penumbra::python {
@@ -85,6 +86,13 @@ io::RunInput open_one(const io::InputOptions& options, const io::LineSink& print
   for (const io::RunInput& sensor : sensors) topics += (topics.empty() ? "" : ", ") + sensor.sensor;
   throw InputError(options.path.string() + ": several topics of clouds (" + topics +
                    "); choose one with BagOptions.cloud_topics");
+}
+
+io::TargetsFile open_targets(const Input& self, const std::optional<std::filesystem::path>& file,
+                             ImageSpace image) {
+  if (!file && !self.targets)
+    throw InputError(self.options.path.string() + ": has no targets.yaml; give the file");
+  return io::open_targets(file ? *file : *self.targets, self, image);
 }
 
 /// Returns an input that has a camera.
@@ -187,7 +195,13 @@ void bind_input_classes(py::module_& m) {
       .def("__len__", &size_of)
       .def("__repr__", [](const Input& self) { return "<Input: " + self.robot.name() + ">"; })
       .def("__getitem__", &frame_at, py::arg("i"),
-           "Reads a frame, of a bag also those before it. Several threads may use it.");
+           "Reads a frame, of a bag also those before it. Several threads may use it.")
+      .def("open_targets", &open_targets, WithoutGil(),
+           py::arg("file") = std::optional<std::filesystem::path>(), py::kw_only(),
+           py::arg("image") = ImageSpace::raw,
+           "Opens a targets.yaml or a detector's file for these frames; None: the input's own. "
+           "image: PipelineConfig.image of their session. Raises InputError with file, line and "
+           "key.");
   using I = Input;
   show_properties(
       input, Field{"robot", &I::robot, "The robot."},

@@ -6,36 +6,10 @@
 
 namespace penumbra::python {
 
-namespace {
-
-io::TargetsFile open_targets(const std::filesystem::path& file, const Robot& robot,
-                             ImageSpace image, const Intrinsics& images, bool has_distortion,
-                             bool beyond_hides, double history, const std::string& camera_frame) {
-  return io::TargetsFile::open(file, {.robot = robot,
-                                      .image = image,
-                                      .images = images,
-                                      .has_distortion = has_distortion,
-                                      .beyond_hides = beyond_hides,
-                                      .history = history,
-                                      .camera_frame = camera_frame});
-}
-
-}  // namespace
-
 void bind_targets_file(py::module_& m) {
   py::class_<io::TargetsFile>(m, "TargetsFile",
-                              "A targets.yaml (docs/targets.md): which targets "
-                              "each frame has.")
-      .def_static(
-          "open", &open_targets, WithoutGil(), py::arg("file"), py::kw_only(), py::arg("robot"),
-          py::arg("image"), py::arg("images"), py::arg("has_distortion"), py::arg("beyond_hides"),
-          py::arg("history") = io::TargetsContext::default_history,
-          py::arg("camera_frame") = std::string(),
-          "robot: whose links may be named; image: of the report; images: size and "
-          "projection of the report's images; has_distortion: the camera's raw images have lens "
-          "distortion; beyond_hides: of targets that do not say it; history: seconds that "
-          "frames are kept for late targets, if there are any; camera_frame: of the report's "
-          "images. Raises InputError with file, line and key.")
+                              "A targets.yaml or a detector's file (docs/targets.md): which "
+                              "targets each frame has. Input.open_targets() opens one.")
       .def(
           "of_frame",
           [](const io::TargetsFile& self, std::int64_t i) {

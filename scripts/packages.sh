@@ -5,8 +5,8 @@
 #   scripts/packages.sh --install GROUP...  installs those that are not there yet, without questions
 # Groups: build (library and command line), ros (its live topics of ROS 2), python (import penumbra;
 # matplotlib for its examples), sim (simulation), research (the paper's experiments), test, web (the
-# page's tests), docs (the site), bench, lint, cross (scripts/cross.sh), deb (scripts/deb.sh; what
-# the packages are built with is in debian/control).
+# page's tests), docs (the site), bench, lint, coverage (scripts/coverage.sh), cross
+# (scripts/cross.sh), deb (scripts/deb.sh; what the packages are built with is in debian/control).
 # OpenGL is tested on Mesa's software driver; the driver of a GPU next to libegl1 and libopengl0
 # also works.
 set -euo pipefail
@@ -29,6 +29,7 @@ web=(chromium fonts-dejavu-core nodejs npm)
 docs=(doxygen python3-breathe python3-sphinx python3-myst-parser furo)
 bench=(libbenchmark-dev libembree-dev libegl-dev libopengl-dev libegl-mesa0 libgl1-mesa-dri)
 lint=(clang-format clang-tidy)
+coverage=(gcovr)
 cross=(crossbuild-essential-arm64 qemu-user-static)
 deb=(dpkg-dev lintian abigail-tools)
 
@@ -42,7 +43,7 @@ if (($# == 0)); then
   exit 2
 fi
 
-groups=" build ros python sim research test web docs bench lint cross deb "
+groups=" build ros python sim research test web docs bench lint coverage cross deb "
 packages=()
 for group in "$@"; do
   if [[ $groups != *" $group "* ]]; then

@@ -22,7 +22,7 @@ copyright = "the Penumbra authors"
 
 root_doc = "README"
 include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "docs/*.md", "examples/*/README.md",
-                    "research/README.md"]
+                    "research/README.md", "ros/*/QUALITY_DECLARATION.md"]
 exclude_patterns = ["build*", "out*", "web", ".git", ".cache"]
 extensions = ["myst_parser", "breathe"]
 myst_heading_anchors = 4

@@ -17,5 +17,7 @@ def contents():
         names = "\n".join(f"docs/{page}" for page in pages)
         if caption == "Reference":
             names += "\nresearch/README\nexamples/arm_over_table/README\nCHANGELOG\nCONTRIBUTING\nSECURITY"
+            names += "".join(f"\nros/{package}/QUALITY_DECLARATION"
+                             for package in ("penumbra_ros", "penumbra_msgs", "penumbra_examples"))
         text += f"\n```{{toctree}}\n:hidden:\n:caption: {caption}\n\n{names}\n```\n"
     return text

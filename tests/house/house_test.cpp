@@ -283,7 +283,7 @@ TEST(Upkeep, PackagesAreListed) {
 
 TEST(Upkeep, LinksInDocumentsLeadSomewhere) {
   const std::filesystem::path root = PENUMBRA_SOURCE_DIR;
-  auto documents = source_files({"docs", "examples"}, {".md"});
+  auto documents = source_files({"docs", "examples", "ros"}, {".md"});
   for (const char* name : {"README.md", "CHANGELOG.md"})
     documents.push_back(read_source(root, root / name));
   const std::regex pattern(R"(\]\(([^)#]+)[^)]*\))");

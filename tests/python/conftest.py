@@ -39,8 +39,7 @@ class Opened:
         self.session = penumbra.Session(self.robot, self.camera, self.config)
 
     def targets(self):
-        return penumbra.TargetsFile.open(self.frames.targets, robot=self.robot, image=self.config.image,
-                                         images=self.session.intrinsics, has_distortion=False, beyond_hides=True)
+        return self.frames.open_targets(image=self.config.image)
 
 
 @pytest.fixture

@@ -2,12 +2,13 @@
 """Python and the command line say the same."""
 
 import json
+import shutil
 
 import numpy as np
 import pytest
 
 import penumbra
-from conftest import DATA, SHIPPED, Opened, read_png, run, run_python, skip_without_data
+from conftest import DATA, SHIPPED, Opened, read_png, refuses, run, run_python, skip_without_data
 
 BAG = DATA / "xarm7_realsense" / "xarm7.mcap"
 RECORDINGS = [SHIPPED, DATA / "xarm7_realsense", BAG]
@@ -88,3 +89,13 @@ def test_python_m_penumbra_is_the_command_line(tmp_path):
         expected = run(*arguments, status=status)
         told = run_python("-m", "penumbra", *arguments, status=status)
         assert (told.stdout, told.stderr) == (expected.stdout, expected.stderr)
+
+
+def test_an_input_without_targets_says_so(tmp_path):
+    folder = tmp_path / "recording"
+    shutil.copytree(SHIPPED, folder)
+    yaml = (folder / "recording.yaml").read_text()
+    (folder / "recording.yaml").write_text(yaml.replace("targets: targets.yaml", ""))
+    given = penumbra.open(folder)
+    refuses("give the file", given.open_targets)
+    assert len(given.open_targets(SHIPPED / "targets.yaml")) == 4

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The examples run, and what they write is right."""
 
+import pathlib
+import re
 import shutil
 
 import numpy as np
@@ -20,6 +22,16 @@ def robot_of(report):
     return (report.labels != penumbra.Label.clear) & (report.labels != penumbra.Label.front)
 
 
+def test_each_example_is_short_and_run():
+    tests = pathlib.Path(__file__).read_text() + (ROOT / "examples" / "CMakeLists.txt").read_text()
+    examples = [*EXAMPLES.glob("*.py"), *(ROOT / "examples").glob("*.cpp")]
+    assert len(examples) > 10
+    for example in examples:
+        assert len(example.read_text().splitlines()) < 40, example
+        name = example.name if example.suffix == ".py" else f"penumbra_example({example.stem} "
+        assert name in tests, example
+
+
 def test_mask_depth_takes_ten_lines_and_masks_the_robot(tmp_path):
     lines = (EXAMPLES / "mask_depth.py").read_text().splitlines()
     start = lines.index("import penumbra")
@@ -37,7 +49,7 @@ def test_mask_depth_takes_ten_lines_and_masks_the_robot(tmp_path):
 
 def test_filter_cloud_keeps_what_is_not_the_robot(tmp_path):
     told = run("filter_cloud.py", SHIPPED, tmp_path)
-    assert len(list(tmp_path.glob("*.ply"))) == told.count("of the robot left out") == 12
+    assert len(list(tmp_path.glob("*.ply"))) == told.count("points") == 12
     data = (tmp_path / "000004.ply").read_bytes()
     head, body = data.split(b"end_header\n")
     points = np.frombuffer(body, [("p", "<f4", 3), ("c", "u1", 3)])
@@ -61,15 +73,18 @@ def test_plot_occlusion_draws(tmp_path):
 
     run("plot_occlusion.py", SHIPPED, tmp_path / "occlusion.png")
     drawn = image.imread(tmp_path / "occlusion.png")
-    assert drawn.shape[1] > 800 and len(np.unique(drawn.reshape(-1, drawn.shape[2]), axis=0)) > 50
+    assert drawn.shape[1] > 600 and len(np.unique(drawn.reshape(-1, drawn.shape[2]), axis=0)) > 50
 
 
 def test_batch_folder_judges_all_and_tells_what_fails(tmp_path):
     for name in ("a", "b"):
         shutil.copytree(SHIPPED, tmp_path / "in" / name)
     told = run("batch_folder.py", tmp_path / "in", tmp_path / "out")
-    assert told.count("12 frames") == 2 and "2 of 2 judged" in told
+    assert told.count("done") == 2 and "2 of 2 judged" in told
     assert len(list((tmp_path / "out").rglob("*.npz"))) == 24
+    opened = Opened(SHIPPED)
+    report = opened.session.process(opened.frames[5])
+    assert np.array_equal(np.load(tmp_path / "out" / "b" / "000005.npz")["depth"], report.without_robot())
     (tmp_path / "in" / "a" / "joint_states.csv").unlink()
     done = run_python(EXAMPLES / "batch_folder.py", tmp_path / "in", tmp_path / "out", status=2)
     assert "joint_states.csv" in done.stderr and "1 of 2" in done.stdout
@@ -82,17 +97,22 @@ def test_calibrate_writes_the_pose(tmp_path):
 
 
 def test_pick_and_place_holds_the_part_where_it_is():
-    told = [line.split(", ") for line in run("pick_and_place.py").splitlines()]
-    for i in (3, 4, 5):
-        assert told[i] == [f"frame {15 * i}: held it is attached to link 'gripper'", "predicted", "0.000 mm off"]
-    assert told[-1][0].startswith("frame 105: visible") and told[-1][1] == "measured"
+    told = [re.match(r"(\d+) (\w+) \[ *(\S+) +(\S+) +(\S+) *\] ?(.*)", line).groups()
+            for line in run("pick_and_place.py").splitlines()]
+    given = penumbra.open(SHIPPED)
+    poses = [given.robot.forward_kinematics(frame.pose.positions)[given.robot.find_link("gripper")] for frame in given]
+    place = np.array([0.634, -0.041, 0.22, 1])
+    for i, (index, verdict, *position, reason) in enumerate(told):
+        carried = poses[min(max(i, 3), 8)] @ np.linalg.inv(poses[3]) @ place
+        assert int(index) == i and np.allclose(np.array(position, float), carried[:3], atol=0.6e-3)  # printed in mm
+        assert (verdict == "held") == (4 <= i <= 8) and (verdict != "held" or "link 'gripper'" in reason)
+    assert len(told) == 12 and told[-1][1] == "visible"
 
 
-def test_ways_to_a_grasp_are_ranked(tmp_path):
-    told = run("rank_grasps.py", tmp_path / "ways.png").splitlines()
+def test_ways_to_a_grasp_are_ranked():
+    told = run("rank_grasps.py").splitlines()
     assert told[0].startswith("over the top") and "100 % seen" in told[0]
     assert told[-1].startswith("straight") and "behind" in told[-1]
-    assert (tmp_path / "ways.png").stat().st_size > 10_000
 
 
 def test_a_planner_keeps_the_target_in_view():
