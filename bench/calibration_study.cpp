@@ -241,7 +241,7 @@ RobotChoice ur5e() {
 
 constexpr std::array fault_names{
     "nothing",   "nothing, depth 0.5 % off", "nothing, moving arm", "fx and fy", "fx alone",
-    "one joint", "clocks, moving arm",       "two of these",        "one link"};
+    "one joint", "clocks, moving arm",       "two of these",        "one link",  "depth scale"};
 constexpr std::size_t right_kinds = 3;  // the first of them have no fault
 
 double either_way(sim::Random& random, double least, double most) {
@@ -266,6 +266,7 @@ Faults faults_of(std::size_t kind, std::size_t joints, std::uint64_t seed) {
   Faults faults;
   if (kind == 1) faults.setup.depth_scale = either_way(random, 0.005, 0.005);
   if (kind == 8) faults.link = either_way(random, 0.1, 0.1);
+  if (kind == 9) faults.setup.depth_scale = either_way(random, 0.02, 0.05);
   if (kind != 7) {
     add_fault(kind, joints, random, faults);
     return faults;
@@ -345,6 +346,8 @@ void run_faulty(const RobotChoice& robot, std::size_t kind, std::uint64_t seed, 
   constexpr double much = 1.5 * 1.5;
   bool named = faults.setup.late != 0.0 && says(found, "stamps");
   named |= faults.focal.x() != 0.0 && says(found, "fx is");
+  named |= faults.link != 0.0 && says(found, "in the URDF");
+  named |= std::abs(faults.setup.depth_scale) > 0.01 && says(found, "multiply depth_scale");
   for (std::size_t j = 0; j < errors.size(); ++j)
     named |= errors[j] != 0.0 && says(found, cell.robot().variables()[j] + " ");
   const bool other = !named && says(found, "");

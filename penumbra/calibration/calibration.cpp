@@ -185,9 +185,8 @@ class Calibrator {
     if (!options_.joint_offsets) return fit;
     const Explained explained = calibration::explain(observer, unknowns_, used_, fit);
     for (const FoundCause& found : explained.causes)
-      if (found.cause.kind == Cause::Kind::joint)
-        unknowns_.variables.push_back(found.cause.variable);
-    return calibration::refine(observer, unknowns_, used_, explained.fit.state);
+      if (found.cause.kind == Cause::Kind::joint) unknowns_.variables.push_back(found.cause.index);
+    return calibration::refine(observer, unknowns_, used_, with_zeros(fit.state));
   }
 
   /// The unknowns with the zeros of all joints, which are known to
@@ -196,9 +195,9 @@ class Calibrator {
     Unknowns all = unknowns_;
     all.accuracy = options_.joint_accuracy;
     for (const Cause& cause : calibration::possible_causes(robot_, used_))
-      if (cause.kind == Cause::Kind::joint && cause.variable != turning_ &&
-          std::ranges::count(unknowns_.variables, cause.variable) == 0) {
-        all.variables.push_back(cause.variable);
+      if (cause.kind == Cause::Kind::joint && cause.index != turning_ &&
+          std::ranges::count(unknowns_.variables, cause.index) == 0) {
+        all.variables.push_back(cause.index);
         ++all.accurate;
       }
     return all;

@@ -24,6 +24,7 @@ constexpr double least_drop = 16.0;
 /// Causes whose drops are nearer to each other's than first-order steps are to the truth.
 constexpr double told_apart = 0.8;
 constexpr std::size_t most_causes = 3;
+constexpr double shortest_link = 0.05;  // metres between a link's origin and a joint of it
 constexpr double usual_offset = 0.005, usual_scale = 0.005;  // metres; Unknowns::prior_sigmas()
 
 /// What freeing one cause does, to first order.
@@ -41,7 +42,10 @@ Unknowns with(Unknowns unknowns, const Cause& cause) {
       unknowns.focal_count = 2;
       break;
     case Cause::Kind::joint:
-      unknowns.variables.push_back(cause.variable);
+      unknowns.variables.push_back(cause.index);
+      break;
+    case Cause::Kind::link:
+      unknowns.links.push_back(cause.index);
       break;
     case Cause::Kind::clock:
       unknowns.has_time = true;
@@ -55,9 +59,12 @@ Unknowns with(Unknowns unknowns, const Cause& cause) {
 
 /// The indices of a cause in the unknowns; empty: they do not have it.
 std::vector<int> indices(const Unknowns& unknowns, const Cause& cause) {
-  const auto variable = std::ranges::find(unknowns.variables, cause.variable);
-  int first = unknowns.joints() + static_cast<int>(variable - unknowns.variables.begin());
-  int count = variable == unknowns.variables.end() ? 0 : 1;
+  const bool is_link = cause.kind == Cause::Kind::link;
+  const auto& some = is_link ? unknowns.links : unknowns.variables;
+  const auto at = std::ranges::find(some, cause.index);
+  int first =
+      (is_link ? unknowns.lengths() : unknowns.joints()) + static_cast<int>(at - some.begin());
+  int count = at == some.end() ? 0 : 1;
   if (cause.kind == Cause::Kind::focal) first = unknowns.focal(), count = unknowns.focal_count;
   if (cause.kind == Cause::Kind::clock) first = unknowns.time(), count = unknowns.has_time;
   if (cause.kind == Cause::Kind::lens) first = unknowns.lens(), count = unknowns.has_lens;
@@ -76,7 +83,9 @@ std::vector<int> indices(const Unknowns& all, const Unknowns& some) {
   std::vector<int> found(static_cast<std::size_t>(some.joints()));
   std::iota(found.begin(), found.end(), 0);
   for (const std::size_t variable : some.variables)
-    found.push_back(indices(all, {.kind = Cause::Kind::joint, .variable = variable})[0]);
+    found.push_back(indices(all, {.kind = Cause::Kind::joint, .index = variable})[0]);
+  for (const std::size_t joint : some.links)
+    found.push_back(indices(all, {.kind = Cause::Kind::link, .index = joint})[0]);
   if (some.has_time) found.push_back(all.time());
   if (some.has_lens) found.push_back(all.lens());
   return found;
@@ -113,7 +122,9 @@ std::string name_of(const Cause& cause, const Robot& robot) {
     case Cause::Kind::focal:
       return "the focal length";
     case Cause::Kind::joint:
-      return "the zero of " + robot.variables()[cause.variable];
+      return "the zero of " + robot.variables()[cause.index];
+    case Cause::Kind::link:
+      return "the length of " + robot.links()[robot.joints()[cause.index].parent];
     case Cause::Kind::lens:
       return "the lens's distortion";
     case Cause::Kind::clock:
@@ -157,7 +168,11 @@ std::vector<Cause> possible_causes(const Robot& robot, std::span<const KeptFrame
     if (!joint.mimics &&
         (joint.type == JointType::revolute || joint.type == JointType::continuous ||
          joint.type == JointType::prismatic))
-      causes.push_back({.kind = Cause::Kind::joint, .variable = *joint.variable});
+      causes.push_back({.kind = Cause::Kind::joint, .index = *joint.variable});
+  if (!frames.front()->depth.empty())
+    for (std::size_t j = 0; j < robot.joints().size(); ++j)
+      if (robot.joints()[j].origin.translation().norm() > shortest_link)
+        causes.push_back({.kind = Cause::Kind::link, .index = j});
   if (std::ranges::any_of(frames, [](const auto* frame) { return frame->tells_time(); }))
     causes.push_back({.kind = Cause::Kind::clock});
   return causes;
@@ -171,7 +186,7 @@ std::string text_of(const FoundCause& found, const Explained& explained, const R
   if (found.cause.kind == Cause::Kind::focal) {
     text = focal_text(explained, camera);
   } else if (found.cause.kind == Cause::Kind::joint) {
-    const std::size_t variable = found.cause.variable;
+    const std::size_t variable = found.cause.index;
     const int at = indices(explained.unknowns, found.cause)[0];
     const auto joint = std::ranges::find_if(
         robot.joints(), [&](const Joint& one) { return one.variable == variable && !one.mimics; });
@@ -181,6 +196,12 @@ std::string text_of(const FoundCause& found, const Explained& explained, const R
                   slides ? 1e3 : 180.0 / std::numbers::pi, slides ? 1 : 2) +
            (slides ? " mm" : " degrees") + " off" +
            (has_depth ? " (penumbra calibrate --joint-offsets)" : "");
+  } else if (found.cause.kind == Cause::Kind::link) {
+    const int at = indices(explained.unknowns, found.cause)[0];
+    const double length = state.link_lengths[found.cause.index];
+    text = name_of(found.cause, robot) + " to " + robot.joints()[found.cause.index].name + " is " +
+           amount(length, explained.fit.covariance(at, at), 1e3, 1) + " mm too " +
+           (length > 0.0 ? "short" : "long") + " in the URDF";
   } else if (found.cause.kind == Cause::Kind::lens) {
     const int at = explained.unknowns.lens();
     text = "the lens distorts the images otherwise than camera_info says: k1 is " +
@@ -217,8 +238,7 @@ std::string text_of_depth(const Refined& fit) {
   if (text.empty()) return text;
   text += ", more than depth cameras are";
   if (is_beyond(fit.state.depth_scale, scale, usual_scale))
-    text += ": multiply depth_scale by " + fixed(1.0 / (1.0 + fit.state.depth_scale), 3) +
-            ", unless a link of the URDF has the wrong length";
+    text += ": multiply depth_scale by " + fixed(1.0 / (1.0 + fit.state.depth_scale), 3);
   return text;
 }
 
@@ -247,6 +267,7 @@ Explained explain(Observer& observer, const Unknowns& own, std::span<const KeptF
 
   Explained result{.unknowns = own, .fit = fit};
   result.fit.state.joint_offsets.resize(robot.variables().size());
+  result.fit.state.link_lengths.resize(robot.joints().size());
   result.joints.resize(robot.variables().size());
   const Eigen::Isometry3d from = fit.state.T_parent_camera.inverse();
   std::optional<Explained::Pose> untold_clock;
@@ -263,7 +284,7 @@ Explained explain(Observer& observer, const Unknowns& own, std::span<const KeptF
     };
     for (const Test& test : tests)
       if (test.cause.kind == Cause::Kind::joint)
-        result.joints[test.cause.variable] = {
+        result.joints[test.cause.index] = {
             test.sigma, longest_axis(test.pose.covariance.topLeftCorner<3, 3>())};
       else if (test.cause.kind == Cause::Kind::clock && is_wider(test.pose, result.fit))
         untold_clock = pose_after(test);  // a slow motion: the images cannot tell

@@ -53,6 +53,8 @@ void Unknowns::step(State& state, const Eigen::VectorXd& by) const {
   if (focal_count > 0) state.focal += Eigen::Vector2d(by[focal()], by[joints() - 1]);
   for (std::size_t j = 0; j < variables.size(); ++j)
     state.joint_offsets.at(variables[j]) += by[joints() + static_cast<int>(j)];
+  for (std::size_t j = 0; j < links.size(); ++j)
+    state.link_lengths.at(links[j]) += by[lengths() + static_cast<int>(j)];
   if (has_time) state.time_offset += by[time()];
   if (has_lens) state.lens += by[lens()];
 }
@@ -68,13 +70,16 @@ Eigen::VectorXd Unknowns::values(const State& state) const {
   for (int i = 0; i < focal_count; ++i) all[focal() + i] = state.focal[i];
   for (std::size_t j = 0; j < variables.size(); ++j)
     all[joints() + static_cast<int>(j)] = state.joint_offsets.at(variables[j]);
+  for (std::size_t j = 0; j < links.size(); ++j)
+    all[lengths() + static_cast<int>(j)] = state.link_lengths.at(links[j]);
   if (has_time) all[time()] = state.time_offset;
   if (has_lens) all[lens()] = state.lens;
   return all;
 }
 
 Eigen::VectorXd Unknowns::prior_sigmas() const {
-  Eigen::VectorXd sigmas = Eigen::VectorXd::Constant(size(), 0.02);  // doubted joints: rad or m
+  // Doubted joints and links: rad or m.
+  Eigen::VectorXd sigmas = Eigen::VectorXd::Constant(size(), 0.02);
   constexpr double held = 1e-9;  // far below what any measurement tells
   sigmas.head<6>().setConstant(std::numeric_limits<double>::infinity());
   sigmas[depth_offset] = holds_depth ? held : 0.005;
@@ -82,7 +87,7 @@ Eigen::VectorXd Unknowns::prior_sigmas() const {
   sigmas[outline] = 10.0;
   if (has_shift) sigmas.segment<2>(shift).setConstant(10.0);
   sigmas.segment(focal(), focal_count).setConstant(0.1);
-  sigmas.segment(time() - static_cast<int>(accurate), static_cast<int>(accurate))
+  sigmas.segment(lengths() - static_cast<int>(accurate), static_cast<int>(accurate))
       .setConstant(accuracy);
   if (has_time) sigmas[time()] = 0.1;
   if (has_lens) sigmas[lens()] = 0.3;
@@ -91,14 +96,19 @@ Eigen::VectorXd Unknowns::prior_sigmas() const {
 
 namespace {
 
-/// Turns or moves joints by offsets, in their order in Robot::variables(), rad or m. Planar and
-/// floating joints stay.
-void move_joints(const Robot& robot, std::span<const double> offsets,
+/// Turns or moves joints by State::joint_offsets, and moves them by State::link_lengths. Planar and
+/// floating joints do not turn.
+void move_joints(const Robot& robot, const State& state,
                  std::vector<Eigen::Isometry3d>& T_root_link) {
   const std::vector<Eigen::Isometry3d> before = T_root_link;
-  for (const Joint& joint : robot.joints()) {
+  const auto& offsets = state.joint_offsets;
+  for (std::size_t j = 0; j < robot.joints().size(); ++j) {
+    const Joint& joint = robot.joints()[j];
     Eigen::Isometry3d T_parent_child = before[joint.parent].inverse() * before[joint.child];
-    const double by = joint.variable ? joint.multiplier * offsets[*joint.variable] : 0.0;
+    if (!state.link_lengths.empty() && state.link_lengths[j] != 0.0)
+      T_parent_child.pretranslate(state.link_lengths[j] * joint.origin.translation().normalized());
+    const double by =
+        joint.variable && !offsets.empty() ? joint.multiplier * offsets[*joint.variable] : 0.0;
     if (joint.type == JointType::revolute || joint.type == JointType::continuous)
       T_parent_child.rotate(Eigen::AngleAxisd(by, joint.axis));
     else if (joint.type == JointType::prismatic)
@@ -115,7 +125,8 @@ std::vector<Eigen::Isometry3d> Model::T_camera_link(const KeptFrame& frame,
   if (state.time_offset != 0.0 && frame.tells_time())
     poses = poses_at(robot_, frame, state.time_offset);
   if (poses.empty()) poses = frame.T_root_link;
-  if (!state.joint_offsets.empty()) move_joints(robot_, state.joint_offsets, poses);
+  if (!state.joint_offsets.empty() || !state.link_lengths.empty())
+    move_joints(robot_, state, poses);
   const Eigen::Isometry3d T_camera_root = (poses[parent_] * state.T_parent_camera).inverse();
   for (Eigen::Isometry3d& pose : poses) pose = T_camera_root * pose;
   return poses;

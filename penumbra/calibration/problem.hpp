@@ -46,8 +46,11 @@ struct State {
   Eigen::Vector2d depth_shift = Eigen::Vector2d::Zero();  ///< pixels, of depth against the masks
   Eigen::Vector2d focal = Eigen::Vector2d::Zero();  ///< fx and fy are 1 + this of the camera's
   std::vector<double> joint_offsets;                ///< of Robot::variables(); empty: all are 0
-  double time_offset = 0.0;                         ///< seconds from an image to its poses
-  double lens = 0.0;  ///< the first radial coefficient of a distortion that the camera lacks
+  /// Of Robot::joints(), metres by which each lies farther from its parent link's origin than the
+  /// URDF says; empty: all are 0.
+  std::vector<double> link_lengths = {};
+  double time_offset = 0.0;  ///< seconds from an image to its poses
+  double lens = 0.0;         ///< the first radial coefficient of a distortion that the camera lacks
 
   /// Returns the true depth where the sensor measures `depth`.
   [[nodiscard]] float corrected(float depth) const {
@@ -56,8 +59,8 @@ struct State {
 };
 
 /// The order of the unknowns in a step: the camera's motion in its own frame, depth offset, depth
-/// scale, outline, then the depth's shift, the focal lengths, the joints' offsets, the time offset
-/// and the lens where they are estimated.
+/// scale, outline, then the depth's shift, the focal lengths, the joints' offsets, the lengths of
+/// links, the time offset and the lens where they are estimated.
 struct Unknowns {
   static constexpr int pose = 0, depth_offset = 6, depth_scale = 7, outline = 8, shift = 9;
   bool has_shift = false;
@@ -65,13 +68,15 @@ struct Unknowns {
   std::vector<std::size_t> variables = {};  ///< Robot::variables() whose offsets are estimated
   std::size_t accurate = 0;  ///< the last so many of `variables` have zeros within `accuracy`
   double accuracy = 0.0;     ///< rad or m, standard deviation
+  std::vector<std::size_t> links = {};  ///< Robot::joints() at the ends of links of unknown length
   bool has_time = false, has_lens = false;
   bool holds_depth = false;  ///< depth offset and scale stay as they are: there may be no depth
   double edge_step = 1.0;    ///< pixels between two values of an edge
 
   [[nodiscard]] int focal() const { return has_shift ? shift + 2 : shift; }
   [[nodiscard]] int joints() const { return focal() + focal_count; }
-  [[nodiscard]] int time() const { return joints() + static_cast<int>(variables.size()); }
+  [[nodiscard]] int lengths() const { return joints() + static_cast<int>(variables.size()); }
+  [[nodiscard]] int time() const { return lengths() + static_cast<int>(links.size()); }
   [[nodiscard]] int lens() const { return time() + (has_time ? 1 : 0); }
   [[nodiscard]] int size() const { return lens() + (has_lens ? 1 : 0); }
   void step(State& state, const Eigen::VectorXd& by) const;
@@ -274,9 +279,9 @@ struct Refined {
 
 /// An input that may be wrong.
 struct Cause {
-  enum class Kind : std::uint8_t { focal, joint, clock, lens };
+  enum class Kind : std::uint8_t { focal, joint, link, clock, lens };
   Kind kind = Kind::focal;
-  std::size_t variable = 0;  ///< of Robot::variables(); only of a joint
+  std::size_t index = 0;  ///< of a joint in Robot::variables(), of a link's end in Robot::joints()
 
   bool operator==(const Cause&) const = default;
 };

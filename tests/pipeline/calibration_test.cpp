@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calibration on rendered images without noise: the residuals' derivatives against the difference
 // that a small change of each unknown makes, and what is said of wrong inputs.
+#include "../support/temporary_folder.hpp"
 #include "../support/test.hpp"
 
 #include <penumbra/calibration/calibration.hpp>
@@ -20,12 +21,18 @@ using calibration::Unknowns;
 // Surfaces are curved, and edges are whole or half pixels.
 constexpr std::array<double, calibration::kinds> allowed{0.12, 0.25, 0.25};
 constexpr float wall = 3.0F;                                                 // metres
+constexpr std::size_t elbow = 2;                                             // of the joints
 const std::vector<double> turns{-0.9, 0.5, 0.8, -0.6, 1.2, 0.4, -1.5, 0.7};  // of the joints
 
+const std::string arm_file =
+    PENUMBRA_SOURCE_DIR "/examples/arm_over_table/arm_description/arm.urdf";
+
+RobotOptions arm_options(const std::vector<std::string>& only_links = {}) {
+  return {.geometry = Geometry::visual, .geometry_fallback = true, .only_links = only_links};
+}
+
 Robot load_arm(const std::vector<std::string>& only_links = {}) {
-  return Robot::load(
-      PENUMBRA_SOURCE_DIR "/examples/arm_over_table/arm_description/arm.urdf",
-      {.geometry = Geometry::visual, .geometry_fallback = true, .only_links = only_links});
+  return Robot::load(arm_file, arm_options(only_links));
 }
 
 bool says(const Calibration& found, const std::string& word) {
@@ -56,8 +63,10 @@ class RenderedCalibration : public testing::Test {
     unknowns.focal_count = 2;
     unknowns.variables.resize(robot.variables().size());
     std::iota(unknowns.variables.begin(), unknowns.variables.end(), std::size_t{0});
+    unknowns.links = {elbow};
     unknowns.has_time = unknowns.has_lens = true;
     state.joint_offsets.resize(robot.variables().size());
+    state.link_lengths.resize(robot.joints().size());
     const Vector3d eye(1.4, 0.5, 0.9), forward = (Vector3d(0, 0, 0.4) - eye).normalized();
     const Vector3d right = forward.cross(Vector3d::UnitZ()).normalized();
     state.T_parent_camera.linear() << right, forward.cross(right), forward;
@@ -157,6 +166,7 @@ TEST_F(RenderedCalibration, DerivativesAreThoseOfRenderedImages) {
   const std::array of_pose{0.01, 0.01, 0.03, 0.01, 0.01, 0.04};  // turns, then shifts
   for (int i = 0; i < 6; ++i) changes[i] = of_pose[std::size_t(i)];
   for (int i = 0; i < 3; ++i) changes[joints + i] = 0.02;
+  changes[unknowns.lengths()] = 0.01;
   const auto size = std::size_t(unknowns.size());
   for (const auto& [unknown, change] : changes) {
     std::array<Vector2d, calibration::kinds> all;
@@ -228,6 +238,29 @@ TEST_F(RenderedCalibration, AnOffsetOfAJointIsNamed) {
   truth.joint_offsets[2] = 0.017;  // a degree
   const Calibration found = calibrate(drawn(truth), camera, robot, options());
   EXPECT_TRUE(says(found, robot.variables()[2]));
+}
+
+TEST_F(RenderedCalibration, ALinkOfAnotherLengthIsNamed) {
+  const std::string place = R"(<origin xyz="0 0 0.38" rpy="0 0 0"/><parent)";
+  std::string longer = read_bytes(arm_file);
+  longer.replace(longer.find(place), place.size(),
+                 R"(<origin xyz="0 0 0.42" rpy="0 0 0"/><parent)");
+  const Robot wrong =
+      Robot::parse(longer, std::filesystem::path(arm_file).parent_path(), arm_options());
+  std::vector<KeptFrame> frames = drawn(state);
+  for (KeptFrame& each : frames) wrong.forward_kinematics(each.joints, each.T_root_link);
+  const Calibration found = calibrate(frames, camera, wrong, options());
+  EXPECT_TRUE(says(found, "the length of upper_arm to elbow is 4")) << found.notes.size();
+  EXPECT_FALSE(says(found, "depth"));
+  EXPECT_LT(off(found.T_parent_camera), found.position_error());
+}
+
+TEST_F(RenderedCalibration, AWrongUnitOfDepthIsNotALength) {
+  State truth = state;
+  truth.depth_scale = 0.03;
+  const Calibration found = calibrate(drawn(truth), camera, robot, options());
+  EXPECT_TRUE(says(found, "depth_scale"));
+  EXPECT_FALSE(says(found, "length"));
 }
 
 TEST_F(RenderedCalibration, ClocksThatDifferAreNamed) {
