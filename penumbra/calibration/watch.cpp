@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <deque>
 #include <numbers>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -302,7 +301,6 @@ void CalibrationWatch::State::accumulate(const FrameReport& report) {
 /// between.
 void CalibrationWatch::State::look_for_bump() {
   const std::vector<const View*> all = sorted_views();
-  bool was_beyond = false;  // by the last count of views
   for (const std::size_t last : recent) {
     if (all.size() < last + least_views) return;
     const auto from = all.end() - static_cast<std::ptrdiff_t>(last);
@@ -318,12 +316,10 @@ void CalibrationWatch::State::look_for_bump() {
     const auto later = solve({first, all.end()}, sensor);
     if (!later) continue;
     const Twist moved = (later->value - earlier->value).head<6>();
-    const bool is_beyond =
-        is_beyond_limits(moved) &&
-        distance(moved, (later->covariance + earlier->covariance).topLeftCorner<6, 6>()) >=
-            by_chance;
-    // Two counts in succession must say so: the covariance of few views is itself uncertain.
-    if (!std::exchange(was_beyond, is_beyond) || !is_beyond) continue;
+    if (!is_beyond_limits(moved) ||
+        distance(moved, (later->covariance + earlier->covariance).topLeftCorner<6, 6>()) <
+            by_chance)
+      continue;
     is_bumped = true;
     locate_bump(all, earlier->value, later->value);
     prior = sensor;

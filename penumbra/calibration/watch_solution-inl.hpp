@@ -84,7 +84,7 @@ struct Prior {
 };
 
 /// Least squares over views. The covariance is that of sums over places (the sandwich estimator,
-/// Huber 1967), with a factor for few of them.
+/// Huber 1967), with a factor for few of them, and a part of that of independent residuals.
 [[nodiscard]] std::optional<Solution> solve(std::vector<const View*> views, const Prior& prior);
 
 }  // namespace penumbra::watching

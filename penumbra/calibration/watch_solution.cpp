@@ -4,6 +4,9 @@
 namespace penumbra::watching {
 
 constexpr double least_places = 12.0;
+/// A place that alone carries a direction scatters nothing there: of what independent residuals
+/// would give, so much always counts.
+constexpr double least_share = 0.06;
 
 std::optional<Solution> solve(std::vector<const View*> views, const Prior& prior) {
   Matrix information = prior.information;
@@ -29,7 +32,8 @@ std::optional<Solution> solve(std::vector<const View*> views, const Prior& prior
   }
   if (count < least_places) return std::nullopt;
   meat = prior.information + count / (count - 7.0) * meat;
-  solution.covariance = dense::sandwich(dense::inverse(information), meat);
+  const Matrix inverse = dense::inverse(information);
+  solution.covariance = least_share * inverse + dense::sandwich(inverse, meat);
   return solution;
 }
 
