@@ -116,11 +116,11 @@ def read_targets(text, work):
     mask[100:200, 100:200] = 255
     (work / "masks").mkdir()
     Image.fromarray(mask).save(work / "masks" / "000000.png")
-    given = penumbra.open(work / "my_recording")
-    images = penumbra.Intrinsics(width, height, 900, 900, 640, 360)
-    return penumbra.TargetsFile.open(
-        work / "shown.yaml", robot=given.robot, image=penumbra.ImageSpace.raw, images=images,
-        has_distortion=False, beyond_hides=True, camera_frame="camera_color_optical_frame")
+    info = work / "my_recording" / "camera_info.yaml"
+    info.write_text(f"frame_id: camera_color_optical_frame\nwidth: {width}\nheight: {height}\n"
+                    "distortion_model: plumb_bob\nd: [0, 0, 0, 0, 0]\n"
+                    "k: [900, 0, 640, 0, 900, 360, 0, 0, 1]\n")
+    return penumbra.open(work / "my_recording").open_targets(work / "shown.yaml")
 
 
 def read_dataset(shown, work):

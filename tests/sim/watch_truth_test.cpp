@@ -90,6 +90,28 @@ TEST_F(Watch, NamesClocksThatDifferAndNotTheCamera) {
   EXPECT_EQ(drift.message().find("calibrate"), std::string::npos);
 }
 
+/// Its views are the same again and again, so that their scatter tells little of their errors.
+TEST_F(Watch, ARepeatedMotionIsNoBump) {
+  const std::size_t repeats = is_full_run() ? 1000 : 20;
+  constexpr std::size_t frames = 150;
+  constexpr std::int64_t period = 33'333'333, before_again = 8'000'000;  // nanoseconds
+  sim::Simulation simulation("conveyor", without_color(3, true));
+  Pipeline pipeline(simulation.robot(), simulation.camera(), {});
+  CalibrationWatch watch(simulation.camera());
+  std::vector<sim::SimFrame> motion(frames);
+  for (sim::SimFrame& frame : motion) ASSERT_TRUE(simulation.next(frame));
+  std::int64_t stamp = 0;
+  for (std::size_t i = 0; i < repeats; ++i, stamp += before_again)
+    for (const sim::SimFrame& frame : motion) {
+      watch.add(pipeline.process(
+          {.stamp = stamp += period,
+           .depth = frame.depth.view(),
+           .pose = {.positions = frame.joints, .T_parent_camera = simulation.T_base_camera()}}));
+      ASSERT_FALSE(watch.drift().has_moved) << "in repeat " << i;
+    }
+  EXPECT_TRUE(watch.drift().is_known);
+}
+
 TEST_F(Watch, TellsARobotThatIsNotThere) {
   Watched camera;
   Eigen::Isometry3d far = Eigen::Isometry3d::Identity();
