@@ -139,7 +139,7 @@ class WatchStudy {
   Setup setup_;
   Cell cell_;
   sim::Random random_;
-  Camera camera_{Cell::intrinsics(), {}, {}, {}};
+  Camera camera_{.intrinsics = Cell::intrinsics(), .T_parent_camera = cell_.truth()};
   Pipeline pipeline_;
   std::size_t frames_;
   KeptFrame frame_;
