@@ -98,7 +98,7 @@ const std::vector<std::vector<std::string_view>> bin_forms{{"x", "y", "z", "inte
 /// coordinate is, a wrong form would have it there.
 const std::vector<std::string_view>& bin_fields(std::span<const std::byte> bytes) {
   std::vector<float> numbers(bytes.size() / sizeof(float));
-  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
+  if (!numbers.empty()) std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
   std::vector<const std::vector<std::string_view>*> possible, shown;
   std::size_t fitting = 0;  // by size
   const bool is_any_negative = std::ranges::any_of(numbers, [](float n) { return n < 0.0F; });
