@@ -309,10 +309,11 @@ std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured,
       next = static_cast<std::uint16_t>(next & ~(is_taken ? is_open : 0));
     }
   }
-  while (known_blocks > 0) {
-    const Fringe::Block block = queue[--known_blocks];
-    count -= confirm(labels, measured, known, block, sources[block.source()].step);
-  }
+  const auto confirm_block = [&](std::size_t i) {
+    count -= confirm(labels, measured, known, queue[i], sources[queue[i].source()].step);
+  };
+  for (std::size_t i = known_blocks; i-- > 0;) confirm_block(i);
+  for (std::size_t i = 0; i < known_blocks; ++i) confirm_block(i);  // back around corners
   return count;
 }
 
