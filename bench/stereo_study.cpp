@@ -85,10 +85,9 @@ class StereoCell {
   }
 
   /// Captures what one of the frames of a sequence shows: the arm comes to the first frame's pose
-  /// among the first frame's things, and leaves. With `elsewhere`, the arm is where it is in the
-  /// other half.
-  VirtualDepthView capture_moving(std::size_t frame, Change change, bool elsewhere,
-                                  StereoImages& images) {
+  /// among the first frame's things, and leaves. `arm`: where the arm is in place of that, as s.
+  VirtualDepthView capture_moving(std::size_t frame, Change change, StereoImages& images,
+                                  std::optional<double> arm = {}) {
     const double s = 2.0 * static_cast<double>(frame) / frames_of_sequence;  // 1: half-way
     std::vector<Eigen::Isometry3d> parts = scene_->pose(0.0).parts;
     const std::vector<ScenePart>& all = scene_->description().parts;
@@ -98,7 +97,7 @@ class StereoCell {
       if (change == Change::things && ((goes && s >= 1.0) || (comes && s < 1.0)))
         parts[i] = out_of_view();
     }
-    if (frame == 0 && !elsewhere) begin();
+    if (frame == 0 && !arm) begin();
     if (change == Change::person) others_[0] = at({walk * (s - 1.0), 0.0, depth_});
     if (change == Change::door)
       others_[1] = at({hinge_, 0.0, depth_}) *
@@ -106,7 +105,7 @@ class StereoCell {
                                          (hinge_ > 0.0 ? 1.0 : -1.0),
                                      Eigen::Vector3d::UnitY()) *
                    Eigen::Translation3d(hinge_ > 0.0 ? -0.4 : 0.4, 0.0, 0.0);
-    return capture(joints_at(elsewhere ? (s < 1.0 ? 2.0 : 0.0) : s), parts, images);
+    return capture(joints_at(arm.value_or(s)), parts, images);
   }
 
   /// A box whose front faces the camera.
@@ -371,12 +370,14 @@ struct Moving {
   std::array<std::array<std::size_t, 6>, 2> kept{};
   std::size_t confirmed = 0;       // by the memory
   std::size_t gone = 0;            // of these, what was there, is gone, and only the arm explains
+  std::size_t not_judged = 0;      // may be gone: near the arm in all poses
   std::size_t sequences_gone = 0;  // with such points
 
   void add(const Moving& other) {
     on_robot += other.on_robot;
     confirmed += other.confirmed;
     gone += other.gone;
+    not_judged += other.not_judged;
     sequences_gone += other.gone > 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       points[i] += other.points[i];
@@ -396,7 +397,7 @@ Moving tally_sequence(std::size_t cell, Change change) {
   std::vector<StereoImages> before;
   Moving sum;
   for (std::size_t frame = 0; frame < frames_of_sequence; ++frame) {
-    const VirtualDepthView robot = place.capture_moving(frame, change, false, images);
+    const VirtualDepthView robot = place.capture_moving(frame, change, images);
     const DepthView measured = std::as_const(images.measured).view();
     memory.update(Eigen::Isometry3d::Identity(),
                   static_cast<std::int64_t>(1e9 * static_cast<double>(frame) / frame_rate), robot,
@@ -432,11 +433,21 @@ Moving tally_sequence(std::size_t cell, Change change) {
       }
     if (frame % 4 == 0) before.push_back(images);
     if (gone.empty()) continue;
-    place.capture_moving(frame, change, true, elsewhere);
-    for (const int pixel : gone)
-      sum.gone +=
-          std::abs(int{images.measured.data()[pixel]} - int{elsewhere.measured.data()[pixel]}) >
-          static_cast<int>(1000.0 * wrong);
+    std::vector<bool> is_judged(gone.size()), is_gone(gone.size());
+    for (const double arm : {0.0, 1.0, 2.0}) {
+      const VirtualDepthView away_from_it = place.capture_moving(frame, change, elsewhere, arm);
+      const tuning::NearestPixels there = test::nearest_robot(away_from_it.depth);
+      for (std::size_t i = 0; i < gone.size(); ++i) {
+        const int u = gone[i] % camera.width(), v = gone[i] / camera.width();
+        if (there.distance(u, v) <= nearby) continue;
+        is_judged[i] = true;
+        if (std::abs(int{images.measured(u, v)} - int{elsewhere.measured(u, v)}) >
+            static_cast<int>(1000.0 * wrong))
+          is_gone[i] = true;
+      }
+    }
+    sum.gone += static_cast<std::size_t>(std::ranges::count(is_gone, true));
+    sum.not_judged += static_cast<std::size_t>(std::ranges::count(is_judged, false));
   }
   return sum;
 }
@@ -460,7 +471,7 @@ int study_moving(std::size_t sequences) {
               << '\n';
     std::cout << "  confirmed by the memory: " << all.confirmed
               << ", of these of what is gone: " << all.gone << ", in " << all.sequences_gone
-              << " of " << sequences << " sequences\n";
+              << " of " << sequences << " sequences; not judged: " << all.not_judged << '\n';
     const char* const names[] = {"robot", "carried", "thing", "room", "other", "thing next to it"};
     for (std::size_t i = 0; i < 6; ++i)
       std::cout << "  " << names[i] << ": " << all.points[i] << ", kept alone " << all.kept[0][i]

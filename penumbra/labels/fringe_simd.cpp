@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdlib>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 #include <hwy/cache_control.h>
@@ -29,6 +31,7 @@ static_assert(clear == 0);  // fringe is written by or
 constexpr std::uint16_t is_open = 0x8000;  // a flag at the depth of a clear block
 constexpr std::uint16_t farthest = Fringe::farthest;
 constexpr std::uint16_t nothing = 0xffff;  // a pixel's rank: neither
+constexpr int contact = 16;  // pixels: stereo matching blurs the edges of things by up to 11
 
 HWY_INLINE std::uint16_t millimetres(std::uint16_t depth) { return depth; }
 
@@ -187,12 +190,12 @@ HWY_INLINE hn::VFromD<Four> four_millimetres(const float* above, const float* be
   return hn::LoadU(Four(), all.data());
 }
 
-/// Labels the clear pixels of a block that differ from its depth by at most 2 `step`, millimetres,
-/// and from what is known by more than one. Returns how many.
+/// Labels the clear pixels of a block that differ from its depth by at most 2 `step`, millimetres.
+/// Adds how many to `count`, and returns whether one of them agrees with what is known.
 template <typename T>
-HWY_INLINE std::size_t paint(TileMask& touched, ImageView<std::uint8_t> labels,
-                             ImageView<const T> measured, ImageView<const std::uint16_t> known,
-                             Fringe::Block block, int at, std::uint16_t step) {
+HWY_INLINE bool paint(TileMask& touched, ImageView<std::uint8_t> labels,
+                      ImageView<const T> measured, ImageView<const std::uint16_t> known,
+                      Fringe::Block block, int at, std::uint16_t step, std::size_t& count) {
   const hn::FixedTag<std::uint8_t, 4> bytes;
   const hn::FixedTag<std::uint32_t, 1> word;
   const int u = std::min(2 * block.x(), labels.width - 2);
@@ -211,8 +214,7 @@ HWY_INLINE std::size_t paint(TileMask& touched, ImageView<std::uint8_t> labels,
   const auto off = hn::Set(Four(), step);
   const auto is_same = hn::Eq(
       hn::Min(hn::Max(depth, hn::SaturatedSub(before, off)), hn::SaturatedAdd(before, off)), depth);
-  const auto is_fringe =
-      hn::AndNot(is_same, hn::And(is_near, hn::Eq(label, hn::Set(Four(), clear))));
+  const auto is_fringe = hn::And(is_near, hn::Eq(label, hn::Set(Four(), clear)));
   const auto painted = hn::Or(label, hn::IfThenElseZero(is_fringe, hn::Set(Four(), fringe)));
   const std::uint32_t now = hn::GetLane(hn::BitCast(word, hn::TruncateTo(bytes, painted)));
   const std::uint32_t now_below = now >> 16;
@@ -223,11 +225,39 @@ HWY_INLINE std::size_t paint(TileMask& touched, ImageView<std::uint8_t> labels,
                                                                        << (u >> tile_shift);
   const bool is_cut = u < 2 * block.x() || v < 2 * block.y();  // by the border of an odd image
   if (is_cut) touched.mark(u, v, u + 1, v + 1);
-  return hn::CountTrue(Four(), is_fringe);
+  count += hn::CountTrue(Four(), is_fringe);
+  return !hn::AllFalse(Four(), hn::And(is_same, is_fringe));
+}
+
+/// Clears the fringe pixels of a block that agree with what is known, if a clear pixel within
+/// `contact` does, too. Returns how many.
+template <typename T>
+std::size_t confirm(ImageView<std::uint8_t> labels, ImageView<const T> measured,
+                    ImageView<const std::uint16_t> known, Fringe::Block block, int step) {
+  const int u0 = std::min(2 * block.x(), labels.width - 2);
+  const int v0 = std::min(2 * block.y(), labels.height - 2);
+  const auto is_same = [&](int u, int v, std::uint8_t label) {
+    return labels(u, v) == label && std::abs(millimetres(measured(u, v)) - known(u, v)) <= step;
+  };
+  bool is_touched = false;  // one pixel of each block is enough
+  for (int v = v0 - std::min(v0, contact); v < labels.height && v <= v0 + contact && !is_touched;
+       v += 2)
+    for (int u = u0 - std::min(u0, contact); u < labels.width && u <= u0 + contact; u += 2)
+      is_touched |= is_same(u, v, clear);
+  if (!is_touched) return 0;
+  std::size_t count = 0;
+  for (const auto& [u, v] : {std::pair(u0, v0), {u0 + 1, v0}, {u0, v0 + 1}, {u0 + 1, v0 + 1}})
+    if (is_same(u, v, fringe)) {
+      labels(u, v) = clear;
+      ++count;
+    }
+  return count;
 }
 
 /// Visits blocks breadth first, so that each comes from a near part of the outline, and labels the
-/// clear pixels of each that are near the block's depth. Returns the number of these pixels.
+/// clear pixels of each that are near the block's depth. Then, from the outermost one inwards,
+/// clears those that agree with what is known and have contact with such pixels outside of the
+/// fringe. Returns the number of fringe pixels.
 template <typename T>
 std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured,
                  ImageView<const std::uint16_t> known) {
@@ -248,7 +278,7 @@ std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured,
   std::uint16_t* const origin = flood.block(0, 0);
   constexpr std::size_t ahead = 16;  // blocks whose memory is fetched
   std::size_t end = flood.sources.size();
-  std::size_t count = 0;
+  std::size_t count = 0, known_blocks = 0;
   for (std::size_t i = 0; i < end; ++i) {
     const Fringe::Block from = queue[i];
     const Fringe::Source source = sources[from.source()];
@@ -257,7 +287,10 @@ std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured,
     const Fringe::Block later = queue[std::min(i + ahead, end - 1)];
     for (int v = 2 * later.y(); v < std::min(2 * later.y() + 2, labels.height); ++v)
       hwy::Prefetch(known.row(v) + 2 * later.x());
-    count += paint(work.touched, labels, measured, known, from, depth, source.step);
+    const bool is_known =
+        paint(work.touched, labels, measured, known, from, depth, source.step, count);
+    queue[known_blocks] = from;  // not after i
+    known_blocks += is_known;
     const int dx = from.x() - source.x, dy = from.y() - source.y;
     if (dx * dx + dy * dy > continues) continue;
     const int least = std::max<int>(depth - source.step, source.nearest);
@@ -275,6 +308,10 @@ std::size_t fill(Fringe& flood, Work& work, ImageView<const T> measured,
       end += is_taken;
       next = static_cast<std::uint16_t>(next & ~(is_taken ? is_open : 0));
     }
+  }
+  while (known_blocks > 0) {
+    const Fringe::Block block = queue[--known_blocks];
+    count -= confirm(labels, measured, known, block, sources[block.source()].step);
   }
   return count;
 }

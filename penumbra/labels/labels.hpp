@@ -99,7 +99,8 @@ struct Tolerance {
 ///    image cannot tell them apart.
 /// 4. Memory, of a Pipeline whose camera stands still and whose frames have stamps. A pixel stays
 ///    clear if its depth differs by at most fringe_step e(d(s)) from what was measured there when
-///    no robot was within fringe_reach, or 40 pixels. That is forgotten after `scene_memory`
+///    no robot was within fringe_reach, or 40 pixels, and if, through such pixels at most 16 pixels
+///    apart, it has contact with one outside of the fringe. That is forgotten after `scene_memory`
 ///    seconds, where the camera sees past it, and where the robot comes within fringe_drift e(z) of
 ///    it.
 ///

@@ -103,6 +103,16 @@ TEST_P(Memory, EndsWhenTheThingIsTakenAway) {
   EXPECT_EQ(fringe(), thing);
 }
 
+TEST_P(Memory, OfWhatHasGoneAroundIsNotTakenForWhatTheSensorCarries) {
+  for (const auto [u, v] : each_pixel(80, 0, 300, height)) scene_.metres(u, v) = near;
+  move_robot(0, 0);
+  EXPECT_EQ(fringe(), 0u);
+  std::fill_n(scene_.metres.data(), scene_.metres.size(), wall);
+  move_robot(140, 200);
+  measure(200, 212, near);  // carried past the outline
+  EXPECT_EQ(fringe(), 12u * 56u);
+}
+
 TEST_P(Memory, EndsWithAMovedCameraOrClock) {
   EXPECT_EQ(fringe_of_thing(), 0u);
   T_root_camera.translation().x() += 0.005;
