@@ -237,13 +237,15 @@ std::size_t confirm(ImageView<std::uint8_t> labels, ImageView<const T> measured,
   const int u0 = std::min(2 * block.x(), labels.width - 2);
   const int v0 = std::min(2 * block.y(), labels.height - 2);
   const auto is_same = [&](int u, int v, std::uint8_t label) {
-    return labels(u, v) == label && std::abs(millimetres(measured(u, v)) - known(u, v)) <= step;
+    return labels(u, v) == label && known(u, v) != saturated_depth &&
+           std::abs(millimetres(measured(u, v)) - known(u, v)) <= step;
   };
   bool is_touched = false;  // one pixel of each block is enough
   for (int v = v0 - std::min(v0, contact); v < labels.height && v <= v0 + contact && !is_touched;
        v += 2)
-    for (int u = u0 - std::min(u0, contact); u < labels.width && u <= u0 + contact; u += 2)
-      is_touched |= is_same(u, v, clear);
+    for (int u = u0 - std::min(u0, contact); u < labels.width && u <= u0 + contact && !is_touched;
+         u += 2)
+      is_touched = is_same(u, v, clear);
   if (!is_touched) return 0;
   std::size_t count = 0;
   for (const auto& [u, v] : {std::pair(u0, v0), {u0 + 1, v0}, {u0, v0 + 1}, {u0 + 1, v0 + 1}})

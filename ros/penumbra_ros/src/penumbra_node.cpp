@@ -73,7 +73,6 @@ PenumbraNode::CallbackReturn PenumbraNode::on_configure(const rclcpp_lifecycle::
     RCLCPP_ERROR(get_logger(), "%s", error.what());
     return CallbackReturn::FAILURE;
   }
-  clean_up();  // if the last one still waits
   add_diagnostics();
   make_outputs();
   inputs_ = std::make_unique<Inputs>(*this, *runner_);
@@ -136,17 +135,10 @@ PenumbraNode::CallbackReturn PenumbraNode::on_deactivate(
   return CallbackReturn::SUCCESS;
 }
 
-/// The executor may have found messages, timers and services ready together with this transition,
-/// and calls them after it: what they use goes when it has waited again.
 PenumbraNode::CallbackReturn PenumbraNode::on_cleanup(const rclcpp_lifecycle::State& /*former*/) {
-  active_ = false;
-  if (runner_) runner_->stop();
-  timer_.reset();
-  cleaning_ = create_wall_timer(std::chrono::seconds(0), [this] {
-    clean_up();
-    // Otherwise the executor goes on waiting for what is gone.
-    get_node_base_interface()->trigger_notify_guard_condition();
-  });
+  clean_up();
+  // Otherwise the executor goes on waiting for what is gone.
+  get_node_base_interface()->trigger_notify_guard_condition();
   return CallbackReturn::SUCCESS;
 }
 
@@ -157,7 +149,6 @@ PenumbraNode::CallbackReturn PenumbraNode::on_shutdown(const rclcpp_lifecycle::S
 void PenumbraNode::clean_up() {
   active_ = false;
   if (runner_) runner_->stop();
-  cleaning_.reset();
   timer_.reset();
   reset_.reset();
   inputs_.reset();
@@ -222,7 +213,7 @@ rcl_interfaces::msg::SetParametersResult PenumbraNode::change(const Changes& cha
   try {
     for (const rclcpp::Parameter& parameter : changes) {
       const auto found = settings_.parameters.find(parameter.get_name());
-      if (runner_ && !cleaning_ && found != settings_.parameters.end() && !found->second)
+      if (runner_ && found != settings_.parameters.end() && !found->second)
         throw penumbra::InputError("parameter '" + found->first +
                                    "' is read when the node is configured: clean it up before");
     }

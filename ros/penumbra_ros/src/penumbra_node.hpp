@@ -68,7 +68,7 @@ class PenumbraNode final : public rclcpp_lifecycle::LifecycleNode {
   std::optional<penumbra::io::LiveDiagnostics> diagnostics_;
   penumbra::io::DiagnosticArrayMessage statuses_;  // of the last check
   penumbra::io::DiagnosticChanges changes_;
-  rclcpp::TimerBase::SharedPtr timer_, cleaning_;
+  rclcpp::TimerBase::SharedPtr timer_;
   rclcpp::Service<std_srvs::srv::Trigger>::SharedPtr reset_;
 
   bool active_ = false;
