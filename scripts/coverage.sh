@@ -36,6 +36,6 @@ awk -F, '
     lines["~all"] += $2; covered["~all"] += $3
   }
   END {
-    for (folder in lines)
+    for (folder in lines) if (lines[folder])
       printf "%-22s %6d lines %5.1f %%\n", folder, lines[folder], 100 * covered[folder] / lines[folder]
   }' "$build/lines.csv" | LC_ALL=C sort | tr -d '~'
