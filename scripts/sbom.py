@@ -155,5 +155,8 @@ def main(build: pathlib.Path, file: pathlib.Path, temporary: pathlib.Path) -> No
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 3 or not re.search(r"\.(changes|whl)$", sys.argv[2]) or not os.path.isfile(sys.argv[2]):
+        print(__doc__, file=sys.stderr)
+        sys.exit(2)
     with tempfile.TemporaryDirectory() as temporary:
         main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), pathlib.Path(temporary))

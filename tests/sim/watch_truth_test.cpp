@@ -90,10 +90,11 @@ TEST_F(Watch, NamesClocksThatDifferAndNotTheCamera) {
   EXPECT_EQ(drift.message().find("calibrate"), std::string::npos);
 }
 
-/// Its views are the same again and again, so that their scatter tells little of their errors.
+/// Its views are the same again and again, so that their scatter tells little of their errors: by
+/// that alone the watch found a bump in repeat 381.
 TEST_F(Watch, ARepeatedMotionIsNoBump) {
-  const std::size_t repeats = is_full_run() ? 1000 : 20;
-  constexpr std::size_t frames = 150;
+  if (!is_full_run()) GTEST_SKIP() << "skipped: half a minute: PENUMBRA_FULL=1";
+  constexpr std::size_t repeats = 500, frames = 150;
   constexpr std::int64_t period = 33'333'333, before_again = 8'000'000;  // nanoseconds
   sim::Simulation simulation("conveyor", without_color(3, true));
   Pipeline pipeline(simulation.robot(), simulation.camera(), {});
@@ -107,7 +108,7 @@ TEST_F(Watch, ARepeatedMotionIsNoBump) {
           {.stamp = stamp += period,
            .depth = frame.depth.view(),
            .pose = {.positions = frame.joints, .T_parent_camera = simulation.T_base_camera()}}));
-      ASSERT_FALSE(watch.drift().has_moved) << "in repeat " << i;
+      ASSERT_FALSE(watch.drift().has_moved || watch.drift().bumped_at) << "in repeat " << i;
     }
   EXPECT_TRUE(watch.drift().is_known);
 }
