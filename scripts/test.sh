@@ -146,7 +146,7 @@ require=opengl,simulation
 export PENUMBRA_REQUIRE=${PENUMBRA_REQUIRE-$require}
 
 # Every option is given, so that no cached choice in a build tree leaves anything out.
-tests=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_PRECOMPILE=ON -DPENUMBRA_WARNINGS_AS_ERRORS=ON)
+tests=(-DPENUMBRA_BUILD_TESTS=ON -DPENUMBRA_TEST_COMPILER=clang++ -DPENUMBRA_WARNINGS_AS_ERRORS=ON)
 everything=("${tests[@]}" -DPENUMBRA_BUILD_APPS=ON -DPENUMBRA_BUILD_EXAMPLES=ON -DPENUMBRA_WITH_SIMULATION=ON
             -DPENUMBRA_WITH_DDS=ON
             -DPENUMBRA_BUILD_RESEARCH=$full -DPENUMBRA_WITH_PYTHON=ON -DPENUMBRA_WITH_AVX512=ON)
@@ -181,7 +181,7 @@ fi
 
 check format scripts/format.sh --check
 check "page is what its sources give" web/check_bundle.sh
-check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks" -DPENUMBRA_PRECOMPILE=OFF
+check clang-tidy check_tidy "$tidy_scope" "${everything[@]}" "$benchmarks"
 waiting=$(($(nproc) + 1))  # some tests wait for messages of others
 page=
 # Other tests cover the same.

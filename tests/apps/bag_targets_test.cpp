@@ -62,7 +62,8 @@ class BagTargets : public BagTest {
   /// Adds a Detection2DArray or Detection3DArray, by the fields of their definitions.
   void add(const std::string& topic, const std::string& type, const std::string& frame,
            const std::vector<Detection>& detections) {
-    TinyBag::Message& message = bag_.messages.emplace_back(topic, type, arrival);
+    bag_.messages.push_back({topic, type, arrival, {}});
+    TinyBag::Message& message = bag_.messages.back();
     io::CdrWriter writer(message.data);
     const auto write_header = [&] {
       writer.write(static_cast<std::int32_t>(stamp / 1'000'000'000));

@@ -63,7 +63,7 @@ TEST_F(BagTest, AddsTheTimeOffsetToStamps) {
 TEST_F(BagTest, NamesOfJointsThatDifferAreNamed) {
   for (const auto& [name, pattern] : std::vector<std::pair<std::string, std::string>>{
            {"left/slide", "left/*=*"}, {"slide_position", "*_position=*"}, {"lid", "*=s*e"}}) {
-    bag_.edit<io::JointStateMessage>([&](auto& state) { state.names.back() = name; });
+    bag_.edit<io::JointStateMessage>([last = name](auto& state) { state.names.back() = last; });
     expect_failed(run(), {"'slide'", name, "set joint_names '" + pattern + "'"});
     EXPECT_EQ(expect_recorded({"--joint-names", pattern}).err, "");
   }

@@ -25,7 +25,7 @@ constexpr const char* tiny_urdf = R"(<robot name="tiny">
 </robot>
 )";
 
-constexpr const char* yaml = R"(robot:
+constexpr const char* recording_yaml = R"(robot:
   urdf: tiny.urdf
 camera:
   info: camera_info.yaml
@@ -64,7 +64,7 @@ void write_tiny_recording(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   write_file(folder / "tiny.urdf", tiny_urdf);
   io::write_stl(folder / "board.stl", make_box({0.4, 0.2, 0.1}));
-  write_file(folder / "recording.yaml", yaml);
+  write_file(folder / "recording.yaml", recording_yaml);
   write_file(folder / "camera_info.yaml", camera_info);
   write_file(folder / "camera_pose.csv", "1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n");
   write_file(folder / "joint_states.csv", "frame,slide\n0,0.0\n1,0.05\n2,0.1\n");

@@ -11,7 +11,7 @@
 namespace penumbra::test {
 namespace {
 
-constexpr const char* image = "sensor_msgs/msg/Image";
+constexpr const char* image_type = "sensor_msgs/msg/Image";
 
 // The names are those of REP-like conventions of ROS 2's "Topic and Service name mapping to DDS".
 TEST(GraphNames, AreThoseOfRos2AndOthersAreRefusedInBothDirections) {
@@ -84,8 +84,8 @@ TEST(Graph, RefusesBadSettingsInOneLineThatNamesThem) {
 TEST(Graph, CountsWhatNewerMessagesReplaced) {
   const LoneDomain domain;
   const auto graph = io::join_graph({.domain = domain.id()});
-  const auto heard = graph->subscribe("/a", image, {.reliable = true, .depth = 3});
-  const auto said = graph->advertise("/a", image, {.reliable = true, .depth = 10});
+  const auto heard = graph->subscribe("/a", image_type, {.reliable = true, .depth = 3});
+  const auto said = graph->advertise("/a", image_type, {.reliable = true, .depth = 10});
   for (std::uint32_t i = 0; i < 10; ++i) ASSERT_TRUE(said->write(pattern_message(i, 64)));
   EXPECT_EQ(listen(*graph, *heard, 3), (std::vector<std::int64_t>{7, 8, 9}));
   const auto status = heard->status();

@@ -60,7 +60,7 @@ projection_matrix:
   data: [480.0, 0.0, 318.0, 0.0, 0.0, 481.0, 239.0, 0.0, 0.0, 0.0, 1.0, 0.0]
 )";
 
-const Intrinsics raw(640, 480, 500.5, 501.5, 320.25, 240.75);
+const Intrinsics raw_camera(640, 480, 500.5, 501.5, 320.25, 240.75);
 const Intrinsics rectified(640, 480, 480, 481, 318, 239);
 
 Camera parse(const std::string& text, bool is_rectified = false) {
@@ -77,7 +77,7 @@ const Distortion lens("plumb_bob", std::vector<double>{-0.3, 0.1, 0.001, -0.002,
 TEST(CameraInfo, ReadsBothForms) {
   for (const std::string& text : {info_text, calibration}) {
     const Camera camera = parse(text);
-    EXPECT_EQ(camera.intrinsics, raw);
+    EXPECT_EQ(camera.intrinsics, raw_camera);
     expect_same_lens(camera.distortion, lens);
     const Camera free = parse(text, true);
     EXPECT_EQ(free.intrinsics, rectified);
@@ -91,7 +91,7 @@ TEST(CameraInfo, ReadsUpperCaseKeysOfRos1) {
   std::string text = replaced(replaced(info_text, "\nd:", "\nD:"), "\nk:", "\nK:");
   text = replaced(replaced(text, "\nr:", "\nR:"), "\np:", "\nP:");
   text = replaced(replaced(text, "sec:", "secs:"), "do_rectify: false", "do_rectify: False");
-  EXPECT_EQ(parse(text).intrinsics, raw);
+  EXPECT_EQ(parse(text).intrinsics, raw_camera);
   EXPECT_EQ(parse(text, true).intrinsics, rectified);
 }
 
@@ -112,7 +112,7 @@ TEST(CameraInfo, AppliesWindowThenBinning) {
   text = replaced(replaced(text, "  height: 0", "  height: 200"), "  width: 0", "  width: 401");
   for (const bool is_rectified : {false, true}) {
     const Camera camera = parse(text, is_rectified);
-    const Intrinsics& full = is_rectified ? rectified : raw;
+    const Intrinsics& full = is_rectified ? rectified : raw_camera;
     EXPECT_EQ(camera.intrinsics.width(), 200);
     EXPECT_EQ(camera.intrinsics.height(), 50);
     for (const int u : {0, 7, 199})
@@ -122,7 +122,7 @@ TEST(CameraInfo, AppliesWindowThenBinning) {
         EXPECT_LT((camera.intrinsics.ray(u, v) - 0.5 * (first + last)).norm(), rounding);
       }
   }
-  EXPECT_EQ(parse(replaced(info_text, "binning_x: 0", "binning_x: 1")).intrinsics, raw);
+  EXPECT_EQ(parse(replaced(info_text, "binning_x: 0", "binning_x: 1")).intrinsics, raw_camera);
 }
 
 // A text with one piece of it replaced, and what the error must name.
@@ -182,7 +182,7 @@ TEST(CameraInfo, SeveralDocumentsMustBeOfTheSameCamera) {
   const std::string later = replaced(info_text, "sec: 12", "sec: 13");
   for (const std::string& text :
        {"%YAML 1.2\n---\n" + info_text, "---\n" + info_text + later + info_text})
-    EXPECT_EQ(parse(text).intrinsics, raw);
+    EXPECT_EQ(parse(text).intrinsics, raw_camera);
   const auto lines = std::count(info_text.begin(), info_text.end(), '\n');
   const std::string third = "cam.yaml:" + std::to_string(2 * lines + 1) + ": document 3 of 3";
   for (const auto& [from, to] : {std::pair("width: 640", "width: 320"),
@@ -250,7 +250,7 @@ TEST(CameraInfo, ReadsTheFilesOfOtherPrograms) {
   const std::string both = replaced(opencv, "flags: 2", "distortion_model: plumb_bob");
   for (const std::string& text : {opencv, upper_case, both, kalibr, realsense, dumped}) {
     const Camera camera = parse(text);
-    EXPECT_EQ(camera.intrinsics, raw) << text;
+    EXPECT_EQ(camera.intrinsics, raw_camera) << text;
     expect_same_lens(camera.distortion, lens);
   }
   const auto model = [](const std::string& text) { return parse(text).distortion.model(); };
@@ -264,7 +264,7 @@ TEST(CameraInfo, ReadsTheFilesOfOtherPrograms) {
             DistortionModel::rational_polynomial);
   const std::string zeros = replaced(realsense, "-0.3, 0.1, 0.001, -0.002, 0.0", "0, 0, 0, 0, 0");
   EXPECT_TRUE(parse(replaced(zeros, "brown", "inverse_brown")).distortion.is_none());
-  EXPECT_EQ(parse(zeros, true).intrinsics, raw) << "without distortion nothing is rectified";
+  EXPECT_EQ(parse(zeros, true).intrinsics, raw_camera) << "without distortion nothing is rectified";
 }
 
 TEST(CameraInfo, OneLineSaysWhatOtherFilesLack) {

@@ -152,11 +152,12 @@ TEST_F(DetectionsTest, BoxesOfAnotherImageAreRefused) {
        {R"(, "width": 140, "height": 100)", R"(, "width": 64, "height": 64)"})
     expect_refused([&] { return read("a.json", coco(size, "[10, 20, 14, 15]")); },
                    {"a.json", "70 x 50"});
-  for (const auto& [name, text] : std::initializer_list<std::array<std::string, 2>>{
+  for (const auto& [file, text] : std::initializer_list<std::array<std::string, 2>>{
            {"a.json", coco("", "[0.1, 0.2, 0.14, 0.15]")},
            {"a.csv", "frame,x0,y0,x1,y1\n0,0.1,0.2,0.24,0.35\n1,0.5,0.5,1,1\n"},
            {"a.txt", "1,-1,0.1,0.2,0.14,0.15\n"}})
-    expect_refused([&] { return read(name, text); }, {name, "fractions"});
+    expect_refused([&, name = file, content = text] { return read(name, content); },
+                   {file, "fractions"});
   std::string named = coco(R"(, "width": 140, "height": 100)", "[10, 20, 14, 15]");
   named.replace(named.find("\"id\": 1"), 7, "\"id\": \"a1\"");
   named.replace(named.find("\"image_id\": 1"), 13, "\"image_id\": \"a1\"");

@@ -110,10 +110,10 @@ TEST(TrajectoryFile, ReadsGoalsAndPlansOfRos1) {
   const std::string points =
       "{joint_names: [a, b], points: [{positions: [0, 1], time_from_start: {secs: 0, nsecs: 5}},\n"
       " {positions: [1, 2], velocities: [0, 0], time_from_start: {secs: 2}}]}\n";
-  for (const auto& [name, text] : std::initializer_list<std::pair<const char*, std::string>>{
+  for (const auto& [file, text] : std::initializer_list<std::pair<const char*, std::string>>{
            {"goal.yaml", "goal:\n  trajectory: " + points},
            {"plan.yaml", "trajectory: [{joint_trajectory: " + points + "}]\n"}}) {
-    const auto read = [&](const std::string& from) {
+    const auto read = [&, name = file](const std::string& from) {
       return read_trajectories(folder.write(name, from)).front();
     };
     EXPECT_EQ(read(text).points.at(0).time, 5e-9);

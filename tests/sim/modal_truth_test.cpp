@@ -134,8 +134,8 @@ class ModalBench {
         const auto [near, far] = std::ranges::minmax(depths);
         one.depth = 0.5 * static_cast<double>(near + far);
         one.depth_margin = 0.5 * static_cast<double>(far - near);
-        hidden += static_cast<std::size_t>(
-            std::ranges::count_if(others, [&](float z) { return z < near - apart; }));
+        hidden += static_cast<std::size_t>(std::ranges::count_if(
+            others, [&, nearest = near](float z) { return z < nearest - apart; }));
       }
       one.hidden = static_cast<double>(hidden) / static_cast<double>(object.pixels_alone);
       if (way == with_depth && reaches_border(one.before)) continue;

@@ -33,8 +33,8 @@ class Echo final : public io::WebHandler {
     std::optional<std::vector<io::SharedBytes>> next() override {
       if (const auto said = std::exchange(said_, std::nullopt))
         return std::vector{io::shared_bytes("you said "), io::shared_bytes(*said)};
-      const int wakes = wakes_;
-      if (std::exchange(seen_, wakes) == wakes) return std::nullopt;
+      const int now = wakes_;
+      if (std::exchange(seen_, now) == now) return std::nullopt;
       return std::vector{io::shared_bytes("wake")};
     }
 
