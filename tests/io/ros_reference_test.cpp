@@ -193,9 +193,9 @@ TEST(RosReference, ItsPlanningScenesAreFollowed) {
                 "vertices": [{"x": 9}, {"x": 10}, {"y": 1}]}],
     "subframe_names": ["tip"]})");
   part["pose"] = turned(0.5);
-  part["primitive_poses"] = {turned(1.0)};
-  part["mesh_poses"] = {turned(0.0)};
-  part["subframe_poses"] = {turned(2.0)};
+  part["primitive_poses"] = Json::array({turned(1.0)});
+  part["mesh_poses"] = Json::array({turned(0.0)});
+  part["subframe_poses"] = Json::array({turned(2.0)});
   Json attached = Json::parse(R"({
     "link_name": "gripper", "touch_links": ["a", "bc"], "weight": 2.5,
     "detach_posture": {"joint_names": ["finger"],
@@ -216,8 +216,8 @@ TEST(RosReference, ItsPlanningScenesAreFollowed) {
     "link_padding": [{"link_name": "gripper", "padding": 0.01}],
     "object_colors": [{"id": "part", "color": {"g": 1}}],
     "world": {"octomap": {"octomap": {"data": [1, 2, 3]}}}})");
-  scene["robot_state"]["attached_collision_objects"] = {attached};
-  scene["world"]["collision_objects"] = {part};
+  scene["robot_state"]["attached_collision_objects"] = Json::array({attached});
+  scene["world"]["collision_objects"] = Json::array({part});
   Exchange exchange;
   const auto payload = exchange.encoded("moveit_msgs/msg/PlanningScene", scene);
 
