@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 import urllib.parse
+import uuid
 import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -117,7 +118,8 @@ def describe(build: pathlib.Path, this: str, fields, folder: pathlib.Path, sibli
         elif "/include/" in path and not path.startswith(f"{ROOT}/"):  # a Python or a pybind11 that is not Debian's
             related.add(("STATIC_LINK", add(re.sub(".*/include/([^/]+)/.*", r"\1", path))))
     wanted = fields.get_all("Requires-Dist") or (fields["Depends"] or "").split(", ")
-    for name, versions in re.findall(r"^([\w.+-]+)(?::any)? *\(?([^;)\n]*)\)?$", "\n".join(wanted), re.M):
+    firsts = "\n".join(want.split(" | ")[0] for want in wanted)
+    for name, versions in re.findall(r"^([\w.+-]+)(?::any)? *\(?([^;)\n]*)\)?$", firsts, re.M):
         other = add(name, versions)
         related |= {("DEPENDS_ON", other)} if ("DYNAMIC_LINK", other) not in related else set()
     relationships.update({(this, *relation) for relation in related} | {("SPDXRef-DOCUMENT", "DESCRIBES", this)})
@@ -147,7 +149,7 @@ def main(build: pathlib.Path, file: pathlib.Path, temporary: pathlib.Path) -> No
     kinds = ("spdxElementId", "relationshipType", "relatedSpdxElement")
     file.with_suffix(".spdx.json").write_text(json.dumps({
         "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": file.stem,
-        "documentNamespace": f"https://example.org/spdx/{file.stem}-{digest}",
+        "documentNamespace": f"https://spdx.org/spdxdocs/{file.stem}-{uuid.UUID(digest[:32])}",
         "creationInfo": {"created": created, "creators": ["Organization: Penumbra", "Tool: scripts/sbom.py"]},
         "packages": contents,
         "hasExtractedLicensingInfos": [licences[name] for name in sorted(licences)],

@@ -132,6 +132,7 @@ check_abi() {
     '^_ZN?K?[RO]?(St|9__gnu_cxx|5Eigen|8penumbra6detail)' >build/abi/suppressions
   for new in build/deb/penumbra/build/deb-*/*/libpenumbra*.so.*.*.*; do
     old=$(echo build/abi/build/deb-*/*/"$(basename "${new%%.so.*}")".so.*.*.*)
+    [[ -e $old ]] || continue  # a new library
     abidiff --no-added-syms --no-unreferenced-symbols --suppressions build/abi/suppressions \
       --headers-dir1 build/abi/penumbra --headers-dir2 penumbra "$old" "$new" || return
   done
