@@ -2,6 +2,7 @@
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/time/joint_buffer.hpp>
 
 namespace penumbra::python {
