@@ -101,7 +101,11 @@ class ReadImage {
   /// `find` returns the image, or throws if it is overwritten.
   template <typename Find>
   [[nodiscard]] ImageResult<T> read(Find find) const {
-    if (!array_) array_ = array_of(find(), nullptr).array;
+    if (!array_) {
+      py::object copy = array_of(find(), nullptr).array;
+      static_cast<void>(find());  // NumPy lets other threads run while it copies
+      array_ = std::move(copy);
+    }
     return {array_};
   }
 

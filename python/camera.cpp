@@ -32,8 +32,15 @@ void bind_intrinsics(py::module_& m) {
            py::arg("height"), "The camera of a window that starts at (x, y).")
       .def("ray", &Intrinsics::ray, py::arg("u"), py::arg("v"),
            "The ray of an image point in the optical frame, with z = 1.")
-      .def("project", &Intrinsics::project, py::arg("point"),
-           "Image point (u, v) of a point in the optical frame, metres; z must not be 0.")
+      .def(
+          "project",
+          [](const Intrinsics& self, const Eigen::Vector3d& point) {
+            if (!(point.z() > 0.0)) throw InputError("point: z must be above 0");
+            return self.project(point);
+          },
+          py::arg("point"),
+          "Image point (u, v) of a point in the optical frame, metres. Raises InputError for one "
+          "that is not before the camera.")
       .def(
           "__eq__", [](const Intrinsics& a, const Intrinsics& b) { return a == b; },
           py::is_operator());

@@ -115,7 +115,7 @@ void bind_frame(py::module_& m) {
   py::class_<F> frame(m, "Frame",
                       "An image or a scan, and all that is needed to judge it: what "
                       "Session.process takes. They are read where they are: do not change them "
-                      "while they are judged.");
+                      "while they are judged, nor the depth before points() and without_robot().");
   bind_members<2>(
       frame,
       Field{"depth", &F::depth,

@@ -2,6 +2,7 @@
 #include <python/bindings.hpp>
 #include <python/fields.hpp>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/time/joint_buffer.hpp>
 
 namespace penumbra::python {
@@ -69,8 +70,12 @@ void bind_joint_buffer(py::module_& m) {
       .def(
           "insert",
           [](JointBuffer& self, std::int64_t stamp, const std::vector<std::string>& names,
-             const Numbers& positions,
-             const std::string& source) { return self.insert(stamp, names, positions, source); },
+             const Numbers& positions, const std::string& source) {
+            if (names.size() != positions.size())
+              throw InputError(std::to_string(positions.size()) + " positions for " +
+                               std::to_string(names.size()) + " names; expected as many");
+            return self.insert(stamp, names, positions, source);
+          },
           py::arg("stamp"), py::arg("names"), py::arg("positions"), py::arg("source") = "",
           "Adds one joint state; stamp in nanoseconds, positions in rad and m. Returns the number "
           "of values taken; names that are no variable are ignored. source: a name for the "

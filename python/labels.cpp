@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -6,6 +8,7 @@
 #include <python/fields.hpp>
 #include <python/renderer.hpp>
 
+#include <penumbra/base/error.hpp>
 #include <penumbra/labels/labels.hpp>
 #include <penumbra/pipeline/without_robot.hpp>
 
@@ -80,6 +83,13 @@ Labels classify_array(const std::shared_ptr<Labeller>& self,
                       const ImageArgument<"virtual_depth", float>& virtual_depth,
                       const DepthArgument<"measured">& measured) {
   check_size(virtual_depth.array, "virtual_depth", self->width, self->height);
+  const auto& depth = std::get<0>(virtual_depth.view);
+  const auto is_depth = [](float z) { return z >= 0.0F && std::isfinite(z); };
+  for (int v = 0; v < depth.height; ++v)
+    if (!std::all_of(depth.row(v), depth.row(v) + depth.width, is_depth))
+      throw InputError("virtual_depth: row " + std::to_string(v) +
+                       " has negative values, or some that are not finite; expected metres, 0 "
+                       "without the robot");
   return classify(self, {.depth = std::get<0>(virtual_depth.view), .links = {}}, measured);
 }
 

@@ -76,9 +76,9 @@ void bind_outlines(py::module_& m) {
   py::class_<PixelEllipse> ellipse(m, "PixelEllipse",
                                    "The pixels whose centres lie inside an ellipse or on it.");
   using E = PixelEllipse;
-  bind_fields(ellipse, Field{"centre", &E::centre, "(u, v), pixels."},
-              Field{"semi_axes", &E::semi_axes, "Pixels, > 0."},
-              Field{"angle", &E::angle, "Radians from +u to +v: of the first semi-axis."});
+  bind_fields<2>(ellipse, Field{"centre", &E::centre, "(u, v), pixels."},
+                 Field{"semi_axes", &E::semi_axes, "Pixels, > 0."},
+                 Field{"angle", &E::angle, "Radians from +u to +v: of the first semi-axis."});
 }
 
 }  // namespace

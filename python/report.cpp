@@ -182,7 +182,8 @@ void bind_without_robot(py::module_& m, py::class_<Report>& report) {
                 [&](auto& depth) -> DepthResult { return {array_of(depth.view(), image).array}; },
                 *image);
           },
-          "A copy of the frame's depth without the robot: 0 (uint16) or NaN (float32) where depth "
+          "A copy of the frame's depth, which must not have changed since, without the robot: 0 "
+          "(uint16) or NaN (float32) where depth "
           "is not to be trusted, that is, where the label is neither clear nor front.")
       .def("coco_annotation", &Report::coco_annotation,
            "The robot_mask as COCO's annotations have it: segmentation (size and counts, the "
@@ -190,7 +191,8 @@ void bind_without_robot(py::module_& m, py::class_<Report>& report) {
            "known. Raises ValueError after the session's next call.")
       .def("points", &points_of, py::arg("frame") = std::optional<std::string>(),
            py::arg("color") = py::none(),
-           "The points of without_robot(). frame: link whose frame they are given in; None: the "
+           "The points of without_robot(), of the depth as it is now. frame: link whose frame they "
+           "are given in; None: the "
            "camera's optical frame. color: uint8 (H, W, 3), an image of the labels' size. Raises "
            "InputError for a name that is no link.");
 }

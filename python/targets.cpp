@@ -32,7 +32,7 @@ void bind_image_shapes(py::module_& m) {
   py::class_<KeypointTarget> keypoint(m, "KeypointTarget",
                                       "A key point of a network; an ellipse around it is judged.");
   using K = KeypointTarget;
-  bind_fields(
+  bind_fields<1>(
       keypoint, Field{"pixel", &K::pixel, "(u, v) of the report's images."},
       Field{"score", &K::score, "The network's."},
       Field{"min_score", &K::min_score, "Below: unknown."},

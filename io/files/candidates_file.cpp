@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <string>
@@ -52,8 +53,9 @@ ForecastCamera candidate_of(const Cells& row, const Robot& robot, ForecastCamera
   Camera& camera = candidate.camera;
   camera.parent.clear();
   camera.T_parent_camera = isometry_of(numbers);
-  if (camera.T_parent_camera->translation().cwiseAbs().maxCoeff() > max_target_distance)
-    throw InputError("is more than 1000 km away; expected metres");
+  if (const double far = camera.T_parent_camera->translation().norm(); far > farthest_target)
+    throw InputError("is " + std::to_string(std::lround(far)) +
+                     " m away: are these millimetres? give metres");
   if (row.size() == link_column) return candidate;
   camera.parent = row[link_column];
   const Cells known(robot.links().begin(), robot.links().end());

@@ -47,14 +47,12 @@ ForecastCamera camera_of(const RunInput& input, const RobotPose& pose, std::stri
   return camera;
 }
 
-/// Adds what the camera measures of the targets in the frame, and notes about them.
+/// Adds what the camera measures of the targets in the frame.
 void judge(const RunInput& input, Frame frame, LookAheadInput& to) {
   for (Target& target : frame.targets) target.handling = {};
   Pipeline pipeline(to.robot, *input.camera, input.config);
   const FrameReport& report = pipeline.process(frame);
   if (has_depth(report.status)) to.now = {report.targets.begin(), report.targets.end()};
-  for (const TargetReport& target : report.targets)
-    if (!target.note.empty()) to.notes.push_back(target.note);
 }
 
 void add(NamedTrajectory motion, LookAheadInput& to) {

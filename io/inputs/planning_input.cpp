@@ -66,7 +66,7 @@ PlanningInput read_planning_input(const PlanningOptions& options, const LineSink
   const std::size_t parent = find_camera_parent(robot, camera.parent);
   const auto source = read.input.frames();
   Frame frame;
-  std::string fault, note;
+  std::string fault;
   while (source->next(frame)) {
     const std::size_t index = frame.index.value_or(read.seen);
     ++read.seen;
@@ -88,15 +88,8 @@ PlanningInput read_planning_input(const PlanningOptions& options, const LineSink
         T_root_link[parent] * frame.pose.T_parent_camera.value_or(camera.pose());
     kept.targets = placed(read.targets.of_frame(static_cast<std::int64_t>(index)), T_root_camera,
                           read.targets.file());
-    const auto T_camera_frame = [&](const ReferenceFrame& of) -> Eigen::Isometry3d {
-      const auto link = of.kind == ReferenceFrame::Kind::link ? robot.find_link(of.link) : 0;
-      return T_root_camera.inverse() * T_root_link[link.value_or(0)];
-    };
-    for (const Target& target : kept.targets)
-      if (note.empty()) note = millimetres_note(target, T_camera_frame);
   }
   read.notes = source->notes();
-  if (!note.empty()) read.notes.push_back(note);
   if (read.motion.empty())
     throw InputError(options.input.path.string() + ": the robot's pose is known in no frame" +
                      (fault.empty() ? "" : "; " + fault));

@@ -114,11 +114,6 @@ void TargetInbox::add(const std::string& topic, const Detection2DArrayMessage& m
     auto& shape = all[i]->shape.emplace<RegionTarget>();
     shape.region = region_of(message.detections[i].bbox);
     shape.extent = Extent::modal;
-    const BoundingBox2D& box = message.detections[i].bbox;
-    if (box.centre.position.maxCoeff() <= 1 && std::max(box.size_x, box.size_y) <= 1)
-      all[i]->fault =
-          "its box lies within the first pixel: is it in fractions of the image? "
-          "Expected pixels";
   }
 }
 

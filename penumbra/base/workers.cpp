@@ -2,12 +2,14 @@
 #include <string>
 #include <system_error>
 
+#include <unistd.h>
+
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/workers.hpp>
 
 namespace penumbra {
 
-Workers::Workers(int size) {
+Workers::Workers(int size) : owner_(getpid()) {
   try {
     for (int worker = 1; worker < size; ++worker) {
       threads_.emplace_back([this, worker] { serve(worker); });
@@ -26,7 +28,12 @@ void Workers::stop() {
   stop_ = true;
   ++round_;
   round_.notify_all();
-  for (std::thread& thread : threads_) thread.join();
+  const bool is_forked = getpid() != owner_;
+  for (std::thread& thread : threads_)
+    if (is_forked)
+      thread.detach();
+    else
+      thread.join();
 }
 
 void Workers::run(void (*job)(void*, int), void* context) {
@@ -34,6 +41,11 @@ void Workers::run(void (*job)(void*, int), void* context) {
     job(context, 0);
     return;
   }
+  if (getpid() != owner_)
+    throw InputError(
+        "threads: a forked process has none of its parent's; make what has threads in the child, "
+        "or "
+        "with one thread");
   job_ = job;
   context_ = context;
   busy_ = static_cast<int>(threads_.size());

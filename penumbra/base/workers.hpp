@@ -6,6 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include <sys/types.h>
+
 namespace penumbra {
 
 /// A fixed team that runs one job at a time, the caller included. A team of one has no threads.
@@ -17,7 +19,8 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// Calls job(context, worker) once in every worker 0..size-1 and waits for all of them.
+  /// Calls job(context, worker) once in every worker 0..size-1 and waits for all of them. Throws
+  /// InputError in a process that was forked off, which has no threads of its own.
   void run(void (*job)(void* context, int worker), void* context);
 
  private:
@@ -30,6 +33,7 @@ class Workers {
   std::atomic<int> busy_{0};
   std::atomic<bool> stop_{false};
   std::vector<std::thread> threads_;
+  pid_t owner_;
 };
 
 }  // namespace penumbra

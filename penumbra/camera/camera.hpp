@@ -20,9 +20,10 @@ namespace penumbra {
 /// z forward), as in OpenCV and ROS. The principal point may lie anywhere, outside the image too.
 class Intrinsics {
  public:
-  static constexpr int max_size = 32767;      ///< largest width or height
-  static constexpr int max_pixels = 1 << 26;  ///< largest width times height; 8 K has half of it
-  static constexpr double max_focal = 1e7;    ///< largest fx or fy; telescopes have 1e5
+  static constexpr int max_size = 32767;       ///< largest width or height
+  static constexpr int max_pixels = 1 << 26;   ///< largest width times height; 8 K has half of it
+  static constexpr double max_focal = 1e7;     ///< largest fx or fy; telescopes have 1e5
+  static constexpr double least_focal = 0.01;  ///< of the width: a view of 178 degrees
 
   /// Lengths in pixels. Throws InputError, with the values, unless 0 < fx, fy <= max_focal,
   /// cx and cy are finite, 1 <= width, height <= max_size and width * height <= max_pixels.

@@ -19,6 +19,9 @@ Intrinsics::Intrinsics(int width, int height, double fx, double fy, double cx, d
   } else if (!(fx > 0 && fy > 0 && fx <= max_focal && fy <= max_focal)) {
     what << "camera: focal lengths fx = " << fx << ", fy = " << fy
          << " must be positive numbers of pixels, at most " << max_focal;
+  } else if (fx < least_focal * width) {
+    what << "camera: focal length fx = " << fx << " of an image " << width
+         << " pixels wide: is it a length? expected pixels";
   } else if (!std::isfinite(cx) || !std::isfinite(cy)) {
     what << "camera: principal point cx = " << cx << ", cy = " << cy << " must be finite";
   } else {

@@ -7,6 +7,8 @@
 #include <utility>
 #include <variant>
 
+#include <penumbra/base/error.hpp>
+#include <penumbra/base/rigid-inl.hpp>
 #include <penumbra/camera/registration.hpp>
 
 namespace penumbra {
@@ -85,6 +87,8 @@ DepthRegistration::DepthRegistration(const Camera& from, const Camera& to)
 }
 
 DepthView DepthRegistration::warp(const DepthView& depth, const Eigen::Isometry3d& T_to_from) {
+  if (!is_rigid(T_to_from))
+    throw InputError("T_to_from: expected a finite rotation (to 1e-4) and translation");
   rotation_ = T_to_from.linear().cast<float>();
   translation_ = T_to_from.translation().cast<float>();
   if (const auto* millimetres = std::get_if<ImageView<const std::uint16_t>>(&depth))

@@ -40,7 +40,8 @@ class DepthRegistration {
   DepthRegistration(const Camera& from, const Camera& to);
 
   /// Returns an image of the size of `to` and the type of `depth`, 0 where nothing is measured,
-  /// valid until the next call. Throws std::invalid_argument unless `depth` has the size of `from`.
+  /// valid until the next call. Throws std::invalid_argument unless `depth` has the size of `from`,
+  /// and InputError for a transform that is not rigid.
   /// Allocates only in the first call with a type.
   DepthView warp(const DepthView& depth, const Eigen::Isometry3d& T_to_from);
 

@@ -237,7 +237,7 @@ std::size_t confirm(ImageView<std::uint8_t> labels, ImageView<const T> measured,
   const int u0 = std::min(2 * block.x(), labels.width - 2);
   const int v0 = std::min(2 * block.y(), labels.height - 2);
   const auto is_same = [&](int u, int v, std::uint8_t label) {
-    return labels(u, v) == label && known(u, v) != saturated_depth &&
+    return labels(u, v) == label && known(u, v) < seen_once &&
            std::abs(millimetres(measured(u, v)) - known(u, v)) <= step;
   };
   bool is_touched = false;  // one pixel of each block is enough

@@ -2,6 +2,7 @@
 // A rule as the kernels take it, and an image's measurements by it.
 #pragma once
 
+#include <cstdint>
 #include <type_traits>
 
 #include <penumbra/base/image.hpp>
@@ -23,6 +24,9 @@ struct Rule {
 
   [[nodiscard]] bool cleans_up() const { return width > 0; }
 };
+
+/// Set in what is known of a scene, millimetres, if it was seen only once: it confirms nothing.
+inline constexpr std::uint16_t seen_once = 0x8000;
 
 }  // namespace labelling
 

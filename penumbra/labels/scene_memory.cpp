@@ -22,6 +22,12 @@ HWY_BEFORE_NAMESPACE();
 namespace penumbra::labelling {
 namespace HWY_NAMESPACE {
 
+/// Metres of what is known.
+HWY_INLINE VF metres_known(VI known) {
+  return hn::Mul(hn::ConvertTo(F(), hn::And(known, hn::Set(I(), seen_once - 1))),
+                 hn::Set(F(), metres_per_millimetre));
+}
+
 /// Calls f(measured, robot, known, is_first_row) for `lanes` pixels at a time.
 template <typename T, typename Function>
 HWY_INLINE void for_each_vector(const SceneTile& tile, ImageView<const float> robot,
@@ -50,19 +56,24 @@ bool take_tile(const Rule& rule, const SceneTile& tile, ImageView<const float> r
   const Criteria criteria(rule, measured.data);
   const hn::Rebind<std::uint16_t, F> narrow;
   const VI none = hn::Set(I(), SceneMemory::none);
+  const VI once = hn::Set(I(), tile.is_new ? 0 : seen_once);
   std::size_t both = 0, others = 0;
   const auto take = [&](const T* in, const float*, std::uint16_t* known, bool is_first) HWY_ATTR {
     const VF d = load_metres(in);
     const auto is_measured = criteria.measured(d);
+    const VI before = hn::PromoteTo(I(), hn::LoadU(narrow, known));
+    const auto is_both = hn::And(hn::RebindMask(I(), is_measured), hn::Ne(before, none));
+    const VF off = hn::Abs(hn::Sub(d, metres_known(before)));
+    const auto is_same = hn::And(is_both, hn::RebindMask(I(), hn::Le(off, criteria.tolerance(d))));
     if (is_first) {
-      const VI before = hn::PromoteTo(I(), hn::LoadU(narrow, known));
-      const auto is_both = hn::RebindMask(F(), hn::And(is_measured, hn::Ne(before, none)));
-      const VF off = hn::Abs(hn::Sub(d, load_metres(known)));
-      both += hn::CountTrue(F(), is_both);
-      others += hn::CountTrue(F(), hn::And(is_both, hn::Gt(off, criteria.tolerance(d))));
+      both += hn::CountTrue(I(), is_both);
+      others += hn::CountTrue(I(), hn::AndNot(is_same, is_both));
     }
     const VI now = hn::NearestInt(hn::Mul(d, hn::Set(F(), millimetres_per_metre)));
-    hn::StoreU(hn::DemoteTo(narrow, hn::IfThenElse(is_measured, now, none)), narrow, known);
+    const VI marked = hn::IfThenElse(is_same, now, hn::Or(now, once));
+    const auto fits =
+        hn::And(hn::RebindMask(I(), is_measured), hn::Lt(now, hn::Set(I(), seen_once)));
+    hn::StoreU(hn::DemoteTo(narrow, hn::IfThenElse(fits, marked, none)), narrow, known);
   };
   for_each_vector(tile, robot, measured, take);
   return 2 * others > both;
@@ -77,13 +88,13 @@ void check_tile(const Rule& rule, const SceneTile& tile, ImageView<const float> 
   const VF step = hn::Set(F(), static_cast<float>(LabelRule::fringe_step));
   const auto check = [&](const T* in, const float* virtual_depth, std::uint16_t* known,
                          bool) HWY_ATTR {
-    const VF d = load_metres(in), z = hn::LoadU(F(), virtual_depth), m = load_metres(known);
+    const VI before = hn::PromoteTo(I(), hn::LoadU(narrow, known));
+    const VF d = load_metres(in), z = hn::LoadU(F(), virtual_depth), m = metres_known(before);
     const VF e = criteria.tolerance(m);
     const auto is_past =
         hn::And(hn::RebindMask(F(), criteria.measured(d)), hn::Gt(hn::Sub(d, m), hn::Mul(step, e)));
     const auto is_reached =
         hn::And(hn::Gt(z, hn::Zero(F())), hn::Le(hn::Abs(hn::Sub(z, m)), hn::Mul(reach, e)));
-    const VI before = hn::PromoteTo(I(), hn::LoadU(narrow, known));
     const VI now = hn::IfThenElse(hn::RebindMask(I(), hn::Or(is_past, is_reached)),
                                   hn::Set(I(), SceneMemory::none), before);
     hn::StoreU(hn::DemoteTo(narrow, now), narrow, known);
@@ -121,10 +132,9 @@ HWY_EXPORT(scene_kernel);
 
 namespace {
 
-constexpr std::int64_t period = 250'000'000;            // ns between visits of a row of tiles
-constexpr std::uint64_t between_takes = 2'000'000'000;  // ns, of a tile away from the robot
-constexpr int least_reach = 40;                         // pixels: what is nearer to it is near
-constexpr double same_place = 1e-3;                     // metres, radians: the camera stands still
+constexpr std::int64_t period = 250'000'000;  // ns between visits of a row of tiles
+constexpr int least_reach = 40;               // pixels: what is nearer to it is near
+constexpr double same_place = 1e-3;           // metres, radians: the camera stands still
 
 /// Returns the tiles of a row in which the robot is, of those that the renderer has touched.
 std::uint64_t robot_tiles(const VirtualDepthView& robot, std::size_t row) {
@@ -213,7 +223,8 @@ void SceneMemory::update_row(std::size_t row, const VirtualDepthView& robot,
     const bool is_known = (known_[row] & bit) != 0;
     const std::uint64_t age = stamp_distance(stamp_, taken_[row].at(i));
     tile.is_near = (near & bit) != 0;
-    if (tile.is_near ? !is_known : is_known && age < between_takes) continue;
+    tile.is_new = !is_known;
+    if (tile.is_near && !is_known) continue;
     if (tile.is_near && age > lasts_) {
       for (int v = tile.v0; v < tile.v1; ++v)
         std::fill(&depth_(tile.u0, v), &depth_(tile.u0, v) + (tile.u1 - tile.u0), none);

@@ -20,6 +20,7 @@ namespace labelling {
 struct SceneTile {
   int u0 = 0, u1 = 0, v0 = 0, v1 = 0;
   bool is_near = false;  ///< the robot
+  bool is_new = false;   ///< nothing is known of it
   ImageView<std::uint16_t> known = {};
 };
 
@@ -30,7 +31,8 @@ using UpdateSceneTile = bool (*)(const Rule&, const SceneTile&, ImageView<const 
 
 }  // namespace labelling
 
-/// What a camera that stands still measured away from the robot (LabelRule::scene_memory).
+/// What a camera that stands still measured away from the robot (LabelRule::scene_memory). What
+/// differs from before counts once it is seen again: somebody who walks by leaves nothing.
 class SceneMemory {
  public:
   static constexpr std::uint16_t none = saturated_depth;
@@ -38,14 +40,14 @@ class SceneMemory {
   /// `isa` as in RendererOptions.
   SceneMemory(int width, int height, const LabelRule& rule, const std::string& isa = {});
 
-  /// Takes what a frame measures away from the robot, each place every two seconds. Forgets, four
-  /// times a second, what is too old and, near the robot, what it now sees past or the robot
-  /// reaches; all, if the camera has moved, the clock was set or most of the view differs.
+  /// Four times a second, takes what a frame measures away from the robot, and forgets what is too
+  /// old and, near the robot, what it now sees past or the robot reaches; all, if the camera has
+  /// moved, the clock was set or most of the view differs.
   void update(const Eigen::Isometry3d& T_root_camera, std::int64_t stamp,
               const VirtualDepthView& robot, const DepthView& measured);
   void forget();
 
-  /// Returns depths in millimetres; `none` where nothing is known.
+  /// Returns depths in millimetres, with labelling::seen_once; `none` where nothing is known.
   [[nodiscard]] ImageView<const std::uint16_t> depth() const { return depth_.view(); }
 
  private:

@@ -159,6 +159,8 @@ std::vector<PointView> PointJudge::judge(const FrameReport& report, const Camera
     T_link_camera.push_back(T_root_link.inverse() * *report.T_root_camera);
 
   for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].allFinite())
+      throw InputError("point " + std::to_string(i) + " is not finite; expected metres");
     PointView& view = views[i];
     const Vector3d p = T_camera_own * points[i];
     view.depth = p.z();

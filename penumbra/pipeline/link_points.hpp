@@ -54,7 +54,7 @@ class PointJudge {
   /// is occluded: the sensor sees the robot there. It is hidden by something else if the label is
   /// front, and unknown for other labels. Without a depth camera (PipelineConfig::has_depth) all is
   /// visible that the robot does not hide. While a part of the robot is not drawn, nothing is
-  /// visible. Throws InputError for an unknown link and for a scan.
+  /// visible. Throws InputError for an unknown link, for a scan and for points that are not finite.
   [[nodiscard]] std::vector<PointView> judge(const FrameReport& report, const Camera& camera,
                                              std::string_view link,
                                              std::span<const Eigen::Vector3d> points) const;

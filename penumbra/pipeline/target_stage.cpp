@@ -137,7 +137,7 @@ void TargetStage::judge(const Target& target, const LabelledFrame& frame, Record
   try {
     check(target, record);
     const LabelledFrame& seen = frame_of(target, frame);
-    report.note = millimetres_note(target, [&](const ReferenceFrame& of) {
+    check_distance(target, [&](const ReferenceFrame& of) {
       return seen.poses->T_root_camera.inverse() * pose_of(of, *seen.poses, robot_);
     });
     if (const PlacedBody* const body = find_body(*seen.poses, target.name)) {

@@ -147,6 +147,14 @@ Image<std::uint8_t> robot_mask(const Robot& robot, const Camera& camera, const R
   Pipeline pipeline(robot, camera, config);
   const FrameReport& report = pipeline.process({.pose = pose});
   if (report.status != FrameStatus::ok) throw InputError("robot_mask: " + report.message);
+  for (const Joint& joint : robot.joints()) {
+    if (!joint.variable || !joint.lower || !joint.upper || pose.positions.empty()) continue;
+    const double at = joint.multiplier * pose.positions[*joint.variable] + joint.offset;
+    const double range = *joint.upper - *joint.lower;
+    if (range > 0.0 && std::max(*joint.lower - at, at - *joint.upper) > range)
+      throw InputError("robot_mask: joint '" + joint.name + "' is at " + std::to_string(at) +
+                       ", far beyond its limits: expected radians or metres");
+  }
   if (!report.near_links.empty())
     throw InputError("robot_mask: part of link '" + robot.links()[report.near_links.front()] +
                      "' lies within 1 cm of the camera and cannot be drawn: correct the camera's "

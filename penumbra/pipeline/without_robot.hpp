@@ -84,7 +84,8 @@ class CloudMaker {
 /// The same of a pose, for example {.positions = ...}, in the camera's own image; 0 where its lens
 /// model does not reach. For many frames use a Session. Throws InputError if the mask would lack
 /// something: the camera's pose or joint positions are missing, not finite or not one for each of
-/// Robot::variables(), a mesh could not be read, or a part is within 1 cm of the camera.
+/// Robot::variables(), one is beyond its joint's limits by more than their range, a mesh could not
+/// be read, or a part is within 1 cm of the camera.
 [[nodiscard]] Image<std::uint8_t> robot_mask(const Robot& robot, const Camera& camera,
                                              const RobotPose& pose);
 

@@ -253,6 +253,8 @@ const SeenTarget& CameraPredictor::show(std::size_t target, const PoseResult& po
   const bool is_at_rest = start.velocity.isZero(0.0) && start.angular_velocity.isZero(0.0);
   try {
     if (!start.target.fault.empty()) throw InputError(start.target.fault);
+    if (!start.velocity.allFinite() || !start.angular_velocity.allFinite())
+      throw InputError("its velocity is not finite");
     Eigen::Isometry3d T_camera_frame = poses.T_root_camera.inverse();
     if (const auto at = placement_of(start.target.shape))
       T_camera_frame = T_camera_frame * pose_of(at->frame, poses, robot_);

@@ -109,8 +109,6 @@ void Warnings::add_stamp(const FrameReport& report) {
 /// Called before add_stamp().
 void Warnings::add_targets(const FrameReport& report) {
   if (report.targets.empty()) return;
-  for (const TargetReport& target : report.targets)
-    if (target_note_.empty()) target_note_ = target.note;
   if (report.stamp && last_stamp_ && is_clock_jump(*report.stamp, *last_stamp_)) ++forgotten_;
   if (std::any_of(report.targets.begin(), report.targets.end(),
                   [](const TargetReport& target) { return target.wants_stamp; }))
@@ -168,7 +166,6 @@ std::vector<std::string> Warnings::lines() const {
   if (not_handled_ > 0)
     lines.push_back("targets that want handling in " + counted(not_handled_, "frame") +
                     " without a stamp: they are not handled there");
-  if (!target_note_.empty()) lines.push_back(target_note_);
   for (const std::string& line : plan_notes_) lines.push_back("the planned motion: " + line);
   std::string joints;
   for (std::size_t i = 0; i < frames_beyond_.size(); ++i)

@@ -93,7 +93,7 @@ class Warnings {
   std::uint64_t longest_period_ = 0;        // nanoseconds between two stamps that rise
   std::size_t forgotten_ = 0;               // times, with targets in the frame
   std::size_t not_handled_ = 0;             // frames
-  std::string body_note_, target_note_;     // the first of each
+  std::string body_note_;                   // the first
   std::shared_ptr<const Trajectory> plan_;  // of the last frame
   std::vector<std::string> plan_notes_;     // of the first plan that has any
   std::vector<std::size_t> frames_beyond_;  // of each joint

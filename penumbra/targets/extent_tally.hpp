@@ -33,13 +33,14 @@ struct DepthLimits {
   float near, far;
 };
 
-/// Computes the limits of a depth.
+/// Computes the limits of a depth. The sensor's tolerance is half of it at most: what is nearer
+/// than that hides a target however far away it is said to be.
 struct LimitRule {
   LimitRule(const labelling::Rule& rule, double depth_margin)
       : a(rule.a), b(rule.b), c(rule.c), margin(static_cast<float>(depth_margin)) {}
 
   [[nodiscard]] DepthLimits at(float z) const {
-    const float e = a + (b + c * z) * z + margin;
+    const float e = std::min(a + (b + c * z) * z, 0.5f * z) + margin;
     return {z - e, z + e};
   }
 

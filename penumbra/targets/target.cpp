@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -17,8 +18,12 @@ void check_length(double value, const char* what, double most, const char* unit)
     region_fault(what, " is ", value, "; expected ", unit, " above 0 and up to ", most);
 }
 
-void check_metres(double value, const char* what) {
-  check_length(value, what, max_target_distance, "metres");
+// Metres, of what stands upright; of a shape with the camera inside, and of an outline.
+constexpr double tallest_target = 50.0, largest_target = 10.0;
+
+void check_metres(double value, const char* what, double most = max_target_distance) {
+  if (value > most) region_fault(what, " is ", value, " m: are these millimetres? give metres");
+  check_length(value, what, most, "metres");
 }
 
 void check_position(const Eigen::Vector3d& p) {
@@ -34,22 +39,49 @@ void check_pose(const Eigen::Isometry3d& T) {
   check_position(T.translation());
 }
 
+/// Whether a region lies within the first pixel, as one in fractions of the image does.
+struct FirstPixel {
+  static bool holds(const Eigen::Vector2d& at) {
+    return at.minCoeff() >= 0.0 && at.maxCoeff() <= 1.0;
+  }
+  bool operator()(const PixelBox& box) const {
+    return holds({box.u, box.v}) && holds({box.width, box.height});
+  }
+  bool operator()(const PixelPolygon& polygon) const {
+    return !polygon.corners.empty() && std::ranges::all_of(polygon.corners, holds);
+  }
+  bool operator()(const PixelEllipse& ellipse) const {
+    return holds(ellipse.centre) && holds(ellipse.semi_axes);
+  }
+  bool operator()(const auto& /*mask*/) const { return false; }
+};
+
+void check_pixels(bool is_first) {
+  if (is_first)
+    throw InputError(
+        "lies within the first pixel: is it in fractions of the image? expected pixels");
+}
+
 struct ShapeCheck {
   void operator()(const std::monostate&) const {}
 
   void operator()(const RegionTarget& target) const {
-    if (target.expected_depth) check_metres(*target.expected_depth, "expected depth");
-    if (target.height) check_metres(*target.height, "height");
+    if (target.expected_depth)
+      check_metres(*target.expected_depth, "expected depth", farthest_target);
+    if (target.height) check_metres(*target.height, "height", tallest_target);
+    check_pixels(std::visit(FirstPixel{}, target.region));
   }
 
   void operator()(const KeypointTarget& target) const {
-    if (target.expected_depth) check_metres(*target.expected_depth, "expected depth");
+    if (target.expected_depth)
+      check_metres(*target.expected_depth, "expected depth", farthest_target);
     for (const double at : target.pixel)
       if (!(std::abs(at) <= max_coordinate))
         region_fault("pixel is ", at, "; expected at most ", max_coordinate);
+    check_pixels(FirstPixel::holds(target.pixel));
     for (const double semi_axis : target.semi_axes)
       if (target.in_metres)
-        check_metres(semi_axis, "semi-axis");
+        check_metres(semi_axis, "semi-axis", largest_target);
       else
         check_length(semi_axis, "semi-axis", max_coordinate, "pixels");
     constexpr double most_radians = 1e6;  // radians; a double's rounding is 1e-10 there
@@ -91,10 +123,6 @@ struct EstimateCheck {
   }
 };
 
-// Metres. No sensor of a robot sees farther; of what stands upright; of a shape with the camera
-// inside, and of an outline.
-constexpr double farthest_target = 250.0, tallest_target = 50.0, largest_target = 10.0;
-
 std::string metres_text(double length) {
   std::ostringstream text;
   text << std::setprecision(4) << length << " m";
@@ -108,26 +136,6 @@ Eigen::AlignedBox3d bounds_of(const TargetShape& shape) {
   if (const auto* point = std::get_if<PointTarget>(&shape)) half.setConstant(point->radius);
   if (const auto* box = std::get_if<BoxTarget>(&shape)) half = 0.5 * box->size;
   return {-half, half};
-}
-
-/// The first of some lengths that is impossible; empty: none.
-std::string impossible_length(const Target& target) {
-  const auto check = [](const std::optional<double>& length, double most, const char* name) {
-    return length && *length > most ? name + (" is " + metres_text(*length)) : std::string();
-  };
-  std::string line = check(target.depth_margin, largest_target, "its depth_margin");
-  const auto take = [&](const auto* shape) {
-    if (shape == nullptr) return;
-    if (line.empty()) line = check(shape->expected_depth, farthest_target, "its expected_depth");
-    if constexpr (requires { shape->height; })
-      if (line.empty()) line = check(shape->height, tallest_target, "its height");
-    if constexpr (requires { shape->in_metres; })
-      if (line.empty() && shape->in_metres)
-        line = check(shape->semi_axes.maxCoeff(), largest_target, "its semi-axis");
-  };
-  take(std::get_if<RegionTarget>(&target.shape));
-  take(std::get_if<KeypointTarget>(&target.shape));
-  return line;
 }
 
 }  // namespace
@@ -160,10 +168,9 @@ bool is_rendered(const TargetShape& shape) {
 
 void check_shape(const TargetShape& shape) { std::visit(ShapeCheck{}, shape); }
 
-std::string millimetres_note(
-    const Target& target,
-    const std::function<Eigen::Isometry3d(const ReferenceFrame&)>& T_camera_frame) {
-  std::string line = impossible_length(target);
+void check_distance(const Target& target,
+                    const std::function<Eigen::Isometry3d(const ReferenceFrame&)>& T_camera_frame) {
+  std::string line;
   const auto check_distance = [&](double distance) {
     if (line.empty() && distance > farthest_target)
       line = "it is " + metres_text(distance) + " away from the camera";
@@ -186,8 +193,7 @@ std::string millimetres_note(
     }
   } catch (const InputError&) {  // the frame's pose is not known
   }
-  if (line.empty()) return line;
-  return "target '" + target.name + "': " + line + ": are these millimetres? give metres";
+  if (!line.empty()) throw InputError(line + ": are these millimetres? give metres");
 }
 
 void check_target(const Target& target) {
@@ -199,9 +205,7 @@ void check_target(const Target& target) {
     throw InputError(
         "min_inside cannot be used with 3-D boxes and meshes, whose part outside the image is "
         "unknown: leave it out");
-  if (!(target.depth_margin >= 0.0 && target.depth_margin <= max_target_distance))
-    region_fault("depth margin is ", target.depth_margin, "; expected metres from 0 to ",
-                 max_target_distance);
+  if (target.depth_margin != 0.0) check_metres(target.depth_margin, "depth margin", largest_target);
   check_shape(target.shape);
 }
 

@@ -24,6 +24,8 @@ namespace penumbra {
 
 /// Largest distance and size of a target, metres. Float32 depths are too coarse beyond.
 inline constexpr double max_target_distance = 1e6;
+/// No sensor of a robot sees farther, metres.
+inline constexpr double farthest_target = 250.0;
 
 /// The frame in which a position or pose is given; by default the camera's optical frame.
 struct ReferenceFrame {
@@ -140,12 +142,11 @@ void place(TargetShape& shape, const ShapePlacement& at);
 void check_shape(const TargetShape& shape);
 void check_target(const Target& target);
 
-/// Says which length of a valid target is as large as only millimetres are that are taken for
-/// metres, one line; empty: none. `T_camera_frame`: returns the pose of a frame in the camera's or
-/// the sensor's.
-[[nodiscard]] std::string millimetres_note(
-    const Target& target,
-    const std::function<Eigen::Isometry3d(const ReferenceFrame&)>& T_camera_frame);
+/// Throws InputError for a target or estimate that is as far away, or as large with the camera
+/// inside, as only one in millimetres is. `T_camera_frame`: returns the pose of a frame in the
+/// camera's or the sensor's; may throw InputError for one that is not known.
+void check_distance(const Target& target,
+                    const std::function<Eigen::Isometry3d(const ReferenceFrame&)>& T_camera_frame);
 
 /// Throws InputError for a pose that is not rigid or more than max_target_distance away, and for
 /// one in the camera's frame that is nearer than DepthRenderer::near_plane.
@@ -184,7 +185,6 @@ struct TargetReport {
   std::optional<std::int64_t> stamp;  ///< of the frame on which it was judged, nanoseconds
   Verdict verdict = Verdict::unknown;
   std::string reason;  ///< one line if the verdict is unknown or held, else empty
-  std::string note;    ///< millimetres_note()
 
   /// Null if no pixels were judged. The judge's values except `point`.
   std::optional<Judgement> judgement;

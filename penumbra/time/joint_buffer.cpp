@@ -98,6 +98,7 @@ JointBuffer::JointBuffer(const Robot& robot, JointBufferOptions options)
 
 std::size_t JointBuffer::insert(std::int64_t stamp, std::span<const std::string> names,
                                 std::span<const double> positions, std::string_view source) {
+  if (positions.size() > names.size()) positions = {};  // nobody knows which is whose
   std::size_t taken = 0;
   ++states_;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -115,10 +115,10 @@ class JointBuffer {
 
   /// Adds one joint state and returns the number of accepted values. Skips names that are not
   /// variables of the robot (mimic joints, other devices). Refuses and counts names without a
-  /// position, values that are not finite or beyond +-1e9, and quaternions whose length differs
-  /// from 1 by more than 1 %. A second value of one source, joint and stamp replaces the first, but
-  /// one in the same state disputes it.
-  /// `source`: a name of the publisher, the same for all its states.
+  /// position, all if there are more positions than names, values that are not finite or beyond
+  /// +-1e9, and quaternions whose length differs from 1 by more than 1 %. A second value of one
+  /// source, joint and stamp replaces the first, but one in the same state disputes it. `source`: a
+  /// name of the publisher, the same for all its states.
   std::size_t insert(std::int64_t stamp, std::span<const std::string> names,
                      std::span<const double> positions, std::string_view source = {});
 

@@ -152,8 +152,8 @@ TEST(Intrinsics, PixelCentresAreAtIntegers) {
 
 TEST(Intrinsics, RefusesWhatIsNoCamera) {
   constexpr int most = Intrinsics::max_size;
-  EXPECT_NO_THROW(Intrinsics(1, 1, 1e-3, Intrinsics::max_focal, -1e6, 1e6));
-  EXPECT_NO_THROW(Intrinsics(most, 2048, 1, 1, 0, 0));
+  EXPECT_NO_THROW(Intrinsics(1, 1, 1e-2, Intrinsics::max_focal, -1e6, 1e6));
+  EXPECT_NO_THROW(Intrinsics(most, 2048, most, most, 0, 0));
   for (const auto& [width, height] :
        {std::pair(8192, 8193), {0, 1}, {1, -1}, {most + 1, 1}, {1, most + 1}})
     EXPECT_THROW(Intrinsics(width, height, 1, 1, 0, 0), InputError) << width << " x " << height;
@@ -166,6 +166,7 @@ TEST(Intrinsics, RefusesWhatIsNoCamera) {
     EXPECT_THROW(Intrinsics(1, 1, 1, 1, 0, bad), InputError) << bad;
   }
   expect_refused([] { Intrinsics(640, 480, -500, 510, 320, 240); }, {"fx = -500"});
+  expect_refused([] { Intrinsics(848, 480, 1.93, 1.93, 424, 240); }, {"fx = 1.93", "pixels"});
 }
 
 TEST(Camera, ChecksItsRange) {

@@ -113,6 +113,21 @@ TEST_P(Memory, OfWhatHasGoneAroundIsNotTakenForWhatTheSensorCarries) {
   EXPECT_EQ(fringe(), 12u * 56u);
 }
 
+TEST_P(Memory, OfWhatWasSeenOnceAndChangesIsNone) {
+  const auto fringe_after = [&](int times) {
+    memory_->forget();
+    move_robot(0, 0);
+    measure(200, 230, wall);
+    EXPECT_EQ(fringe(), 0u);
+    measure(200, 230, near);  // it comes
+    for (int i = 0; i < times; ++i) EXPECT_EQ(fringe(), 0u);
+    move_robot(140, 200);
+    return fringe();
+  };
+  EXPECT_EQ(fringe_after(1), thing);
+  EXPECT_EQ(fringe_after(2), 0u);
+}
+
 TEST_P(Memory, EndsWithAMovedCameraOrClock) {
   EXPECT_EQ(fringe_of_thing(), 0u);
   T_root_camera.translation().x() += 0.005;
@@ -167,17 +182,19 @@ class PlainMemory {
                                             std::min(v0 + tall, depth.height()))) {
           std::uint16_t& m = depth(u, v);
           const float d = metres_of(measured(u, v), range), z = scene.robot(u, v);
-          const float before = 0.001f * float(m), off = d - before;
+          const float before = 0.001f * float(m & (labelling::seen_once - 1)), off = d - before;
           if (is_near && m != SceneMemory::none &&
               ((d > 0.0f && off > 0.6f * e(before)) ||
                (z > 0.0f && std::abs(z - before) <= 3.0f * e(before))))
             m = SceneMemory::none;
           if (is_near) continue;
-          if (v == v0 && d > 0.0f && m != SceneMemory::none) {
-            ++both;
-            others += std::abs(off) > e(d);
-          }
-          m = d > 0.0f ? std::uint16_t(std::nearbyint(1000.0f * d)) : SceneMemory::none;
+          const bool is_both = d > 0.0f && m != SceneMemory::none;
+          const bool is_same = is_both && std::abs(off) <= e(d);
+          both += v == v0 && is_both;
+          others += v == v0 && is_both && !is_same;
+          m = SceneMemory::none;
+          if (d > 0.0f) m = std::uint16_t(std::nearbyint(1000.0f * d));
+          if (d > 0.0f && is_known && !is_same) m |= labelling::seen_once;
         }
         if (is_near) continue;
         away_ += is_known;

@@ -83,6 +83,7 @@ TEST(RobotMask, RefusesWhatItWouldLack) {
   refused(slab_robot(), slab_camera(), {}, "joint");
   refused(slab_robot(), slab_camera(), {0.0, 0.0}, "joint");
   refused(slab_robot(), slab_camera(), {nan}, "slide");
+  refused(slab_robot(), slab_camera(), {90.0}, "'slide' is at 90");
   refused(slab_robot_without_mesh(), slab_camera(), {0.0}, "'lost'");
 }
 

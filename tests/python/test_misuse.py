@@ -88,6 +88,12 @@ def test_images_of_another_size_raise(opened):
     assert opened.session.process(opened.frames[0]).status is penumbra.FrameStatus.ok
 
 
+def classified(bad):
+    virtual_depth = np.zeros((480, 640), np.float32)
+    virtual_depth[3, 639] = bad
+    return penumbra.Classifier(640, 480, penumbra.LabelRule()).classify(virtual_depth, GOOD)
+
+
 BAD_CALLS = [
     (lambda o: o.session.process(None), TypeError, "penumbra.Frame"),
     (lambda o: o.session.process(o.frames[0].replace(pose=[0, 0])), ValueError, "expected 7 positions"),
@@ -99,6 +105,19 @@ BAD_CALLS = [
     (lambda o: penumbra.LabelRule(front_min_width=None), TypeError, "front_min_width: int"),
     (lambda o: penumbra.Classifier(0, 480, penumbra.LabelRule.paper()), ValueError, "1 to 32767"),
     (lambda o: penumbra.Intrinsics(0, 0, 1, 1, 0, 0), ValueError, "1 .. 32767"),
+    (lambda o: o.camera.intrinsics.project([0, 0, -1]), penumbra.InputError, "z must be above 0"),
+    (lambda o: classified(np.float32(np.nan)), penumbra.InputError, "row 3 has negative values"),
+    (lambda o: classified(-1), penumbra.InputError, "row 3 has negative values"),
+    (lambda o: penumbra.DepthRegistration(o.camera, o.camera).warp(GOOD, np.diag([2.0, 2, 2, 1])),
+     ValueError, "T_to_from: expected a finite rotation"),
+    (lambda o: penumbra.KeypointTarget(), TypeError, "pixel"),
+    (lambda o: penumbra.PixelEllipse(), TypeError, "centre"),
+    (lambda o: penumbra.JointBuffer(o.robot).insert(0, ["elbow"], [0.0, 1.0]), penumbra.InputError,
+     "2 positions for 1 names"),
+    (lambda o: penumbra.robot_mask(o.robot, o.camera, np.degrees(o.frames[0].pose.positions)),
+     penumbra.InputError, "far beyond its limits"),
+    (lambda o: o.session.process(o.frames[0]).point_views("forearm", [[0, 0, np.nan]]),
+     penumbra.InputError, "point 0 is not finite"),
     (lambda o: penumbra.Robot.load(SHIPPED / "nothing.urdf"), ValueError, "nothing.urdf"),
     (lambda o: penumbra.Robot.load(SHIPPED, {"packages": {}}), TypeError, "penumbra.RobotOptions"),
     (lambda o: o.robot.forward_kinematics([0.0]), ValueError, "(7,)"),

@@ -5,6 +5,9 @@
 
 #include <thread>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <penumbra/base/simd_target.hpp>
 
 namespace penumbra::test {
@@ -48,6 +51,28 @@ TEST(Threads, AnyNumberGivesTheSameBits) {
         expect_same_bits(renderers[i]->render(scene.poses), expected);
     }
   }
+}
+
+TEST(Threads, OfAParentAreMissedInAForkedProcess) {
+  Scene scene = crowded_scene();
+  auto renderer = make({Backend::cpu, "", 2}, camera, scene.bodies());
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(60);  // ends what waits for ever
+    bool is_refused = false;
+    try {
+      (void)renderer->render(scene.poses);
+    } catch (const InputError&) {
+      is_refused = true;
+    }
+    renderer.reset();
+    _exit(is_refused ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_NO_THROW((void)renderer->render(scene.poses));
 }
 
 // What is hidden by others is not drawn at all: every body drawn alone, the nearest of each pixel.

@@ -54,6 +54,19 @@ TEST(Verdicts, HoldOnlyForWhatIsSeenWhereItIsExpected) {
   EXPECT_EQ(judge_once(frame, target).verdict, Verdict::visible);
 }
 
+/// The tolerance of a stereo camera, 0.006 z^2, exceeds z from 167 m on.
+TEST(Verdicts, WhatIsSaidToBeFarAwayIsHiddenAsWell) {
+  TargetFrame frame;  // the wall is at 2 m
+  TargetView target = box_target(middle_box);
+  for (const double depth : {20.0, 100.0, 187.0, 1870.0}) {
+    target.expected_depth = depth;
+    frame.add_robot(40, 40, 60, 60, 1.0f, 1);
+    EXPECT_EQ(judge_once(frame, target).occluded, 1.0) << depth;
+    TargetFrame bare;
+    EXPECT_EQ(judge_once(bare, target).hidden_by_other, 1.0) << depth;
+  }
+}
+
 Verdict verdict_of(TargetJudge& judge, int hidden, TargetMemory& memory,
                    const TargetThresholds& thresholds = {}) {
   TargetFrame frame;
