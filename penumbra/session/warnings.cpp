@@ -110,7 +110,8 @@ void Warnings::add_stamp(const FrameReport& report) {
 void Warnings::add_targets(const FrameReport& report) {
   if (report.targets.empty()) return;
   for (const TargetReport& target : report.targets)
-    if (target_note_.empty()) target_note_ = target.note;
+    if (!target.note.empty() && target_notes_.size() < most_target_notes)
+      target_notes_.try_emplace(std::string(target.name), target.note);
   if (report.stamp && last_stamp_ && is_clock_jump(*report.stamp, *last_stamp_)) ++forgotten_;
   if (std::any_of(report.targets.begin(), report.targets.end(),
                   [](const TargetReport& target) { return target.wants_stamp; }))
@@ -168,7 +169,7 @@ std::vector<std::string> Warnings::lines() const {
   if (not_handled_ > 0)
     lines.push_back("targets that want handling in " + counted(not_handled_, "frame") +
                     " without a stamp: they are not handled there");
-  if (!target_note_.empty()) lines.push_back(target_note_);
+  for (const auto& [target, line] : target_notes_) lines.push_back(line);
   for (const std::string& line : plan_notes_) lines.push_back("the planned motion: " + line);
   std::string joints;
   for (std::size_t i = 0; i < frames_beyond_.size(); ++i)

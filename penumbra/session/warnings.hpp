@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,6 +34,9 @@ class Warnings {
 
   /// A larger fraction of beyond in a scan's points in the robot's direction is not noise.
   static constexpr double likely_wrong = 0.1;
+
+  /// Targets with a note of their own; more would hide the other lines.
+  static constexpr std::size_t most_target_notes = 10;
 
   /// If all stamps are closer, nanoseconds, they have another unit: no depth camera gives 1000
   /// images a second.
@@ -90,14 +94,15 @@ class Warnings {
   std::optional<std::int64_t> last_stamp_;
   std::optional<LateStamp> first_late_;
   std::size_t late_stamps_ = 0;
-  std::uint64_t longest_period_ = 0;        // nanoseconds between two stamps that rise
-  std::size_t forgotten_ = 0;               // times, with targets in the frame
-  std::size_t not_handled_ = 0;             // frames
-  std::string body_note_, target_note_;     // the first of each
-  std::shared_ptr<const Trajectory> plan_;  // of the last frame
-  std::vector<std::string> plan_notes_;     // of the first plan that has any
-  std::vector<std::size_t> frames_beyond_;  // of each joint
-  std::vector<std::size_t> frames_near_;    // of each link
+  std::uint64_t longest_period_ = 0;                 // nanoseconds between two stamps that rise
+  std::size_t forgotten_ = 0;                        // times, with targets in the frame
+  std::size_t not_handled_ = 0;                      // frames
+  std::string body_note_;                            // the first one
+  std::map<std::string, std::string> target_notes_;  // the first one of each target
+  std::shared_ptr<const Trajectory> plan_;           // of the last frame
+  std::vector<std::string> plan_notes_;              // of the first plan that has any
+  std::vector<std::size_t> frames_beyond_;           // of each joint
+  std::vector<std::size_t> frames_near_;             // of each link
 };
 
 }  // namespace penumbra
