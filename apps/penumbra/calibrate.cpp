@@ -217,8 +217,9 @@ int execute(const CalibrateArguments& arguments) {
   if (arguments.search) options.initial.reset();
   std::cout << input.frames.size() << " of " << input.seen
             << " frames have different poses of the robot\n";
-  const Calibration found = calibrate(input.frames, input.camera, robot, options);
+  Calibration found = calibrate(input.frames, input.camera, robot, options);
   print_notes(found.notes);
+  found.notes.insert(found.notes.begin(), input.notes.begin(), input.notes.end());
   if (arguments.initial && input.T_by_tf && found.is_good())
     print_notes(std::vector{"compared with the found pose and its region, tf's pose is " +
                             distance_text(found, *input.T_by_tf)});
@@ -227,9 +228,9 @@ int execute(const CalibrateArguments& arguments) {
       folder->add("camera_pose.csv", [&](const std::filesystem::path& part) {
         io::write_pose_csv(part, found.T_parent_camera);
       });
-    const std::string json =
-        io::calibration_json(arguments.input.input.path, found, robot, options.camera_parent) +
-        "\n";
+    const std::string json = io::calibration_json(io::input_name(arguments.input.input.path), found,
+                                                  robot, options.camera_parent) +
+                             "\n";
     folder->add_text("report.html",
                      io::report_page(json, io::calibration_pictures(input.frames, input.camera,
                                                                     robot, options, found)));

@@ -34,7 +34,7 @@ struct CloudArguments {
   io::CloudRunOptions run;
   std::filesystem::path output;  ///< empty: write nothing
   io::CloudOutput how;
-  bool force = false;      ///< also a folder with other files
+  bool force = false;      ///< also a folder with other files, and clouds without the robot
   bool tune = false;       ///< measure the sensors' rules, without output
   ServerArguments server;  ///< no page is served without a port
 };
@@ -84,7 +84,10 @@ void add_options(CLI::App& app, CloudArguments& arguments) {
              RendererOptions::max_threads);
   add_drawn(app, input, "the recording's, else collision");
   add_frames(app, input.frames);
-  app.add_flag("--force", arguments.force, "write into a folder that holds other files");
+  app.add_flag(
+      "--force", arguments.force,
+      "write into a folder that holds other files; and exit with 0 although the robot is in "
+      "no cloud");
   add_server(app, arguments.server,
              "show the labelled clouds in the browser there; of several topics, each further one "
              "gets the next port; 0: any free port; default: no page");
@@ -224,7 +227,7 @@ int execute(const CloudArguments& arguments) {
   }
   std::vector<std::vector<std::string>> rows{
       {"", "clouds", "labelled", "points", "robot", "front", "fringe", "unknown", "ms a cloud"}};
-  std::size_t labelled = 0;
+  bool is_good = false;        // of any sensor: others may not see the robot
   std::set<std::string> said;  // notes of the whole bag, once
   for (std::size_t i = 0; i < sessions.size() && !was_interrupted(); ++i) {
     io::InputSession& session = *sessions[i];
@@ -236,7 +239,8 @@ int execute(const CloudArguments& arguments) {
     if (!pages.empty()) sinks.push_back(&pages[i]->store);
     const io::RunResult result = judge_all(session, sinks);
     rows.push_back(table_row(sensors[i], result.statistics));
-    labelled += result.statistics.usable_frames();
+    is_good = is_good || (result.statistics.usable_frames() > 0 &&
+                          (arguments.force || result.statistics.shows_robot()));
     if (result.statistics.parts() > 1)
       print_line(sensors[i] + ": the robot moved: up to " +
                  std::to_string(result.statistics.parts()) + " poses a scan");
@@ -253,7 +257,7 @@ int execute(const CloudArguments& arguments) {
   } else if (was_interrupted()) {
     return interrupt_status();
   }
-  return labelled > 0 ? 0 : nothing_judged;
+  return is_good ? 0 : nothing_judged;
 }
 
 }  // namespace

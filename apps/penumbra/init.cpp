@@ -25,9 +25,14 @@ int execute(const io::InitOptions& options) {
   for (const std::string& line : result.lacking)
     std::cout << "look at  " << io::without_controls(line) << '\n';
   const std::string folder = io::for_shell(options.folder.string());
-  std::cout << "next:    penumbra "
+  const std::string masks = result.has_depth ? "" : " --masks 'mask_%d.png'";
+  std::cout << "next:    ";
+  for (const std::string& key : result.needed)
+    std::cout << (&key == &result.needed.front() ? "give " : " and ") << key;
+  if (!result.needed.empty()) std::cout << " in recording.yaml, then ";
+  std::cout << "penumbra "
             << (result.has_pose ? "run " + folder + " -o out --report"
-                                : "calibrate " + folder + " --search -o calibrated")
+                                : "calibrate " + folder + " --search" + masks + " -o calibrated")
             << '\n';
   return 0;
 }

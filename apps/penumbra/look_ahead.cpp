@@ -12,6 +12,7 @@
 #include <apps/penumbra/help.hpp>
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/text.hpp>
+#include <io/files/names.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/inputs/look_ahead_input.hpp>
 #include <io/web/moment_painter.hpp>
@@ -119,7 +120,7 @@ int execute(const LookAheadArguments& arguments) {
   const std::vector<RankedMotion> ranking = rank(forecasts);
   for (std::size_t i = 0; i < motions.size(); ++i)
     add_unknown(motions[i].name, forecasts[i], input.notes);
-  const io::LookAheadResult result{.input = arguments.input.input.path.string(),
+  const io::LookAheadResult result{.input = io::input_name(arguments.input.input.path),
                                    .frame = input.frame,
                                    .cameras = input.cameras,
                                    .now = input.now,

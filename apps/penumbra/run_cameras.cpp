@@ -14,6 +14,7 @@
 #include <apps/penumbra/run_cameras.hpp>
 #include <apps/penumbra/run_summary.hpp>
 #include <io/files/camera_views.hpp>
+#include <io/files/names.hpp>
 #include <io/outputs/output_folder.hpp>
 #include <io/web/report_page.hpp>
 
@@ -145,7 +146,7 @@ int run_cameras(const RunArguments& arguments, const std::vector<NamedCamera>& c
     status = std::max(status, status_of(task.result, arguments.output.force));
     runs.push_back(std::move(*task.views));
   }
-  const io::CameraViews views = io::fuse_views(arguments.session.input.path.string(), runs);
+  const io::CameraViews views = io::fuse_views(io::input_name(arguments.session.input.path), runs);
   print_counts(io::counts_of(views), cameras.size());
   const std::string json = io::views_json(views);
   if (arguments.output.report_page) folder.add_text("report.html", io::report_page(json));

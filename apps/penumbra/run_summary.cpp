@@ -36,8 +36,9 @@ std::span<const io::TargetStatistics> judged_targets(const io::Statistics& stati
 /// Prints a line for each of the first targets.
 void print_targets(const io::Statistics& statistics) {
   const auto targets = judged_targets(statistics);
+  const char* const trust = statistics.shows_robot() ? "" : " (not to be trusted)";
   for (const io::TargetStatistics& target : targets.first(std::min(most_targets, targets.size())))
-    std::cout << "target " << target.name << ": " << target.frames(Verdict::visible)
+    std::cout << "target " << target.name << trust << ": " << target.frames(Verdict::visible)
               << " frames visible, " << target.frames(Verdict::partial) << " partial, "
               << target.frames(Verdict::hidden) << " hidden, " << target.frames(Verdict::unknown)
               << " unknown, " << target.frames(Verdict::out_of_view) << " out of view, "

@@ -49,7 +49,7 @@ void add_options(CLI::App& app, SimulateArguments& simulate) {
   add_frames(app, simulate.frames);
   add_number(app, "--duration", "length of the scene; default: its own", "S", options.duration,
              1e-3, 1e6);
-  add_number(app, "--rate", "frames per second; default 30", "HZ", options.frame_rate);
+  add_number(app, "--rate", "frames per second; default 30", "HZ", options.frame_rate, 1e-3, 1e3);
   app.add_flag_callback(
       "--no-noise", [&] { options.depth = {}; },
       "true depth, rounded to millimetres; default: noise as a RealSense D415's");

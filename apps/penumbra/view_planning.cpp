@@ -15,6 +15,7 @@
 #include <apps/penumbra/options.hpp>
 #include <apps/penumbra/progress.hpp>
 #include <apps/penumbra/text.hpp>
+#include <io/files/names.hpp>
 #include <io/files/result_folder.hpp>
 #include <io/files/view_planning_report.hpp>
 #include <io/inputs/planning_input.hpp>
@@ -124,7 +125,7 @@ int execute(const ViewPlanningArguments& arguments) {
   }();
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const std::vector<CameraSet> best = best_cameras(views, arguments.cameras);
-  const io::ViewPlan plan{.input = arguments.input.input.path.string(),
+  const io::ViewPlan plan{.input = io::input_name(arguments.input.input.path),
                           .seen = input.seen,
                           .candidates = input.candidates,
                           .motion = input.motion,

@@ -32,9 +32,10 @@ StoredCloud parse_npy(Bytes bytes) {
     throw InputError(fault);
   if (header.shape.size() != 2 || header.shape[1] < 3 || header.shape[1] > most_point_bytes ||
       (header.type != "<f4" && header.type != "<f8"))
-    throw InputError("an array of " + in_quotes(header.type) + " with " +
-                     std::to_string(header.shape.size()) +
-                     " dimensions is no cloud; use N x C float32 or float64, C >= 3");
+    throw InputError(
+        "an array of " + in_quotes(header.type) + " with " + std::to_string(header.shape.size()) +
+        " dimensions is no cloud; use N x C float32 or float64, C >= 3" +
+        (header.shape.size() == 2 && header.shape[0] == 3 ? "; is it transposed?" : ""));
   PointCloud2Message cloud;
   const std::uint8_t type =
       header.type == "<f4" ? PointFieldMessage::float32 : PointFieldMessage::float32 + 1;

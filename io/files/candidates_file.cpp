@@ -70,7 +70,7 @@ ForecastCamera candidate_of(const Cells& row, const Robot& robot, ForecastCamera
 std::vector<ForecastCamera> read_candidates(const std::filesystem::path& file, const Robot& robot,
                                             const ForecastCamera& camera) {
   const std::string text = read_csv(file);
-  CsvLines lines(text);
+  CsvLines lines(text, file);
   if (!lines.next()) refuse_header(file.string() + ": is empty");
   std::vector<ForecastCamera> candidates;
   std::map<std::string, std::size_t, std::less<>> line_of;  // by name

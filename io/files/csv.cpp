@@ -22,7 +22,8 @@ std::string read_csv(const std::filesystem::path& file) {
   return text;
 }
 
-CsvLines::CsvLines(std::string_view text) : rest_(text) {
+CsvLines::CsvLines(std::string_view text, const std::filesystem::path& file)
+    : file_(file), rest_(text) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
 }
@@ -36,33 +37,56 @@ bool CsvLines::next() {
     if (text.empty()) continue;
     cells_.clear();
     for (;;) {
-      const std::size_t comma = text.find(',');
-      cells_.push_back(trimmed(text.substr(0, comma)));
+      const std::size_t comma = text.find(',', quoted_end(text));
+      cells_.push_back(unquoted(trimmed(text.substr(0, comma))));
       if (comma == std::string_view::npos) return true;
-      text.remove_prefix(comma + 1);
+      text = trimmed(text.substr(comma + 1));
     }
   }
   return false;
 }
 
-FrameTable::FrameTable(const std::filesystem::path& file) : file_(file), text_(read_csv(file)) {
-  CsvLines lines(text_);
-  if (!lines.next()) throw InputError(file.string() + ": is empty; expected a header frame,...");
-  header_ = lines.cells();
-  header_line_ = lines.line();
+/// Returns the length of a cell's quoted text at the begin; 0: there is none.
+std::size_t CsvLines::quoted_end(std::string_view text) const {
+  if (!text.starts_with('"')) return 0;
+  for (std::size_t at = text.find('"', 1); at != std::string_view::npos; at = text.find('"', at)) {
+    if (!text.substr(++at).starts_with('"')) return at;
+    ++at;
+  }
+  throw InputError(file_.string() + ":" + std::to_string(line_) +
+                   ": a quote is not closed on its line; a cell may hold no line break");
+}
+
+std::string_view CsvLines::unquoted(std::string_view cell) {
+  // Text after the quotes is none of RFC 4180: the cell stays as it is.
+  if (!cell.starts_with('"') || quoted_end(cell) != cell.size()) return cell;
+  cell = cell.substr(1, cell.size() - 2);
+  if (cell.find('"') == std::string_view::npos) return trimmed(cell);
+  std::string& copy = copies_.emplace_back(cell);
+  for (std::size_t at = copy.find('"'); at != std::string::npos; at = copy.find('"', at + 1))
+    copy.erase(at, 1);
+  return trimmed(copy);
+}
+
+FrameTable::FrameTable(const std::filesystem::path& file)
+    : file_(file), text_(read_csv(file)), lines_(text_, file) {
+  if (!lines_.next()) throw InputError(file.string() + ": is empty; expected a header frame,...");
+  header_ = lines_.cells();
+  header_line_ = lines_.line();
   if (header_[0] != "frame")
     throw InputError(header_place() + "the first column is '" + printable(header_[0]) +
-                     "'; the header must be frame,... with commas between");
+                     "'; the header must be frame,... with commas between" +
+                     (header_[0].empty() ? " (pandas: to_csv(index=False))" : ""));
   for (auto at = header_.begin(); at != header_.end(); ++at)
     if (std::find(header_.begin(), at, *at) != at)
       throw InputError(header_place() + "column '" + printable(*at) + "' is there twice; keep one");
-  while (lines.next()) {
-    const auto frame = parse_number<std::int64_t>(lines.cells()[0]);
+  while (lines_.next()) {
+    const auto frame = parse_number<std::int64_t>(lines_.cells()[0]);
     // Ranges end at the next number, which must be valid too.
     if (!frame || *frame < 0 || *frame == std::numeric_limits<std::int64_t>::max())
-      throw InputError(place(lines.line()) + "'" + printable(lines.cells()[0]) +
+      throw InputError(place(lines_.line()) + "'" + printable(lines_.cells()[0]) +
                        "' is no frame number; expected a whole number from 0");
-    rows_.push_back({lines.line(), *frame, lines.cells()});
+    rows_.push_back({lines_.line(), *frame, lines_.cells()});
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,21 +16,31 @@ namespace penumbra::io {
 /// UTF-16.
 [[nodiscard]] std::string read_csv(const std::filesystem::path& file);
 
-/// Walks over the lines of a text of comma-separated cells that are not empty. Quotes have no
-/// meaning; spaces around cells, a byte order mark and carriage returns are dropped.
+/// Walks over the lines of a text of comma-separated cells that are not empty. Cells may be in
+/// double quotes (RFC 4180), but not hold line breaks; spaces around cells, a byte order mark and
+/// carriage returns are dropped.
 class CsvLines {
  public:
-  /// Keeps a view of `text`.
-  explicit CsvLines(std::string_view text);
+  /// Keeps a view of `text`. `file`: for messages.
+  CsvLines(std::string_view text, const std::filesystem::path& file);
+  CsvLines(const CsvLines&) = delete;
+  CsvLines& operator=(const CsvLines&) = delete;
 
-  /// Goes to the next line that is not empty; false at the end.
+  /// Goes to the next line that is not empty; false at the end. Throws InputError for a quote that
+  /// is not closed on its line.
   bool next();
 
   [[nodiscard]] std::size_t line() const { return line_; }  ///< from 1
+  /// The cells of this line; their texts live as long as `text` and this object.
   [[nodiscard]] const std::vector<std::string_view>& cells() const { return cells_; }
 
  private:
+  std::size_t quoted_end(std::string_view text) const;
+  std::string_view unquoted(std::string_view cell);
+
+  std::filesystem::path file_;
   std::string_view rest_;
+  std::deque<std::string> copies_;  // of cells with doubled quotes
   std::size_t line_ = 0;
   std::vector<std::string_view> cells_;
 };
@@ -71,6 +82,7 @@ class FrameTable {
  private:
   std::filesystem::path file_;
   std::string text_;
+  CsvLines lines_;
   std::size_t header_line_ = 0;
   std::vector<std::string_view> header_;
   std::vector<Row> rows_;

@@ -213,7 +213,7 @@ void for_each_line(const std::filesystem::path& file, const Take& take) {
   std::string text = read_csv(file);
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == ' ' || c == '\t'; }, ',');
-  CsvLines lines(text);
+  CsvLines lines(text, file);
   while (lines.next()) {
     std::vector<double> numbers;
     for (const std::string_view cell : lines.cells()) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -59,6 +60,14 @@ std::string near_names(std::string_view name, std::span<const std::string_view> 
   names.reserve(near.size());
   for (const auto& [d, other] : near) names.push_back(other);
   return names.empty() ? "" : "; did you mean " + joined(names) + "?";
+}
+
+std::string input_name(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const std::filesystem::path name = path.filename();
+  if (name.empty() || name == "." || name == "..")
+    if (auto found = std::filesystem::canonical(path, ignored); !found.empty()) return found;
+  return path.string();
 }
 
 void check_name(std::string_view name) {

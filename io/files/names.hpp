@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ void check_name(std::string_view name);
 
 /// The same for a camera, whose results are a folder of this name.
 void check_camera_name(std::string_view name);
+
+/// Returns the name of an input for reports: its path, of folders such as . the absolute one.
+[[nodiscard]] std::string input_name(const std::filesystem::path& path);
 
 /// Returns a text as one word for a shell, without control characters.
 [[nodiscard]] std::string for_shell(const std::string& text);

@@ -53,7 +53,7 @@ PoseNumbers read_rows(std::string text, const std::filesystem::path& file) {
       text.begin(), text.end(), [&](char c) { return marks.find(c) != marks.npos; }, ',');
   PoseNumbers numbers;
   std::size_t width = 0;  // of the first row
-  CsvLines lines(text);
+  CsvLines lines(text, file);
   while (lines.next()) {
     const std::string place = file.string() + ":" + std::to_string(lines.line()) + ": ";
     const std::size_t before = numbers.values.size();
@@ -138,7 +138,7 @@ PoseNumbers read_numbers(const std::filesystem::path& file) {
     fail(file, "is too large for a pose; " + std::string(expected_forms));
   const std::string text = read_csv(file);
   if (text.starts_with("\x93NUMPY")) return read_array(text, file);
-  CsvLines lines(text);
+  CsvLines lines(text, file);
   while (lines.next()) {
     const char first = lines.cells().front().empty() ? ',' : lines.cells().front().front();
     if (first == '#') continue;

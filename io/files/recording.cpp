@@ -24,6 +24,8 @@ constexpr std::size_t most_robots = 100, most_extra = 1000;
 std::filesystem::path file_of(const YamlNode& node, const std::filesystem::path& folder) {
   std::filesystem::path file = folder / node.text();
   std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    node.fail(file.string() + " is a folder; name a file inside it");
   if (!std::filesystem::is_regular_file(file, error)) node.fail("no file " + file.string());
   return file;
 }

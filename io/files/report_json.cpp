@@ -222,6 +222,7 @@ Json summary_json(const Statistics& statistics, std::span<const std::string> mis
   const auto [counts, numbers] = counts_of(statistics.pixels(), statistics.parts());
   Json json{{"frames", statistics.frames()},
             {"bad_frames", statistics.bad_frames()},
+            {"shows_robot", statistics.usable_frames() > 0 && statistics.shows_robot()},
             {"timing_ms", std::move(timing)},
             {counts, numbers},
             {"faults", faults_json(statistics)},

@@ -96,7 +96,9 @@ bool Statistics::shows_robot() const {
   constexpr std::size_t least_robot = 10;  // pixels per frame; less is a robot far away
   const std::size_t robot = pixels_.robot.value_or(0);
   const std::size_t measured = pixels_.front + pixels_.occluded + pixels_.beyond;
-  return robot >= least_robot * usable_frames_ &&
+  const bool is_in_view =
+      parts_ > 0 ? pixels_.occluded + pixels_.beyond > 0 : robot >= least_robot * usable_frames_;
+  return is_in_view &&
          static_cast<double>(pixels_.beyond) <= most_beyond * static_cast<double>(measured);
 }
 

@@ -105,8 +105,9 @@ class Statistics {
   /// Returns what is wrong with the setup.
   [[nodiscard]] const Diagnosis& diagnosis() const { return diagnosis_; }
 
-  /// Returns whether the robot is in some usable frame, and not measured as free space in most of
-  /// its pixels; if not, nothing that was judged can be trusted.
+  /// Returns whether the robot is in some usable frame (of scans: some point lies on it), and not
+  /// measured as free space in most of its pixels or points; if not, nothing that was judged can be
+  /// trusted.
   [[nodiscard]] bool shows_robot() const;
 
   /// Returns milliseconds of one of `stages`; nothing if it never ran.

@@ -92,8 +92,8 @@ std::optional<double> lateness(const TargetReport& target, const FrameReport& re
   return seconds_from(*target.stamp, *report.stamp);
 }
 
-/// The caption of a target: "crate hidden 97%, 0.20 s ago, predicted"; "crate unknown, at least
-/// 57%".
+/// The caption of a target: "crate hidden 97%, 0.20 s ago, predicted"; "crate visible, 0% hidden";
+/// "crate unknown, at least 57% hidden".
 std::string caption(const TargetReport& target, const std::optional<double>& late) {
   std::string text(target.name);
   text += " " + std::string(to_string(target.verdict));
@@ -102,8 +102,11 @@ std::string caption(const TargetReport& target, const std::optional<double>& lat
         target.judgement->occluded + target.judgement->hidden_by_other.value_or(0);
     const long percent = std::lround(100.0 * hidden);
     const bool is_known = target.verdict != Verdict::unknown;
-    if (is_known || percent > 0)
-      text += (is_known ? " " : ", at least ") + std::to_string(percent) + "%";
+    const std::string share = std::to_string(percent) + "%";
+    if (target.verdict == Verdict::hidden)
+      text += " " + share;
+    else if (is_known || percent > 0)
+      text += (is_known ? ", " : ", at least ") + share + " hidden";
   }
   if (late) {
     std::array<char, 32> ago{};

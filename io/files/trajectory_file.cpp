@@ -14,7 +14,7 @@ namespace {
 
 FileTrajectory read_table(const std::string& text, const std::filesystem::path& file) {
   FileTrajectory trajectory{.name = file.string()};
-  CsvLines lines(text);
+  CsvLines lines(text, file);
   const auto fault = [&](const std::string& what) {
     throw InputError(file.string() + ":" + std::to_string(lines.line()) + ": " + what);
   };

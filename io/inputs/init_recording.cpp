@@ -234,7 +234,10 @@ class Draft {
   }
   /// Writes the only file, or the first of several.
   void one_of(const std::string& key, const std::vector<fs::path>& files, const std::string& none) {
-    if (files.empty()) return lack(key, none);
+    if (files.empty()) {
+      needed.push_back(key);
+      return lack(key, none);
+    }
     value(key, files.front().string());
     for (std::size_t i = 1; i < files.size(); ++i)
       lacking.push_back(key + ": " + files.front().string() + " was taken; " + files[i].string() +
@@ -248,7 +251,7 @@ class Draft {
   }
   [[nodiscard]] std::string text() const { return text_.str(); }
 
-  std::vector<std::string> lacking;
+  std::vector<std::string> lacking, needed;
 
  private:
   std::ostringstream text_;
@@ -439,6 +442,8 @@ InitResult init_recording(const InitOptions& options) {
   write_file(pending.part(), text.data(), text.size());
   pending.finish();
   result.lacking = std::move(draft.lacking);
+  result.needed = std::move(draft.needed);
+  result.has_depth = depth != nullptr;
   return result;
 }
 

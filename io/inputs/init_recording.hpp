@@ -21,7 +21,9 @@ struct InitOptions {
 struct InitResult {
   std::filesystem::path file;
   std::vector<std::string> lacking = {};  ///< a line for each thing that is missing or was guessed
-  bool has_pose = false;                  ///< else calibrate --search is next
+  std::vector<std::string> needed = {};   ///< keys that a run cannot do without
+  bool has_depth = false;
+  bool has_pose = false;  ///< else calibrate --search is next
 };
 
 /// Looks at a folder of images, videos, joint files, URDF and camera files, and three levels of

@@ -2,6 +2,7 @@
 #include <iterator>
 #include <utility>
 
+#include <io/files/names.hpp>
 #include <io/inputs/input_session.hpp>
 
 namespace penumbra::io {
@@ -69,9 +70,12 @@ ReportHead InputSession::head() const {
                           .bag = input_.bag,
                           .clouds = input_.used_clouds};
     settings.clouds->rule = input_.cloud.rule;
-    return {options_.input.path.string(), {},
-            std::move(settings),          pipeline().robot().links(),
-            pipeline().missing_links(),   pipeline().robot().notes()};
+    return {input_name(options_.input.path),
+            {},
+            std::move(settings),
+            pipeline().robot().links(),
+            pipeline().missing_links(),
+            pipeline().robot().notes()};
   }
   UsedSettings settings{.rule = pipeline().rule(),
                         .paper_labels = options_.rule.paper_labels,
@@ -81,8 +85,8 @@ ReportHead InputSession::head() const {
                         .targets = targets_ ? targets_->file().string() : std::string(),
                         .target_history = targets_ ? targets_->history() : input_.target_history,
                         .bag = input_.bag};
-  return {options_.input.path.string(), pipeline().renderer(),      std::move(settings),
-          pipeline().robot().links(),   pipeline().missing_links(), pipeline().robot().notes()};
+  return {input_name(options_.input.path), pipeline().renderer(),      std::move(settings),
+          pipeline().robot().links(),      pipeline().missing_links(), pipeline().robot().notes()};
 }
 
 RunResult InputSession::run(const Sinks& sinks, const std::function<bool()>& go_on) {

@@ -49,7 +49,11 @@ void check_links(const Recording& recording, const Robot& robot,
     throw InputError(recording.file.string() + ": " + key + ": '" + link +
                      "' is no link of the robot" + near_names(link, known));
   };
-  check("camera.parent", recording.camera.camera.parent);
+  try {
+    static_cast<void>(find_camera_parent(robot, recording.camera.camera.parent));
+  } catch (const InputError& error) {
+    throw InputError(recording.file.string() + ": camera.parent: " + error.what());
+  }
   for (const RecordedBody& each : recording.attached)
     check("attached: " + each.body.name + ": link", each.body.link);
   for (const ExtraMesh& part : extra) check("--extra", part.link);

@@ -212,13 +212,12 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool is_upgraded_ = false;  // the channel owns the stream
 };
 
+constexpr const char* address_help = "127.0.0.1 serves this machine, 0.0.0.0 all that reach it";
+
 asio::ip::address address_of(const std::string& text) {
   beast::error_code error;
   auto address = asio::ip::make_address(text == "localhost" ? "127.0.0.1" : text, error);
-  if (error)
-    throw InputError("--address " + text +
-                     ": is not an IP address; 127.0.0.1 serves this machine, " +
-                     "0.0.0.0 all that reach it");
+  if (error) throw InputError("--address " + text + ": is not an IP address; " + address_help);
   return address;
 }
 
@@ -240,6 +239,9 @@ tcp::acceptor listener_of(asio::io_context& context, const WebOptions& options) 
     place.port(static_cast<std::uint16_t>(place.port() + 1));
     error = listen(acceptor, place);
   }
+  if (error == boost::system::errc::address_not_available)
+    throw InputError("--address " + options.address + ": is no address of this machine; " +
+                     address_help);
   if (error)
     throw InputError("--port " + std::to_string(options.port) + ": " + options.address +
                      " cannot be listened on (" + error.message() +

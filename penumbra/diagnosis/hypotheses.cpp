@@ -45,17 +45,18 @@ class Mistakes {
   void depth_units() {
     struct Unit {
       double factor;
-      const char *is, *metres;
+      const char *by, *error;
     };
     static constexpr std::array units{
-        Unit{1e-3, "depth is in millimetres where metres are expected", "0.001"},
-        Unit{1e3, "depth is in metres where millimetres are expected", "1"},
-        Unit{0.1, "depth is in units of 0.1 mm", "0.0001"},
-        Unit{0.2, "depth is in units of 0.2 mm", "0.0002"},
-        Unit{0.25, "depth is in units of 0.25 mm", "0.00025"},
-        Unit{10.0, "depth is in centimetres", "0.01"}};
+        Unit{1e-3, "0.001", "1000 times too large, as millimetres taken for metres are"},
+        Unit{1e3, "1000", "1000 times too small, as metres taken for millimetres are"},
+        Unit{0.1, "0.1", "10 times too large"},
+        Unit{0.2, "0.2", "5 times too large"},
+        Unit{0.25, "0.25", "4 times too large"},
+        Unit{10.0, "10", "10 times too small"}};
     for (const Unit& unit : units)
-      add(Cause::depth_unit, std::string(unit.is) + ": set depth_scale to " + unit.metres)
+      add(Cause::depth_unit, std::string("depth is ") + unit.error + ": multiply it by " + unit.by +
+                                 ", or depth_scale (default: 0.001 for 16 bits, 1 for floats)")
           .depth_factor = unit.factor;
     add(Cause::depth_ray,
         "depth is the distance along each pixel's ray: give its z-component, or "

@@ -114,7 +114,8 @@ const LabelledFrame& ImageJudge::earlier(std::int64_t stamp, const PoseResult* p
     throw InputError("its stamp is not the frame's, and no frames are stored (target_history)");
   if (late_ && late_->stamp() == stamp) return *late_;
   const auto* const kept = recent_.find(stamp);
-  if (kept == nullptr || poses == nullptr) throw InputError("no frame of its stamp is stored");
+  if (kept == nullptr || poses == nullptr)
+    throw InputError("no frame of its stamp, " + std::to_string(stamp) + " ns, is stored");
   judged_ = nullptr;
   return late_.emplace(late_labeller_->label(std::get<DepthView>(*kept), *poses));
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -167,7 +168,11 @@ void GeometryLoader::add(const ExtraMesh& extra, LinkGeometry& out) {
 void GeometryLoader::note_size(const LinkGeometry& geometry) {
   const LinkReport& link = geometry.report;
   const double size = geometry.without_margin.sizes().maxCoeff();
-  if (!link.drawn || link.missing || size >= smallest_link) return;
+  if (!link.drawn || link.missing) return;
+  if (size > likely_millimetres)
+    size_notes_.push_back("link '" + link.link + "': its geometry is " + printed(std::round(size)) +
+                          " m large: is it in millimetres? give metres, or the mesh a scale");
+  if (size >= smallest_link) return;
   std::array<char, 32> millimetres{};
   std::snprintf(millimetres.data(), millimetres.size(), "%.2g", 1e3 * size);
   size_notes_.push_back("link '" + link.link + "': its geometry is only " + millimetres.data() +

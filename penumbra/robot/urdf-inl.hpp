@@ -60,6 +60,10 @@ inline constexpr double largest_size = 1000.0;  // metres
 inline constexpr double largest_radius = 50.0;  // metres
 inline constexpr double farthest_origin = 1e6;  // metres
 
+/// Metres: robots whose parts are larger or farther apart are rare, and those in millimetres have
+/// larger numbers.
+inline constexpr double likely_millimetres = 20.0;
+
 /// Larger multipliers and offsets are an error of the unit.
 inline constexpr double largest_mimic = 1e9;
 

@@ -64,6 +64,8 @@ class UrdfNode {
   /// Returns another element of the file under the name of this one.
   [[nodiscard]] UrdfNode with(const XmlElement& xml) const { return {xml, *warnings_, where_}; }
 
+  /// Warns of the first element of a kind of mistake.
+  void warn(const std::string& kind, const std::string& what) const;
   [[noreturn]] void fail(const std::string& what) const;
 
  private:

@@ -75,8 +75,11 @@ void UrdfNode::expect(const ElementRule& rule) const {
     const UrdfNode child(c, *warnings_, where_);
     child.check_name("element " + in_quotes(c.name), c.name, rule.children, rule.ignored_children);
   }
-  if (!xml_->text.empty())
-    warnings_->try_emplace("text", place() + ": text " + in_quotes(xml_->text) + " is ignored");
+  if (!xml_->text.empty()) warn("text", "text " + in_quotes(xml_->text) + " is ignored");
+}
+
+void UrdfNode::warn(const std::string& kind, const std::string& what) const {
+  warnings_->try_emplace(kind, place() + ": " + what);
 }
 
 void UrdfNode::check_name(const std::string& what, std::string_view name, std::string_view read,
@@ -89,7 +92,7 @@ void UrdfNode::check_name(const std::string& what, std::string_view name, std::s
   if (is_extension(name) || contains(read, name) || contains(ignored, name)) return;
   if (const auto known = similar_name(read, name))
     fail("unknown " + what + "; is " + in_quotes(std::string(*known)) + " meant?");
-  warnings_->try_emplace(what, place() + ": unknown " + what + " is ignored");
+  warn(what, "unknown " + what + " is ignored");
 }
 
 std::vector<UrdfNode> UrdfNode::children() const {

@@ -21,6 +21,10 @@ Eigen::Quaterniond read_rotation(const UrdfNode& node) {
     return Eigen::Quaterniond(xyzw.normalized());
   }
   const Eigen::Vector3d rpy = node.has("rpy") ? node.vector("rpy") : Eigen::Vector3d::Zero();
+  constexpr double turn = 6.3;  // rad, a whole one as people round it
+  if (rpy.cwiseAbs().maxCoeff() > turn)
+    node.warn("rpy", "rpy=" + in_quotes(node.text("rpy")) +
+                         " is more than a turn: is it in degrees? give radians");
   return Eigen::AngleAxisd(rpy.z(), Eigen::Vector3d::UnitZ()) *
          Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) *
          Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX());
@@ -34,6 +38,10 @@ Eigen::Isometry3d read_origin(const UrdfNode& parent) {
   const Eigen::Vector3d xyz = node->has("xyz") ? node->vector("xyz") : Eigen::Vector3d::Zero();
   if (xyz.cwiseAbs().maxCoeff() > farthest_origin)
     node->fail("xyz=" + in_quotes(node->text("xyz")) + " lies beyond 1e6 m; metres are expected");
+  if (xyz.cwiseAbs().maxCoeff() > likely_millimetres)
+    node->warn("xyz", "xyz=" + in_quotes(node->text("xyz")) + " lies " +
+                          printed(std::round(xyz.norm())) +
+                          " m away: is it in millimetres? give metres");
   pose.linear() = read_rotation(*node).toRotationMatrix();
   pose.translation() = xyz;
   return pose;

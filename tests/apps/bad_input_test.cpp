@@ -60,7 +60,9 @@ TEST(BadInput, Recordings) {
   const std::string pose = "1,0,0,0\n0,1,0,0\n0,0,1,0\n0,0,0,1\n";
   expect_inputs_refused({
       {edit("recording.yaml", "  parent:", "  perent:"), {"recording.yaml:", "perent"}},
-      {edit("recording.yaml", "parent: base", "parent: bass"), {"recording.yaml", "bass"}},
+      {edit("recording.yaml", "parent: base", "parent: bass"),
+       {"recording.yaml", "camera.parent", "bass", "base, board"}},
+      {edit("recording.yaml", "joints: joint_states.csv", "joints: ."), {"is a folder"}},
       {edit("recording.yaml", "  urdf: tiny.urdf", "  urdf: tiny.urdf\n  ignore_links: ['*']"),
        {"no link is rendered"}},
       {take_away("camera_info.yaml"), {"camera_info.yaml"}},
@@ -138,6 +140,7 @@ TEST(BadInput, CommandLines) {
        {{"render"}, "--robot"},
        {{"inspect"}, "URDF"},
        {{"doctor", "--fast"}, "--fast"},
+       {{"simulate", "belt", "-o", "out", "--rate", "0"}, "--rate"},
        {{"run", "x.mcap", "-o", "out", "--package", "name=nowhere"}, "a folder that exists"},
        {{"run", "x.mcap", "-o", "out", "--package", "n=/", "--package", "n=/tmp"}, "n=/tmp"},
        {{"run", "recording", "-o", ""}, "-o,--output"},

@@ -203,6 +203,7 @@ TEST_F(CalibrateOfAnUnknownCamera, IsSearchedFor) {
   for (const Outcome& outcome : {run("no"), calibrate()})
     expect_failed(outcome, {"calibrate --search"});
   succeed(calibrate({"--search"}));
+  expect_has(calibration()["notes"].dump(), {"the arm moves in most frames"});
   constexpr double near = 0.003;  // metres; docs/calibration.md: the robot moves in most frames
   EXPECT_LT(metres_between(found(), truth_), near);
 }
@@ -235,7 +236,8 @@ TEST_F(DiagnosisTest, TuneRefusesAWrongPose) {
 TEST_F(DiagnosisTest, DepthScaleMendsDepthOfAnotherUnit) {
   expect_cause(0, nullptr);
   edit("  pose:", "  depth_scale: 0.01\n  pose:");
-  expect_cause(2, "depth_unit");
+  const std::string note = expect_cause(2, "depth_unit").err;
+  expect_has(note, {"depth_scale", "multiply it by 0.1"});
   expect_failed(penumbra({"calibrate", path("recording")}), {"depth_scale"});
   edit("0.01\n", "0.001\n");
   expect_cause(0, nullptr);

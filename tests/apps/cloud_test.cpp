@@ -184,13 +184,23 @@ TEST_F(CloudFolder, LosesTheRobot) {
 }
 
 TEST_F(CloudFolder, NamesBodiesAndTargetsInMillimetres) {
-  write("knob.yaml", "targets: [{name: knob, point: [300, 0, 1500]}]\n");
+  write("knob.yaml",
+        "targets: [{name: knob, point: [300, 0, 1500]}, {name: lid, point: [300, 0, 1500]}]\n");
   succeed(cloud());
-  expect_has(notes(), {"'knob': it is 1530 m away"});
+  expect_has(notes(), {"'knob': it is 1530 m away", "'lid': it is 1530 m away"});
   edit("clouds.yaml",
        "frames:", "attached: [{name: part, link: board, box: [90, 50, 9]}]\nframes:");
   cloud();
   expect_has(notes(), {"'part' reaches 51.7 m"});
+}
+
+TEST_F(CloudFolder, TheRobotMustBeInSomeCloud) {
+  succeed(cloud());
+  EXPECT_EQ(report()["summary"]["shows_robot"], true);
+  write("camera_pose.csv", "1,0,0,0\n0,1,0,0\n0,0,1,-2000\n0,0,0,1\n");  // millimetres
+  expect_failed(cloud(), {"no point is on the robot"});
+  EXPECT_EQ(report()["summary"]["shows_robot"], false);
+  succeed(cloud({"--force"}));
 }
 
 TEST_F(CloudFolder, HandlingNeedsStampsAndWarningsAreThoseOfImages) {

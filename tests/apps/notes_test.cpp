@@ -46,11 +46,14 @@ TEST_F(NotesTest, ARobotThatIsNeverInViewAndACameraPoseThatDoesNotFitTheDepth) {
   expect_note_of_both("");
   put_camera_at("2");  // the inverse: the robot is behind the camera
   expect_note_of_run("the robot is in no frame", 2);
+  EXPECT_EQ(report()["summary"]["shows_robot"], false);
+  expect_has(run().out, {"(not to be trusted)"});
   expect_note_of_render({}, "the robot is not in the image");
   put_camera_at("-2000");  // millimetres
   expect_note_of_run("the robot is in no frame", 2);
   put_camera_at("-2");
   expect_note_of_run("camera's pose");
+  EXPECT_EQ(report()["summary"]["shows_robot"], true);
   expect_note_of_render({}, "");
 }
 
@@ -67,6 +70,12 @@ TEST_F(NotesTest, LinksThatAreTiny) {
   const std::string words = "link 'speck': its geometry is only 0.4 mm large; check the unit";
   expect_note_of_both(words);
   expect_has(inspect().out, {"note: " + words});
+}
+
+TEST_F(NotesTest, OriginsInMillimetresAndDegrees) {
+  add_to_robot(fixed_link("speck", "board", R"(<visual><origin xyz="0 0 380"/><geometry>
+      <box size="0.1 0.1 0.1"/></geometry></visual>)"));
+  expect_note_of_run("380 m away: is it in millimetres?");
 }
 
 TEST_F(NotesTest, PartsBeforeTheNearPlane) {

@@ -184,9 +184,11 @@ TEST_F(Init, LeavesNoHalfRecordingAndReplacesNone) {
     EXPECT_NE(penumbra_within(too_few, what, line), 0);
     EXPECT_FALSE(fs::exists(file));
   }
-  succeed(penumbra(line));
+  expect_has(succeed(penumbra(line)).out, {"next:    penumbra run"});
   expect_refused(penumbra(line), {"recording.yaml", "--force"});
-  succeed(penumbra(line + Words{"--force"}));
+  fs::remove(path("joint_states.csv"));
+  expect_has(succeed(penumbra(line + Words{"--force"})).out,
+             {"next:    give joints in recording.yaml, then penumbra run"});
 }
 
 const std::vector<Command> folders = {

@@ -113,6 +113,8 @@ TEST_F(RunTest, WritesTheReportOfAGoodRecording) {
     EXPECT_GT(frame["timing_ms"]["render"], 0.0);
   }
   EXPECT_FALSE(fs::exists(out("labels")));
+  succeed(penumbra({"run", path("."), "-o", out()}));
+  EXPECT_EQ(report()["input"], fs::canonical(path()).string()) << "a name for the page's title";
 }
 
 TEST_F(RunTest, SavesWhatIsAskedFor) {

@@ -57,7 +57,7 @@ struct Table {
 
   explicit Table(const fs::path& file) {
     const std::string text = io::read_csv(file);
-    io::CsvLines lines(text);
+    io::CsvLines lines(text, {});
     while (lines.next()) {
       Words& row = header.empty() ? header : rows.emplace_back();
       row.assign(lines.cells().begin(), lines.cells().end());

@@ -127,6 +127,7 @@ TEST(CloudBadFile, NumpyIsChecked) {
                        {good + "x", "follow"},
                        {shape("(3,)"), "1 dimensions"},
                        {shape("(1, 2)"), "C >= 3"},
+                       {shape("(3, 100000)"), "transposed?"},
                        {shape("(10000000, 3)"), "120000000"},
                        {shape("(16000001, 3)"), "16000000"},
                        {shape("(-1, 3)"), "plain array"},

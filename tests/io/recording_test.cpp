@@ -2,6 +2,7 @@
 #include "files.hpp"
 #include "robots.hpp"
 
+#include <io/files/csv.hpp>
 #include <io/files/frame_reader.hpp>
 #include <io/files/joint_file.hpp>
 #include <io/files/recording.hpp>
@@ -208,12 +209,28 @@ TEST_F(JointFile, ReadsColumnsInAnyOrderAndFramesInTheFilesOrder) {
   EXPECT_EQ(read("frame,shoulder,elbow\n0,1,2\n")[0].stamp, std::nullopt);
 }
 
+TEST_F(JointFile, ReadsQuotedCells) {
+  const auto rows =
+      read("\"frame\",\"stamp\", \"elbow\" ,\"shoulder\"\n\"7\",\"5\",\"0.25\",\"1.5\"\r\n");
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].index, 7);
+  EXPECT_EQ(rows[0].stamp, 5);
+  EXPECT_EQ(rows[0].positions[variable("elbow")], 0.25);
+  const FrameTable table(
+      folder_.write("t.csv", "frame,a,b\n0,\"x, \"\"y\"\"\",\"\"\n1,\"p\"q,\"r\"\n"));
+  using Cells = std::vector<std::string_view>;
+  EXPECT_EQ(table.rows()[0].cells, (Cells{"0", "x, \"y\"", ""}));
+  EXPECT_EQ(table.rows()[1].cells, (Cells{"1", "\"p\"q", "r"})) << "no quoted cell";
+}
+
 TEST_F(JointFile, RefusesFilesItCannotBeSureOf) {
   const std::string header = "frame,shoulder,elbow\n";
   test::expect_refused({{"", "joints.csv: "},
                         {header, "no frames"},
                         {"shoulder,elbow\n1,2\n", ":1: "},
                         {"frame;shoulder;elbow\n0;1;2\n", "commas"},
+                        {",frame,shoulder,elbow\n0,0,1,2\n", "index=False"},
+                        {header + "0,1,2\n1,\"1\n\",2\n", ":3: a quote is not closed"},
                         {"frame,shoulder\n0,1\n", "'elbow'"},
                         {"frame,shoulder,elbw,elbow\n0,1,2,3\n", "'elbw'"},
                         {"frame,shoulder,elbow,flange\n0,1,2,3\n", "'flange'"},

@@ -209,6 +209,23 @@ TEST(UrdfFile, UnknownElementsAreWarnings) {
                   ":4: joint \"j\": unknown element \"controller_gains\"", "\"frame\""}));
 }
 
+TEST(UrdfFile, MillimetresAndDegreesAreNoted) {
+  const auto notes_of = [](const std::string& origin) {
+    std::string all;
+    const Robot robot = parse(two_links(joint_xml("j", "fixed", "a", "b", "\n" + origin)));
+    for (const std::string& note : robot.notes()) all += note + '\n';
+    return all;
+  };
+  EXPECT_EQ(notes_of("<origin xyz=\"0 3 5\" rpy=\"-6.2832 0 3.14\"/>"), "");
+  EXPECT_TRUE(holds(notes_of("<origin xyz=\"0 0 380\"/>"),
+                    {":5: joint \"j\", origin: ", "380 m away", "millimetres?"}));
+  EXPECT_TRUE(holds(notes_of("<origin rpy=\"0 0 -90\"/>"),
+                    {":5: joint \"j\", origin: ", "rpy=\"0 0 -90\"", "degrees?"}));
+  const Robot large = parse(shaped("<box size=\"150 0.5 0.5\"/>"));
+  ASSERT_EQ(large.notes().size(), 1U);
+  EXPECT_TRUE(holds(large.notes()[0], {"link 'a'", "150 m large", "millimetres?"}));
+}
+
 /// A box of size 0 that is never drawn.
 TEST(UrdfFile, GeometryThatIsNotDrawnIsNotChecked) {
   const std::string xml = robot_xml(

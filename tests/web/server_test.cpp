@@ -173,6 +173,9 @@ TEST(ServerAddress, WhatCannotBeListenedOnIsTheUsersFault) {
       {.port = first.port(), .last_port = static_cast<std::uint16_t>(first.port() + 50)}, echo);
   EXPECT_GT(next.port(), first.port());
   EXPECT_THROW(io::WebServer({.address = "nowhere"}, echo), InputError);
+  // Of RFC 5737, for documentation: no machine has it.
+  expect_refused([&] { io::WebServer({.address = "192.0.2.1"}, echo); },
+                 {"--address 192.0.2.1", "127.0.0.1"});
 }
 
 TEST(ServerToken, IsWantedWhereMoreThanTheLoopbackIsServed) {
