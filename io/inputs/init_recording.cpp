@@ -385,7 +385,7 @@ std::vector<fs::path> target_files(const InitOptions& options, const std::vector
     if (!is_detections_name(file)) continue;
     try {
       if (!read_detections((options.folder / file).string(), {},
-                           Intrinsics(size.width, size.height, 1.0, 1.0, 0.0, 0.0), {}, 0)
+                           Intrinsics(size.width, size.height, size.width, size.width, 0, 0), {}, 0)
                .empty())
         found.push_back(file);
     } catch (const InputError&) {  // another table or text

@@ -6,8 +6,6 @@
 #include <thread>
 #include <vector>
 
-#include <sys/types.h>
-
 namespace penumbra {
 
 /// A fixed team that runs one job at a time, the caller included. A team of one has no threads.
@@ -33,7 +31,7 @@ class Workers {
   std::atomic<int> busy_{0};
   std::atomic<bool> stop_{false};
   std::vector<std::thread> threads_;
-  pid_t owner_;
+  int owner_;  // process
 };
 
 }  // namespace penumbra

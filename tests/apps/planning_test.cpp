@@ -77,7 +77,7 @@ TEST_F(ViewPlanningTest, RefusesWithOneLine) {
       {one + ",1,0,0,0,0,0,1\n", {"poses.csv:3", "name"}},
       {one + "b,nan,0,0,0,0,0,1\n", {"poses.csv:3", "x is 'nan'"}},
       {one + "b,1,0,0,0,0,0,2\n", {"poses.csv:3", "quaternion"}},
-      {one + "b,1e7,0,0,0,0,0,1\n", {"poses.csv:3", "1000 km"}},
+      {one + "b,1e7,0,0,0,0,0,1\n", {"poses.csv:3", "millimetres"}},
       {one + "b,1,0\n", {"poses.csv:3", "3 cells"}},
       {"name,x,y,z\na,0,0,0\n", {"poses.csv:1", "'name,x,y,z'", "qx,qy,qz,qw"}},
       {"name,x,y,z,qx,qy,qz,qw,link\na,0,0,0,0,0,0,1,bord\n", {"poses.csv:2", "'bord'", "board"}}};

@@ -356,7 +356,7 @@ TEST(Scans, JudgesPointsAndNoPixels) {
   frame.targets = {
       {.name = "behind", .shape = PointTarget{.position = {0.5, 2.95, 0.0}, .radius = 0.05}},
       {.name = "on the box", .shape = PointTarget{.position = {0.5, 2.95, 0.15}, .radius = 0.05}},
-      {.name = "pixels", .shape = KeypointTarget{}}};
+      {.name = "pixels", .shape = KeypointTarget{.pixel = {5.0, 5.0}}}};
   const FrameReport& report = pipeline.process(frame);
   EXPECT_EQ(report.targets[0].verdict, Verdict::hidden);
   EXPECT_EQ(report.targets[1].verdict, Verdict::visible);

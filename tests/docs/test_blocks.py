@@ -141,7 +141,7 @@ def test_yaml_is_read(block, work, environment):
         file = work / "recording.yaml"
         file.write_text(block.text.replace("urdf: ur5e.urdf", "urdf: ur5e.urdf\n  packages: "
                                            "{ur_description: ur_description}"))
-        subprocess.run(["penumbra", "cloud", file, "-o", "out", "--frames", "0:1"], cwd=work,
+        subprocess.run(["penumbra", "cloud", file, "-o", "out", "--frames", "0:1", "--force"], cwd=work,
                        env=environment, check=True, capture_output=True)
         return
     if "columns" in shown:

@@ -278,7 +278,7 @@ TEST_F(SimulateTest, RefusesBadInput) {
                       {{"conveyor", "--frames", "0:151"}, "0:150"},
                       {{"conveyor", "--duration", "1e99"}, "duration"},
                       {{"conveyor", "--duration", "0"}, "--duration"},
-                      {{"conveyor", "--rate", "0"}, "frame_rate"},
+                      {{"conveyor", "--rate", "0"}, "--rate"},
                       {{"conveyor", "--rate", "0.1"}, "--rate"},
                       {{"random", "--joint-latency", "0.1"}, "joint_latency"},
                       {{"handover", "--belt-jitter", "0.3"}, "belt_jitter"}});
