@@ -54,6 +54,11 @@ TEST(Threads, AnyNumberGivesTheSameBits) {
 }
 
 TEST(Threads, OfAParentAreMissedInAForkedProcess) {
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+  GTEST_SKIP() << "skipped: ThreadSanitizer does not follow a fork";
+#endif
+#endif
   Scene scene = crowded_scene();
   auto renderer = make({Backend::cpu, "", 2}, camera, scene.bodies());
   const pid_t child = fork();
