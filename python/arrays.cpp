@@ -39,6 +39,11 @@ bool is_native(const py::dtype& dtype, int number) {
   return dtype.num() == number && (dtype.byteorder() == '=' || dtype.byteorder() == '|');
 }
 
+bool is_bool(py::handle object) {
+  return py::isinstance<py::array>(object) &&
+         py::reinterpret_borrow<py::array>(object).dtype().num() == py::detail::npy_api::NPY_BOOL_;
+}
+
 py::array read_only(py::array array) {
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;

@@ -26,6 +26,19 @@ namespace py = pybind11;
 /// "numpy.ndarray of float64 with shape (3, 3)", or the name of another type.
 [[nodiscard]] std::string description_of(py::handle object);
 
+/// Returns an object as a `T`. Throws TypeError, which begins with what was expected, for others.
+template <typename T>
+[[nodiscard]] T checked_cast(py::handle object, const std::string& expected) {
+  try {
+    return object.cast<T>();
+  } catch (const py::builtin_exception&) {
+    throw py::type_error(expected + "; got " + description_of(object));
+  }
+}
+
+/// Whether it is an array of bool.
+[[nodiscard]] bool is_bool(py::handle object);
+
 /// Whether it is NumPy's type of that number, in this machine's byte order. Types that were pickled
 /// are other objects.
 [[nodiscard]] bool is_native(const py::dtype& dtype, int number);

@@ -14,13 +14,14 @@ namespace penumbra::python {
 
 namespace {
 
-using MaskArgument = ImageArgument<"masks", std::uint8_t>;
-
 Calibration calibrate_frames(const py::iterable& frames, const Camera& camera, const Robot& robot,
-                             bool search, const std::vector<MaskArgument>& masks, bool images,
+                             bool search, const std::vector<MaskSource>& given_masks, bool images,
                              bool focal, bool joint_offsets, std::vector<Frame> motion,
                              double joint_accuracy, const std::optional<double>& accept,
                              std::uint64_t seed) {
+  std::vector<PixelMask> masks;
+  for (const MaskSource& mask : given_masks)
+    masks.push_back(pixel_mask_of(mask, "masks (bool or uint8)"));
   for (std::size_t i = 0; i < motion.size(); ++i)
     if (!motion[i].stamp)
       throw py::value_error("motion[" + std::to_string(i) + "]: needs a stamp for the time offset");
@@ -34,8 +35,9 @@ Calibration calibrate_frames(const py::iterable& frames, const Camera& camera, c
                      .parent = find_camera_parent(robot, camera.parent)});
   auto next = motion.begin();
   for (const py::handle each : frames) {
-    const auto frame = each.cast<Frame>();
     const std::size_t number = chosen.seen();
+    const auto frame = checked_cast<Frame>(
+        each, "frames[" + std::to_string(number) + "]: expected penumbra.Frame");
     if (!motion.empty() && !frame.stamp)
       throw py::value_error("frames[" + std::to_string(number) +
                             "]: needs a stamp for the time offset");
@@ -50,7 +52,7 @@ Calibration calibrate_frames(const py::iterable& frames, const Camera& camera, c
       kept->color = chosen.image_of(frame.color.view);
     } else if (!is_empty(frame.depth.view))
       kept->depth = chosen.depth_of(frame.depth.view);
-    if (number < masks.size()) kept->mask = chosen.image_of(std::get<0>(masks[number].view));
+    if (number < masks.size()) kept->mask = chosen.image_of(masks[number].mask.view);
     chosen.add(*std::move(kept));
   }
   for (; next != motion.end(); ++next) chosen.follow(*next);
@@ -179,7 +181,7 @@ void bind_calibration(py::module_& m) {
       Field{"poses", &S::poses, "Poses of the robot that were compared; below 3 tell little."});
   bind_repr(diagnosis, {"cause", "message"});
   m.def("calibrate", &calibrate_frames, py::arg("frames"), py::arg("camera"), py::arg("robot"),
-        py::kw_only(), py::arg("search") = false, py::arg("masks") = std::vector<MaskArgument>(),
+        py::kw_only(), py::arg("search") = false, py::arg("masks") = std::vector<MaskSource>(),
         py::arg("images") = false, py::arg("focal") = false, py::arg("joint_offsets") = false,
         py::arg("motion") = std::vector<Frame>(),
         py::arg("joint_accuracy") = CalibrationOptions().joint_accuracy,

@@ -137,9 +137,12 @@ void bind_camera_class(py::module_& m) {
                {"intrinsics", "distortion", "range", "frame_id", "parent", "T_parent_camera"});
 }
 
-using PngSource = Shown<"Annotated[Union[NDArray[uint8], NDArray[uint16]], '(H, W) or (H, W, 3)']">;
+using PngSource = Shown<
+    "Annotated[Union[NDArray[bool_], NDArray[uint8], NDArray[uint16]], '(H, W) or (H, W, 3)']">;
 
-void write_png(const std::filesystem::path& file, const PngSource& image) {
+void write_png(const std::filesystem::path& file, const PngSource& source) {
+  py::object image = source;
+  if (is_bool(image)) image = image.attr("view")("uint8").attr("__mul__")(255);
   if (py::isinstance<py::array>(image) && py::reinterpret_borrow<py::array>(image).ndim() == 3) {
     const SharedColor color = color_of(image, "image");
     const py::gil_scoped_release others;
@@ -166,7 +169,8 @@ void bind_files(py::module_& m) {
         "of "
         "easy_handeye. Raises InputError for anything that is no rigid transform.");
   m.def("write_png", &write_png, py::arg("file"), py::arg("image"),
-        "Writes uint8 or uint16 as grey, uint8 (H, W, 3) as red, green, blue. Raises InputError if "
+        "Writes uint8 or uint16 as grey, bool as black and white, uint8 (H, W, 3) as red, green, "
+        "blue. Raises InputError if "
         "the file cannot be written.");
 }
 

@@ -6,8 +6,10 @@
 #include <array>
 #include <cctype>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -36,6 +38,12 @@ struct Mapping {
   std::map<std::string, V> values;
   operator std::map<std::string, V>() && { return std::move(values); }  // NOLINT
 };
+/// A stamp as an argument, std::int64_t or an optional one. Raises TypeError for seconds.
+template <typename T>
+struct Nanoseconds {
+  T value;
+  operator T() const { return value; }  // NOLINT(google-explicit-constructor)
+};
 /// A list that cannot be changed, as a result.
 template <typename V>
 struct Frozen {
@@ -50,6 +58,10 @@ struct GivenAs {
 template <typename V>
 struct GivenAs<std::map<std::string, V>> {
   using type = Mapping<V>;
+};
+template <>
+struct GivenAs<std::optional<std::int64_t>> {
+  using type = Nanoseconds<std::optional<std::int64_t>>;
 };
 template <typename M>
 using Given = typename GivenAs<M>::type;
@@ -200,6 +212,25 @@ struct type_caster<penumbra::python::Mapping<V>>
     const auto values = reinterpret_steal<object>(
         make_caster<std::map<std::string, V>>::cast(mapping.values, policy, parent));
     return module_::import("types").attr("MappingProxyType")(values).release();
+  }
+};
+
+template <typename T>
+struct type_caster<penumbra::python::Nanoseconds<T>>
+    : penumbra::python::ValueCaster<penumbra::python::Nanoseconds<T>> {
+  static constexpr auto name = make_caster<T>::name;
+  bool load(handle source, bool convert) {
+    if (!source.is_none() && PyIndex_Check(source.ptr()) == 0)
+      throw type_error("a stamp: expected integer nanoseconds, as round(1e9 * seconds); got " +
+                       pybind11::cast<std::string>(str(type::of(source).attr("__qualname__"))));
+    make_caster<T> inner;
+    if (!inner.load(source, convert)) return false;
+    this->value.value = cast_op<T>(inner);
+    return true;
+  }
+  static handle cast(const penumbra::python::Nanoseconds<T>& stamp, return_value_policy policy,
+                     handle parent) {
+    return make_caster<T>::cast(stamp.value, policy, parent);
   }
 };
 

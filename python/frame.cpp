@@ -18,7 +18,10 @@ void check_positions(const RobotPose& pose, const Robot& robot) {
 
 void PoseFunction::operator()(std::int64_t stamp, RobotPose& pose) const {
   const py::gil_scoped_acquire gil;
-  pose = py::cast<PoseArgument>(function()(stamp)).pose;
+  pose = checked_cast<PoseArgument>(
+             function()(stamp),
+             "pose_at: expected a penumbra.RobotPose, as pose_of() returns, positions or None")
+             .pose;
 }
 
 namespace {

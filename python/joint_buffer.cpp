@@ -69,8 +69,9 @@ void bind_joint_buffer(py::module_& m) {
            py::arg("options") = JointBufferOptions())
       .def(
           "insert",
-          [](JointBuffer& self, std::int64_t stamp, const std::vector<std::string>& names,
-             const Numbers& positions, const std::string& source) {
+          [](JointBuffer& self, Nanoseconds<std::int64_t> stamp,
+             const std::vector<std::string>& names, const Numbers& positions,
+             const std::string& source) {
             if (names.size() != positions.size())
               throw InputError(std::to_string(positions.size()) + " positions for " +
                                std::to_string(names.size()) + " names; expected as many");
@@ -82,7 +83,7 @@ void bind_joint_buffer(py::module_& m) {
           "publisher, the same for all of its states.")
       .def(
           "at",
-          [](const JointBuffer& self, std::int64_t stamp) {
+          [](const JointBuffer& self, Nanoseconds<std::int64_t> stamp) {
             JointAnswer answer;
             self.at(stamp, answer);
             return answer;

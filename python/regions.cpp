@@ -3,27 +3,26 @@
 #include <python/fields.hpp>
 #include <python/targets.hpp>
 
+#include <io/files/coco_mask.hpp>
+
 namespace penumbra::python {
 
-namespace {
-
-/// NumPy's masks are mostly of bool, whose bytes are 0 and 1.
-PixelMask mask_of(const py::object& source) {
-  py::object array = source;
-  if (py::isinstance<py::array>(source) &&
-      py::array(source).dtype().num() == py::dtype::of<bool>().num())
-    array = source.attr("view")("uint8");
+PixelMask pixel_mask_of(const py::object& source, const char* argument) {
+  const py::object array = is_bool(source) ? source.attr("view")("uint8") : source;
   static constexpr PixelType types[] = {pixel_type<std::uint8_t>};
-  (void)check_image(array, "mask (bool or uint8)", types);
+  (void)check_image(array, argument, types);
   auto kept = py::reinterpret_borrow<py::array>(array);
   const auto view = view_of<std::uint8_t>(kept);
   return {{view, owner_of(std::move(kept))}};
 }
 
+namespace {
+
 void bind_masks(py::module_& m) {
   py::class_<PixelMask> mask(m, "PixelMask",
                              "The pixels that are not 0 in an image of the report's size.");
-  mask.def(py::init([](const MaskSource& of) { return mask_of(of); }), py::arg("mask"),
+  mask.def(py::init([](const MaskSource& of) { return pixel_mask_of(of, "mask (bool or uint8)"); }),
+           py::arg("mask"),
            "The mask is looked at where it lies, whenever a frame is judged: do not change it "
            "meanwhile.");
   show_properties(
@@ -37,6 +36,15 @@ void bind_masks(py::module_& m) {
   bind_fields<3>(runs, Field{"width", &R::width, "Pixels, of the report's images."},
                  Field{"height", &R::height, "Pixels, of the report's images."},
                  Field{"counts", &R::counts, "Pixels of each run."});
+  runs.def(
+      py::init([](int width, int height, const std::variant<std::string, py::bytes>& counts) {
+        // A string's caster takes bytes, too.
+        auto decoded = io::decoded_counts(std::get<std::string>(counts));
+        if (!decoded) throw InputError("counts: damaged run lengths");
+        return R{width, height, *std::move(decoded)};
+      }),
+      py::arg("width"), py::arg("height"), py::arg("counts"),
+      "Of compressed run lengths, as pycocotools and FrameReport.coco_annotation() have them.");
   py::class_<RenderedRegion> rendered(
       m, "RenderedRegion",
       "An object that was rendered alone: where its depth is > 0, which is also its "

@@ -49,7 +49,7 @@ Report process(const std::shared_ptr<State>& self, const Frame& frame) {
 }
 
 Report process_depth(const std::shared_ptr<State>& self, const SharedDepth& depth,
-                     const Joints& joints, std::optional<std::int64_t> stamp,
+                     const Joints& joints, Nanoseconds<std::optional<std::int64_t>> stamp,
                      std::vector<Target> targets) {
   return process(self, {.stamp = stamp,
                         .depth = depth,
@@ -110,8 +110,7 @@ void bind_session(py::module_& m) {
            "With a CloudConfig it is of a sensor of points, and its frames have scans.")
       .def(
           "process", &process_depth, py::arg("depth"), py::arg("joints"), py::kw_only(),
-          py::arg("stamp") = std::optional<std::int64_t>(),
-          py::arg("targets") = std::vector<Target>(),
+          py::arg("stamp") = py::none(), py::arg("targets") = std::vector<Target>(),
           "Judges a depth image: as a Frame, but unknown joints are an error. joints: positions by "
           "name, or in the order of Robot.variables, rad and m. Raises KeyError for a name that is "
           "missing or unknown, and ValueError for another number of positions, or one that is not "

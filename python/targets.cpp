@@ -67,7 +67,7 @@ void bind_space_shapes(py::module_& m) {
 }
 
 /// A pose or a position, by its shape.
-TargetEstimate estimate_of(const ValueSource& value, std::optional<std::int64_t> stamp,
+TargetEstimate estimate_of(const ValueSource& value, Nanoseconds<std::optional<std::int64_t>> stamp,
                            ReferenceFrame frame, const std::optional<Matrix6d>& covariance) {
   TargetEstimate made{std::monostate(), stamp, std::move(frame), covariance};
   if (value.is_none()) return made;
@@ -84,7 +84,7 @@ void bind_estimate(py::module_& m) {
   py::class_<E> estimate(m, "TargetEstimate",
                          "A perception system's estimate of a target's pose or position.");
   estimate.def(py::init(&estimate_of), py::arg("value"), py::kw_only(),
-               py::arg("stamp") = TargetEstimate{}.stamp, py::arg("frame") = ReferenceFrame(),
+               py::arg("stamp") = py::none(), py::arg("frame") = ReferenceFrame(),
                py::arg("covariance") = TargetEstimate{}.covariance);
   show_fields(estimate,
               Field{"value", &E::value,

@@ -18,6 +18,10 @@ using MaskSource = Shown<"Annotated[Union[NDArray[uint8], NDArray[bool_]], '(H, 
 using CornerSource = Shown<"Annotated[NDArray[float64], '(N, 2)']">;
 using ValueSource = Shown<"Annotated[NDArray[float64], '(4, 4) or (3,)']">;
 
+/// Returns a mask on an array of uint8 or of bool, whose bytes are 0 and 1. Throws as
+/// check_image().
+[[nodiscard]] PixelMask pixel_mask_of(const py::object& source, const char* argument);
+
 }  // namespace penumbra::python
 
 namespace pybind11::detail {

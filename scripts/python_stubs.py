@@ -169,8 +169,8 @@ def described(of: type) -> str:
     return f"@final\nclass {of.__name__}:\n{body}"
 
 
-def stubs(module: Any) -> str:
-    text = HEAD
+def stubs(module: Any, exported: List[str]) -> str:
+    text = HEAD + f"__all__ = {exported}\n"
     for name, value in vars(module).items():
         if name.startswith("_") or name == "version":
             continue
@@ -186,5 +186,5 @@ if __name__ == "__main__":
 
     part = sys.argv[1] + ".part"  # takes its name when it is whole
     with open(part, "w", encoding="utf-8") as out:
-        out.write(stubs(penumbra._core))
+        out.write(stubs(penumbra._core, penumbra.__all__))
     os.replace(part, sys.argv[1])

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include <io/files/coco_mask.hpp>
@@ -98,6 +99,28 @@ CocoMask coco_mask(ImageView<const float> depth) {
   const auto right = static_cast<int>((last - 1) / height);
   mask.box = {left, static_cast<int>(top), right - left + 1, static_cast<int>(bottom - top + 1)};
   return mask;
+}
+
+std::optional<std::vector<std::uint32_t>> decoded_counts(std::string_view text) {
+  std::vector<std::int64_t> runs;
+  for (std::size_t i = 0; i < text.size();) {
+    std::int64_t value = 0;
+    for (unsigned shift = 0, letter = 0x20; (letter & 0x20U) != 0; shift += 5) {
+      if (i >= text.size() || shift > 30) return std::nullopt;
+      letter = static_cast<unsigned char>(text[i++]) - 48U;
+      value |= static_cast<std::int64_t>(letter & 0x1FU) << shift;
+      const bool is_last = (letter & 0x20U) == 0;
+      if (is_last && (letter & 0x10U) != 0) value -= std::int64_t{1} << (shift + 5);
+    }
+    if (runs.size() > 2) value += runs[runs.size() - 2];
+    runs.push_back(value);
+  }
+  std::vector<std::uint32_t> counts;
+  for (const std::int64_t run : runs) {
+    if (run < 0 || run > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
+    counts.push_back(static_cast<std::uint32_t>(run));
+  }
+  return counts;
 }
 
 }  // namespace penumbra::io

@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <penumbra/base/image.hpp>
 
@@ -20,5 +23,8 @@ struct CocoMask {
 /// difference to the one before the last, in groups of 5 bits, the lowest first
 /// (https://github.com/cocodataset/cocoapi/blob/master/common/maskApi.c, rleToString).
 [[nodiscard]] CocoMask coco_mask(ImageView<const float> depth);
+
+/// Returns the run lengths of such a text; null: it is damaged.
+[[nodiscard]] std::optional<std::vector<std::uint32_t>> decoded_counts(std::string_view text);
 
 }  // namespace penumbra::io

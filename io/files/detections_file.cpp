@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -17,6 +16,7 @@
 #include <penumbra/base/error.hpp>
 #include <penumbra/base/whole_file-inl.hpp>
 
+#include <io/files/coco_mask.hpp>
 #include <io/files/csv.hpp>
 #include <io/files/detections_file.hpp>
 #include <io/files/frame_pattern.hpp>
@@ -63,30 +63,6 @@ std::optional<std::int64_t> last_number(std::string_view text) {
 
 // COCO
 
-/// Decodes the text form of run lengths: six bits a letter, as differences to the last but one.
-std::vector<std::uint32_t> runs_of(const std::string& text) {
-  std::vector<std::int64_t> runs;
-  for (std::size_t i = 0; i < text.size();) {
-    std::int64_t value = 0;
-    for (unsigned shift = 0, letter = 0x20; (letter & 0x20U) != 0; shift += 5) {
-      if (i >= text.size() || shift > 30) throw InputError("has damaged run lengths");
-      letter = static_cast<unsigned char>(text[i++]) - 48U;
-      value |= static_cast<std::int64_t>(letter & 0x1FU) << shift;
-      const bool is_last = (letter & 0x20U) == 0;
-      if (is_last && (letter & 0x10U) != 0) value -= std::int64_t{1} << (shift + 5);
-    }
-    if (runs.size() > 2) value += runs[runs.size() - 2];
-    runs.push_back(value);
-  }
-  std::vector<std::uint32_t> counts;
-  for (const std::int64_t run : runs) {
-    if (run < 0 || run > std::numeric_limits<std::uint32_t>::max())
-      throw InputError("has damaged run lengths");
-    counts.push_back(static_cast<std::uint32_t>(run));
-  }
-  return counts;
-}
-
 Region coco_region(const nlohmann::json& entry, const Intrinsics& images) {
   if (const auto mask = entry.find("segmentation"); mask != entry.end() && mask->is_object()) {
     const auto& counts = mask->at("counts");
@@ -94,9 +70,10 @@ Region coco_region(const nlohmann::json& entry, const Intrinsics& images) {
     if (size != std::vector<int>{images.height(), images.width()})
       throw InputError("has a mask of another size; expected [" + std::to_string(images.height()) +
                        ", " + std::to_string(images.width()) + "] (height, width)");
-    return RunLengthMask{images.width(), images.height(),
-                         counts.is_string() ? runs_of(counts.get<std::string>())
-                                            : counts.get<std::vector<std::uint32_t>>()};
+    auto runs = counts.is_string() ? decoded_counts(counts.get<std::string>())
+                                   : counts.get<std::vector<std::uint32_t>>();
+    if (!runs) throw InputError("has damaged run lengths");
+    return RunLengthMask{images.width(), images.height(), *std::move(runs)};
   }
   if (!entry.contains("bbox")) throw InputError("has neither a bbox nor a mask of run lengths");
   const auto box = entry.at("bbox").get<std::vector<double>>();

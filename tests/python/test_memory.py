@@ -3,6 +3,7 @@
 
 import gc
 import threading
+import time
 import weakref
 from concurrent.futures import ThreadPoolExecutor
 
@@ -143,6 +144,31 @@ def test_a_second_thread_is_refused():
         for done in [pool.submit(judge), pool.submit(judge)]:
             done.result()
     assert refused and all("one thread at a time" in message for message in refused)
+
+
+def test_images_read_in_another_thread_are_those_of_their_report(opened):
+    """Or raise, when the session has gone on."""
+    frames = list(opened.frames)
+    truth = [opened.session.process(frame).virtual_depth for frame in frames]
+    latest, done, right, torn = [], threading.Event(), [], []
+
+    def read():
+        while not done.is_set():
+            try:
+                report = latest[0]
+                image = report.virtual_depth
+            except (IndexError, ValueError):
+                continue
+            (right if np.array_equal(image, truth[report.index]) else torn).append(1)
+
+    thread = threading.Thread(target=read)
+    thread.start()
+    for i in range(600):
+        latest[:] = [opened.session.process(frames[i % 12].replace(index=i % 12))]
+        time.sleep(0.0005 * (i % 3))  # from now and then to hardly ever in time
+    done.set()
+    thread.join()
+    assert right and not torn
 
 
 MEMORY = """

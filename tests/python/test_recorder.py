@@ -199,6 +199,8 @@ def test_png_files_hold_the_pixels(tmp_path):
                   np.ndarray((7, 5, 3), np.uint8, random.bytes(7 * 16), strides=(16, 3, 1))):
         penumbra.write_png(file, image)
         assert np.array_equal(read_png(file), image)
+    penumbra.write_png(file, image[..., 0] > 99)
+    assert np.array_equal(read_png(file), np.where(image[..., 0] > 99, 255, 0))
     for wrong in (np.zeros((7, 5)), np.zeros((7, 5, 3), np.uint16), [[1]]):
         refuses("image: expected", lambda: penumbra.write_png(file, wrong), (TypeError, ValueError))
     refuses("nowhere", lambda: penumbra.write_png(tmp_path / "nowhere" / "image.png", np.zeros((7, 5), np.uint8)))

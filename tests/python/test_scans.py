@@ -125,6 +125,9 @@ def test_the_robot_moves_during_a_scan():
     wrong_number, _ = process(frame.replace(pose_at=lambda _: [0.0, 1.0]))
     assert wrong_number.status is penumbra.FrameStatus.missing_joints and "2 joint" in wrong_number.message
     refuses("pose_at", lambda: frame.replace(pose_at=3), TypeError)
+    for returns in (buffer.at, lambda _: {"slide": 0.0}):
+        refuses("pose_at: expected a penumbra.RobotPose.*got (JointAnswer|dict)",
+                lambda: process(frame.replace(pose_at=returns)), TypeError)
 
 
 def test_a_scan_keeps_its_arrays():

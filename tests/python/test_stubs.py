@@ -27,6 +27,15 @@ def test_the_stubs_next_to_the_module_name_its_public_classes():
     assert (PACKAGE / "py.typed").exists()
 
 
+def test_a_star_import_brings_what_the_stubs_name_and_keeps_the_builtin_open():
+    found = {}
+    exec("from penumbra import *", found)
+    stubs = (PACKAGE / "__init__.pyi").read_text()
+    named = ast.literal_eval(re.search(r"^__all__ = (.*)", stubs, re.MULTILINE)[1])
+    assert set(named) == set(found) - {"__builtins__"} and "open" not in named
+    assert {"Session", "Recorder", "from_arrays", "robot_mask"} < set(named)
+
+
 def test_the_packages_own_python_and_the_examples_are_typed(tmp_path):
     pytest.importorskip("mypy")
 

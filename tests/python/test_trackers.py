@@ -55,6 +55,17 @@ def test_every_kind_of_region_is_judged(opened):
     refuses("", lambda: penumbra.check_region(regions[2], 320, 240))
 
 
+def test_coco_annotations_are_masks(opened):
+    report = opened.session.process(opened.frames[0])
+    coco = report.coco_annotation()
+    height, width = coco["segmentation"]["size"]
+    text = coco["segmentation"]["counts"]
+    for counts in (text, text.encode()):
+        mask = penumbra.RunLengthMask(width, height, counts)
+        by_columns = np.repeat(np.arange(len(mask.counts)) % 2 == 1, mask.counts)
+        assert np.array_equal(by_columns.reshape(width, height).T, report.robot_mask)
+
+
 def test_shapes_in_space_and_their_handling(opened):
     cube = penumbra.TriangleMesh(np.array([[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.1]], np.float32),
                                  np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]], np.uint32))
