@@ -58,7 +58,7 @@ std::size_t CsvLines::quoted_end(std::string_view text) const {
 }
 
 std::string_view CsvLines::unquoted(std::string_view cell) {
-  // Text after the quotes is none of RFC 4180: the cell stays as it is.
+  // RFC 4180 has no text behind the quotes: such a cell stays as it is.
   if (!cell.starts_with('"') || quoted_end(cell) != cell.size()) return cell;
   cell = cell.substr(1, cell.size() - 2);
   if (cell.find('"') == std::string_view::npos) return trimmed(cell);

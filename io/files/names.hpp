@@ -20,7 +20,7 @@ void check_name(std::string_view name);
 /// The same for a camera, whose results are a folder of this name.
 void check_camera_name(std::string_view name);
 
-/// Returns the name of an input for reports: its path, of folders such as . the absolute one.
+/// Returns the path of an input as reports give it: absolute if it is ".", which names nothing.
 [[nodiscard]] std::string input_name(const std::filesystem::path& path);
 
 /// Returns a text as one word for a shell, without control characters.

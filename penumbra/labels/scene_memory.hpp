@@ -32,7 +32,7 @@ using UpdateSceneTile = bool (*)(const Rule&, const SceneTile&, ImageView<const 
 }  // namespace labelling
 
 /// What a camera that stands still measured away from the robot (LabelRule::scene_memory). What
-/// differs from before counts once it is seen again: somebody who walks by leaves nothing.
+/// differs from before counts once it is seen again.
 class SceneMemory {
  public:
   static constexpr std::uint16_t none = saturated_depth;

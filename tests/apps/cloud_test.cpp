@@ -187,8 +187,8 @@ TEST_F(CloudFolder, NamesBodiesAndTargetsInMillimetres) {
   write("knob.yaml",
         "targets: [{name: knob, point: [300, 0, 1500]}, {name: lid, point: [300, 0, 1500]}]\n");
   succeed(cloud());
-  const Json told = report();
-  for (const Json& target : told["frames"][0]["targets"])
+  const Json json = report();
+  for (const Json& target : json["frames"][0]["targets"])
     expect_has(target["reason"].dump(), {"it is 1530 m away"});
   edit("clouds.yaml",
        "frames:", "attached: [{name: part, link: board, box: [90, 50, 9]}]\nframes:");

@@ -166,6 +166,8 @@ def test_images_read_in_another_thread_are_those_of_their_report(opened):
     for i in range(600):
         latest[:] = [opened.session.process(frames[i % 12].replace(index=i % 12))]
         time.sleep(0.0005 * (i % 3))  # from now and then to hardly ever in time
+    while not (right or torn):  # the last report stays readable
+        time.sleep(0.001)
     done.set()
     thread.join()
     assert right and not torn
